@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+/// The subcommands. Each returns the exit code of the contract, or throws an Error.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamic_filter/sim/simulation.hpp"
+
+namespace dynamic_filter::app {
+
+enum ExitCode { kDone = 0, kInternal = 1, kUsage = 2, kInput = 3, kRejected = 4, kInterrupted = 130 };
+
+struct ConfigOptions {
+    std::string preset = "default";
+    std::optional<std::filesystem::path> file;
+    std::vector<std::string> assignments;  ///< "a.b=v"
+};
+
+struct RunOptions {
+    std::filesystem::path data;
+    std::optional<std::filesystem::path> output, poses;
+    std::string format;  ///< empty: recognised
+    ConfigOptions config;
+    std::size_t first = 0, stride = 1;
+    std::optional<std::size_t> last;
+    int threads = 0;
+    bool overwrite = false;
+};
+
+struct EvalOptions {
+    std::filesystem::path truth;
+    std::optional<std::filesystem::path> labels, map, poses, json;
+    std::string format;
+    double voxel = 0.2;
+};
+
+struct SimulateOptions {
+    sim::SimulationOptions simulation;
+    std::filesystem::path output;
+    bool overwrite = false;
+};
+
+struct DemoOptions {
+    std::filesystem::path output = "demo";
+};
+
+int run(const RunOptions& options);
+int evaluate(const EvalOptions& options);
+int simulate(const SimulateOptions& options);
+int demo(const DemoOptions& options);
+int info(const std::filesystem::path& file);
+int show_config(const ConfigOptions& options);
+
+}  // namespace dynamic_filter::app

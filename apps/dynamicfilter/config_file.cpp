@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "config_file.hpp"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <sstream>
+#include <vector>
+
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/io/file.hpp"
+
+namespace dynamic_filter::app {
+
+namespace {
+
+std::string text_of(const toml::node& node) {
+    if (const auto* text = node.as_string()) return text->get();
+    std::ostringstream out;
+    node.visit([&](const auto& value) { out << value; });
+    return out.str();
+}
+
+void apply_table(Config& config, const toml::table& table, const std::string& prefix,
+                 std::vector<std::string>& errors) {
+    for (const auto& [key, node] : table) {
+        const std::string name = prefix + std::string(key.str());
+        if (const auto* section = node.as_table()) {
+            apply_table(config, *section, name + ".", errors);
+            continue;
+        }
+        try {
+            set(config, name, text_of(node));
+        } catch (const ConfigError& error) {
+            errors.push_back(fmt::format("line {}: {}", node.source().begin.line, error.what()));
+        }
+    }
+}
+
+}  // namespace
+
+void apply_toml(Config& config, const std::filesystem::path& file) {
+    std::vector<std::string> errors;
+    try {
+        apply_table(config, toml::parse(io::read_file(file)), "", errors);
+    } catch (const toml::parse_error& error) {
+        throw ConfigError(fmt::format("{} (line {}): not TOML: {}", file.string(),
+                                      error.source().begin.line, error.description()));
+    } catch (const InputError& error) {
+        throw ConfigError(error.what());  // a missing configuration is a usage error
+    }
+    if (errors.empty()) return;
+    throw ConfigError(fmt::format("{}: {}", file.string(), fmt::join(errors, "\n  ")));
+}
+
+Config load_config(const ConfigOptions& options) {
+    Config config = preset(options.preset);
+    if (options.file) apply_toml(config, *options.file);
+    for (const std::string& assignment : options.assignments) {
+        const auto equals = assignment.find('=');
+        if (equals == std::string::npos) {
+            throw ConfigError(fmt::format("--set {}: expected section.key=value", assignment));
+        }
+        set(config, assignment.substr(0, equals), assignment.substr(equals + 1));
+    }
+    validate(config);
+    return config;
+}
+
+std::string to_toml(const Config& config) {
+    std::string text, section;
+    visit(config, [&](const Setting& setting, const auto& member) {
+        const auto dot = setting.key.find('.');
+        const auto own = dot == std::string_view::npos ? std::string_view{} : setting.key.substr(0, dot);
+        if (own != section) {
+            section = own;
+            text += fmt::format("\n[{}]\n", section);
+        }
+        const std::string value = get(config, setting.key);
+        using Value = std::decay_t<decltype(member)>;
+        const bool bare = std::is_same_v<Value, bool> || std::is_arithmetic_v<Value>;
+        const std::string line =
+            fmt::format("{} = {}", setting.key.substr(dot + 1), bare ? value : '"' + value + '"');
+        text += fmt::format("{:<32} # {}", line, setting.help);
+        if (setting.unit.size() > 1 || setting.unit == "m" || setting.unit == "s") {
+            text += fmt::format(" [{}]", setting.unit);
+        }
+        if (!setting.symbol.empty()) text += fmt::format(" ({})", setting.symbol);
+        text += '\n';
+    });
+    return text;
+}
+
+int show_config(const ConfigOptions& options) {
+    fmt::print("{}", to_toml(load_config(options)));
+    return kDone;
+}
+
+}  // namespace dynamic_filter::app

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include "commands.hpp"
+#include "frames.hpp"
+#include "progress.hpp"
+#include "report.hpp"
+#include "run_sequence.hpp"
+#include "write_simulation.hpp"
+
+namespace dynamic_filter::app {
+
+namespace {
+
+constexpr int kPedestrians = 100;
+
+void print_row(const char* method, double pr, double rr, double f1) {
+    fmt::print("  {:<34} {:>7.2f} {:>7.2f} {:>6.3f}\n", method, pr, rr, f1);
+}
+
+/// Table II of the paper for 100 pedestrians, and this run.
+void print_table(const eval::VoxelScore& ours) {
+    fmt::print("\nCrowd of {} pedestrians, VLP-16, two rounds; voxels of 0.2 m\n", kPedestrians);
+    fmt::print("  {:<34} {:>7} {:>7} {:>6}\n", "", "PR [%]", "RR [%]", "F1");
+    print_row("Removert      (paper, its scene)", 66.48, 57.96, 0.619);
+    print_row("ERASOR        (paper, its scene)", 69.16, 71.87, 0.705);
+    print_row("DynamicFilter (paper, its scene)", 95.32, 94.26, 0.948);
+    fmt::print("  {:<34} {:>7} {:>7} {:>6}\n", "this run      (our scene)", percent(ours.pr),
+               percent(ours.rr), three_digits(ours.f1));
+}
+
+}  // namespace
+
+int demo(const DemoOptions& o) {
+    const OutputFolder output(o.output, true);
+    const auto recording = o.output / "recording";
+    const OutputFolder recorded(recording, true);
+    const OutputFolder result(o.output / "result", true);
+    sim::SimulationOptions scene;
+    scene.pedestrians = kPedestrians;
+    write_simulation(scene, recording);
+
+    TopView view;
+    const io::Sequence sequence = open(recording, "kitti", {});
+    const RunSummary summary = run_sequence(sequence, preset("default"), 0, result, &view);
+    io::write_png(o.output / "before.png", view.draw(true));
+    io::write_png(o.output / "after.png", view.draw(false));
+
+    fmt::print("\n{}", to_text(summary));
+    print_table(summary.scores->voxel.at("excluded"));
+    fmt::print("\npictures {0}/before.png (removed points in red) and {0}/after.png\n"
+               "maps     {0}/result/static_map.pcd and dynamic_points.pcd\n"
+               "next     build/release/dynamicfilter run YOUR_DATA\n",
+               o.output.string());
+    return kDone;
+}
+
+}  // namespace dynamic_filter::app

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "frames.hpp"
+
+#include <algorithm>
+
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/geometry/pose.hpp"
+#include "dynamic_filter/parallel.hpp"
+
+namespace dynamic_filter::app {
+
+namespace {
+
+io::Format format_of(const std::string& name) {
+    for (const auto format : {io::Format::kitti, io::Format::benchmark, io::Format::folder}) {
+        if (io::to_string(format) == name) return format;
+    }
+    throw ConfigError("unknown format '" + name + "'; choose kitti, benchmark or folder");
+}
+
+}  // namespace
+
+io::Sequence open(const std::filesystem::path& data, const std::string& format,
+                  const std::optional<std::filesystem::path>& poses, std::size_t first,
+                  std::optional<std::size_t> last, std::size_t stride) {
+    io::OpenOptions options{.format = {}, .poses = poses, .first = first, .last = last, .stride = stride};
+    if (!format.empty()) options.format = format_of(format);
+    return io::open_sequence(data, options);
+}
+
+void for_each_frame(const io::Sequence& sequence, const std::vector<std::size_t>& scans,
+                    const std::function<void(std::size_t, MaybeFrame&)>& prepare,
+                    const std::function<bool(std::size_t, MaybeFrame&)>& use) {
+    constexpr std::size_t kAhead = 16;
+    for (std::size_t first = 0; first < scans.size(); first += kAhead) {
+        std::vector<MaybeFrame> batch(std::min(kAhead, scans.size() - first));
+        parallel_for(batch.size(), 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                try {
+                    batch[i].frame = io::read_frame(sequence, scans[first + i]);
+                    if (prepare) prepare(scans[first + i], batch[i]);
+                } catch (const InputError& error) {
+                    batch[i] = {std::nullopt, error.what()};
+                }
+            }
+        });
+        for (std::size_t i = 0; i < batch.size(); ++i) {
+            if (!use(scans[first + i], batch[i])) return;
+        }
+    }
+}
+
+Scan take_scan(io::Frame& frame, std::size_t index) {
+    return {std::move(frame.points), frame.T_world_sensor, frame.stamp, index};
+}
+
+Points shifted_world(const io::Frame& frame, const Eigen::Vector3d& origin) {
+    const Eigen::Matrix3d rotation = frame.T_world_sensor.linear();
+    const Eigen::Vector3d translation = frame.T_world_sensor.translation() - origin;
+    Points points(frame.points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        points[i] = (rotation * frame.points[i].cast<double>() + translation).cast<float>();
+    }
+    return points;
+}
+
+Eigen::Vector3d scoring_origin(const io::Sequence& sequence, double voxel_size) {
+    for (std::size_t i = 0; i < sequence.size(); ++i) {
+        try {
+            return nearby_origin(io::read_frame(sequence, i).T_world_sensor, voxel_size);
+        } catch (const InputError&) {
+            continue;  // a rejected scan; the next will do
+        }
+    }
+    return Eigen::Vector3d::Zero();
+}
+
+eval::ScanSource scan_source(const io::Sequence& sequence, const Eigen::Vector3d& origin,
+                             std::function<std::optional<Labels>(std::size_t)> labels_of) {
+    return [&sequence, origin, labels_of = std::move(labels_of)](
+               std::size_t i) -> std::optional<eval::LabelledScan> {
+        try {
+            io::Frame frame = io::read_frame(sequence, i);
+            eval::LabelledScan scan{{}, std::move(frame.truth), {}};
+            if (labels_of) {
+                auto labels = labels_of(i);
+                if (!labels) return std::nullopt;
+                scan.verdict = std::move(*labels);
+            }
+            for (std::size_t p = 0; p < frame.points.size(); ++p) {  // no measurement, no truth
+                if (!is_measured(frame.points[p])) scan.truth[p] = Label::unknown;
+            }
+            scan.points = shifted_world(frame, origin);
+            return scan;
+        } catch (const InputError&) {
+            return std::nullopt;
+        }
+    };
+}
+
+}  // namespace dynamic_filter::app

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+/// Reading a sequence with read-ahead, and putting its scans into a frame that floats can hold.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamic_filter/eval/scores.hpp"
+#include "dynamic_filter/io/sequence.hpp"
+#include "dynamic_filter/types.hpp"
+
+namespace dynamic_filter::app {
+
+io::Sequence open(const std::filesystem::path& data, const std::string& format,
+                  const std::optional<std::filesystem::path>& poses, std::size_t first = 0,
+                  std::optional<std::size_t> last = {}, std::size_t stride = 1);
+
+/// A frame, or why it cannot be used.
+struct MaybeFrame {
+    std::optional<io::Frame> frame;
+    std::string error;
+};
+
+/// Reads `scans` (indices) a few at a time, in parallel; `prepare` runs on each in parallel, then
+/// `use` on each in order. Stops early when `use` returns false.
+void for_each_frame(const io::Sequence& sequence, const std::vector<std::size_t>& scans,
+                    const std::function<void(std::size_t, MaybeFrame&)>& prepare,
+                    const std::function<bool(std::size_t, MaybeFrame&)>& use);
+
+/// The core's view of a frame; takes the frame's points.
+Scan take_scan(io::Frame& frame, std::size_t index);
+
+/// The scan's points, shifted by `-origin` from the world. Near the origin floats are exact enough.
+Points shifted_world(const io::Frame& frame, const Eigen::Vector3d& origin);
+
+/// A whole-metre place near the first usable pose.
+Eigen::Vector3d scoring_origin(const io::Sequence& sequence, double voxel_size);
+
+/// For the scores: scans with ground truth, verdicts from `labels_of` (may be empty).
+/// Rejected scans (unreadable, or without labels) give nothing.
+eval::ScanSource scan_source(const io::Sequence& sequence, const Eigen::Vector3d& origin,
+                             std::function<std::optional<Labels>(std::size_t)> labels_of);
+
+}  // namespace dynamic_filter::app

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "commands.hpp"
+#include "dynamic_filter/error.hpp"
+
+namespace {
+
+using namespace dynamic_filter;
+using namespace dynamic_filter::app;
+
+void add_config_options(CLI::App& command, ConfigOptions& o) {
+    command.add_option("--preset", o.preset, "default or paper")->capture_default_str();
+    command.add_option("--config", o.file, "TOML file with settings (see `dynamicfilter config`)");
+    command.add_option("--set", o.assignments, "one setting, e.g. back_end.voxel_size=0.1")
+        ->take_all()
+        ->expected(1);
+}
+
+void add_run(CLI::App& app, std::function<int()>& chosen) {
+    auto o = std::make_shared<RunOptions>();
+    CLI::App& c = *app.add_subcommand("run", "Remove moving objects from a recording");
+    c.add_option("DATA", o->data, "folder with scans and poses")->required();
+    c.add_option("-o,--output", o->output, "output folder (default: results/<UTC stamp>)");
+    c.add_option("--poses", o->poses, "pose file (default: the one in DATA)");
+    c.add_option("--format", o->format, "kitti, benchmark or folder (default: recognised)");
+    add_config_options(c, o->config);
+    c.add_option("--first", o->first, "index of the first scan");
+    c.add_option("--last", o->last, "index of the last scan");
+    c.add_option("--stride", o->stride, "use every n-th scan");
+    c.add_option("--threads", o->threads, "0: all cores")->check(CLI::Range(0, 1024));
+    c.add_flag("--overwrite", o->overwrite, "replace what an earlier run left in the output folder");
+    c.callback([o, &chosen] { chosen = [o] { return run(*o); }; });
+}
+
+void add_eval(CLI::App& app, std::function<int()>& chosen) {
+    auto o = std::make_shared<EvalOptions>();
+    CLI::App& c = *app.add_subcommand("eval", "Score labels or a map against ground truth");
+    c.add_option("--truth", o->truth, "recording with ground truth")->required();
+    CLI::Option_group& result = *c.add_option_group("result");
+    result.add_option("--labels", o->labels, "folder of label files, or the output folder of a run");
+    result.add_option("--map", o->map, "clean map (.pcd or .ply) in the world frame");
+    result.require_option(1);
+    c.add_option("--poses", o->poses, "pose file (default: the one in the recording)");
+    c.add_option("--format", o->format, "kitti, benchmark or folder (default: recognised)");
+    c.add_option("--voxel", o->voxel, "edge of a voxel [m]")
+        ->check(CLI::Range(0.01, 10.0))
+        ->capture_default_str();
+    c.add_option("--json", o->json, "also write the scores here");
+    c.callback([o, &chosen] { chosen = [o] { return evaluate(*o); }; });
+}
+
+void add_simulate(CLI::App& app, std::function<int()>& chosen) {
+    auto o = std::make_shared<SimulateOptions>();
+    auto& s = o->simulation;
+    CLI::App& c = *app.add_subcommand("simulate", "Make a recording with exact labels");
+    c.add_option("SCENE", s.scene, fmt::format("{}", fmt::join(sim::scene_names(), ", ")))->required();
+    c.add_option("-o,--output", o->output, "output folder")->required();
+    c.add_option("--pedestrians", s.pedestrians, "how many (default: the scene's own number)");
+    c.add_option("--seed", s.seed, "same seed, same bytes")->capture_default_str();
+    c.add_option("--sensor", s.sensor, fmt::format("{}", fmt::join(sim::sensor_names(), ", ")))
+        ->capture_default_str();
+    c.add_option("--frames", s.frames, "number of scans (default: the whole scene)");
+    c.add_option("--rate", s.rate_hz, "scans per second (default: the scene's own)")
+        ->check(CLI::Range(0.0, 100.0));
+    c.add_option("--pose-noise", s.pose_noise_m, "standard deviation of each axis [m]")
+        ->check(CLI::Range(0.0, 10.0));
+    c.add_option("--pose-noise-deg", s.pose_noise_deg, "standard deviation of each axis [deg]")
+        ->check(CLI::Range(0.0, 90.0));
+    c.add_flag("--overwrite", o->overwrite, "replace an earlier recording in the output folder");
+    c.callback([o, &chosen] { chosen = [o] { return simulate(*o); }; });
+}
+
+void add_others(CLI::App& app, std::function<int()>& chosen) {
+    auto demo_options = std::make_shared<DemoOptions>();
+    CLI::App& d = *app.add_subcommand("demo", "Simulate, filter, score and draw: no data needed");
+    d.add_option("-o,--output", demo_options->output, "output folder")->capture_default_str();
+    d.callback([=, &chosen] { chosen = [=] { return demo(*demo_options); }; });
+
+    auto file = std::make_shared<std::filesystem::path>();
+    CLI::App& i = *app.add_subcommand("info", "Describe a point cloud file or a recording");
+    i.add_option("FILE", *file, "cloud or folder")->required();
+    i.callback([=, &chosen] { chosen = [=] { return info(*file); }; });
+
+    auto config_options = std::make_shared<ConfigOptions>();
+    CLI::App& c = *app.add_subcommand("config", "Print all settings as TOML");
+    add_config_options(c, *config_options);
+    c.callback([=, &chosen] { chosen = [=] { return show_config(*config_options); }; });
+}
+
+int report(ExitCode code, const std::exception& error) {
+    fmt::print(stderr, "dynamicfilter: {}\n", error.what());
+    return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("Removes moving objects from LiDAR scans and maps.", "dynamicfilter");
+    app.set_version_flag("--version", DYNAMIC_FILTER_VERSION);
+    app.require_subcommand(1);
+    std::function<int()> chosen;
+    add_run(app, chosen);
+    add_eval(app, chosen);
+    add_simulate(app, chosen);
+    add_others(app, chosen);
+    try {
+        app.parse(argc, argv);
+        return chosen();
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? kDone : kUsage;
+    } catch (const ConfigError& error) {
+        return report(kUsage, error);
+    } catch (const InputError& error) {
+        return report(kInput, error);
+    } catch (const std::exception& error) {
+        return report(kInternal, error);
+    }
+}

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+
+namespace dynamic_filter::app {
+
+namespace {
+
+volatile std::sig_atomic_t signal_seen = 0;
+
+extern "C" void note_signal(int number) {
+    signal_seen = 1;
+    std::signal(number, SIG_DFL);
+}
+
+std::string clock_text(double seconds) {
+    const auto whole = static_cast<long>(seconds);
+    return fmt::format("{:02}:{:02}", whole / 60, whole % 60);
+}
+
+}  // namespace
+
+Progress::Progress(std::string verb, std::size_t total)
+    : verb_(std::move(verb)), total_(total), terminal_(isatty(STDERR_FILENO) != 0) {}
+
+Progress::~Progress() {
+    if (terminal_ && done_ > 0) fmt::print(stderr, "\n");
+}
+
+void Progress::advance() {
+    ++done_;
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
+    const double seconds = passed.count();
+    if (terminal_) {
+        if (done_ < total_ && seconds - printed_at_ < 0.1) return;
+        printed_at_ = seconds;
+    } else {
+        if (done_ < next_line_) return;
+        next_line_ = std::min(total_, done_ + std::max<std::size_t>(1, total_ / 10));
+    }
+    print(seconds);
+}
+
+void Progress::print(double seconds) const {
+    const double per_second = seconds > 0 ? static_cast<double>(done_) / seconds : 0.0;
+    const double left = per_second > 0 ? static_cast<double>(total_ - done_) / per_second : 0.0;
+    fmt::print(stderr, "{}{} {}/{} [{}<{}, {:.1f} scans/s]{}", terminal_ ? "\r" : "", verb_, done_,
+               total_, clock_text(seconds), clock_text(left), per_second, terminal_ ? "\x1b[K" : "\n");
+    std::fflush(stderr);
+}
+
+void catch_interrupts() {
+    std::signal(SIGINT, note_signal);
+    std::signal(SIGTERM, note_signal);
+}
+
+bool interrupted() { return signal_seen != 0; }
+
+}  // namespace dynamic_filter::app

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <string>
+
+namespace dynamic_filter::app {
+
+/// `verb n/N [elapsed<left, scans/s]`: one line rewritten on a terminal, ten plain lines otherwise.
+/// Goes to stderr, so that stdout holds results only. Single caller.
+class Progress {
+public:
+    Progress(std::string verb, std::size_t total);
+    ~Progress();
+    void advance();
+
+private:
+    void print(double seconds) const;
+
+    std::string verb_;
+    std::size_t total_, done_ = 0;
+    bool terminal_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    double printed_at_ = -1.0;
+    std::size_t next_line_ = 0;
+};
+
+/// True once SIGINT or SIGTERM has come (after catch_interrupts()); a second one kills as usual.
+void catch_interrupts();
+bool interrupted();
+
+}  // namespace dynamic_filter::app

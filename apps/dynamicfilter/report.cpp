@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+namespace dynamic_filter::app {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+ordered_json number(const std::optional<double>& value) {
+    return value ? ordered_json(*value) : ordered_json(nullptr);
+}
+
+}  // namespace
+
+ordered_json to_json(const eval::Scores& scores) {
+    ordered_json json;
+    for (const auto& [reading, s] : scores.voxel) {
+        json["voxel"][reading] = {{"pr", number(s.pr)}, {"rr", number(s.rr)}, {"f1", number(s.f1)}};
+    }
+    const auto& p = scores.point;
+    json["point"] = {{"sa", number(p.sa)},
+                     {"da", number(p.da)},
+                     {"aa", number(p.aa)},
+                     {"ha", number(p.ha)},
+                     {"iou", number(p.iou)}};
+    json["dynamic_voxel_share"] = scores.dynamic_share;
+    return json;
+}
+
+ordered_json to_json(const StageTimes& times) {
+    ordered_json json = ordered_json::object();
+    for (const auto& [stage, calls] : times) {
+        std::vector<double> sorted = calls;
+        std::sort(sorted.begin(), sorted.end());
+        const auto quantile = [&](double share) {
+            return 1e3 * sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+        };
+        const double sum = std::accumulate(sorted.begin(), sorted.end(), 0.0);
+        json[stage] = {{"count", sorted.size()},
+                       {"mean", 1e3 * sum / static_cast<double>(sorted.size())},
+                       {"p50", quantile(0.50)},
+                       {"p95", quantile(0.95)},
+                       {"p99", quantile(0.99)},
+                       {"max", quantile(1.0)}};
+    }
+    return json;
+}
+
+std::string percent(const std::optional<double>& fraction) {
+    return fraction ? fmt::format("{:.2f}", 100.0 * *fraction) : "-";
+}
+
+std::string three_digits(const std::optional<double>& value) {
+    return value ? fmt::format("{:.3f}", *value) : "-";
+}
+
+std::string table(const eval::Scores& scores) {
+    std::string text = fmt::format("  {:<24} {:>7} {:>7} {:>6}\n", "mixed voxels", "PR [%]", "RR [%]", "F1");
+    for (const auto& [reading, s] : scores.voxel) {
+        text += fmt::format("  {:<24} {:>7} {:>7} {:>6}\n", reading, percent(s.pr), percent(s.rr),
+                            three_digits(s.f1));
+    }
+    const auto& p = scores.point;
+    text += fmt::format("  points: SA {}  DA {}  AA {}  HA {}  moving IoU {}\n", percent(p.sa),
+                        percent(p.da), percent(p.aa), percent(p.ha), percent(p.iou));
+    return text;
+}
+
+}  // namespace dynamic_filter::app

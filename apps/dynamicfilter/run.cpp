@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include "commands.hpp"
+#include "config_file.hpp"
+#include "frames.hpp"
+#include "progress.hpp"
+#include "run_sequence.hpp"
+
+namespace dynamic_filter::app {
+
+int run(const RunOptions& o) {
+    const Config config = load_config(o.config);
+    const io::Sequence sequence = open(o.data, o.format, o.poses, o.first, o.last, o.stride);
+    const bool named = o.output.has_value();
+    const OutputFolder output(named ? *o.output : default_output(), o.overwrite);
+    for (const std::string& note : sequence.notes) fmt::print(stderr, "note: {}\n", note);
+
+    catch_interrupts();
+    const RunSummary summary = run_sequence(sequence, config, o.threads, output);
+    if (!named) link_latest(output.path());
+
+    for (const std::string& line : summary.rejected) fmt::print(stderr, "rejected {}\n", line);
+    fmt::print("{}written  {}\n", to_text(summary), output.path().string());
+    if (summary.interrupted) return kInterrupted;
+    return summary.rejected.empty() ? kDone : kRejected;
+}
+
+}  // namespace dynamic_filter::app

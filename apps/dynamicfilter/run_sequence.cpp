@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MIT
+#include "run_sequence.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "config_file.hpp"
+#include "dynamic_filter/dynamic_filter.hpp"
+#include "frames.hpp"
+#include "map_files.hpp"
+#include "progress.hpp"
+#include "report.hpp"
+
+namespace dynamic_filter::app {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// What lives from the first pass over the scans to the reports.
+struct Pass {
+    const io::Sequence& sequence;
+    const Config& config;
+    const OutputFolder& output;
+    DynamicFilter filter;
+    RunSummary summary{};
+    std::vector<std::size_t> accepted{};
+    std::vector<Labels> instant{};       ///< by scan; filled only where there is ground truth
+};
+
+std::vector<std::size_t> all_scans(const io::Sequence& sequence) {
+    std::vector<std::size_t> scans(sequence.size());
+    std::iota(scans.begin(), scans.end(), std::size_t{0});
+    return scans;
+}
+
+void keep_instant(Pass& pass, std::vector<Verdict> verdicts) {
+    if (!pass.sequence.has_truth()) return;
+    for (Verdict& v : verdicts) pass.instant[v.index] = std::move(v.labels);
+}
+
+void reject(Pass& pass, std::size_t i, const std::string& why) {
+    pass.summary.rejected.push_back(fmt::format("{}: {}", io::stem(pass.sequence, i), why));
+}
+
+/// First pass: every usable scan goes through the filter.
+void filter_scans(Pass& pass) {
+    Progress progress("filter", pass.sequence.size());
+    pass.instant.resize(pass.sequence.size());
+    std::vector<io::Field> fields;
+    const auto use = [&](std::size_t i, MaybeFrame& maybe) {
+        if (!maybe.frame) {
+            reject(pass, i, maybe.error);
+        } else if (!fields.empty() && maybe.frame->cloud.fields != fields) {
+            reject(pass, i, "its fields are not those of the first scan; one map cannot hold both");
+        } else {
+            if (fields.empty()) fields = maybe.frame->cloud.fields;
+            pass.accepted.push_back(i);
+            keep_instant(pass, pass.filter.push(take_scan(*maybe.frame, i)));
+        }
+        progress.advance();
+        return !(pass.summary.interrupted = interrupted());
+    };
+    for_each_frame(pass.sequence, all_scans(pass.sequence), {}, use);
+    if (pass.accepted.empty()) {
+        throw InputError(pass.sequence.root, "", "no scan is usable; the first was rejected: " +
+                                                     pass.summary.rejected.front());
+    }
+    keep_instant(pass, pass.filter.finish());
+}
+
+void count(RunSummary& summary, const Labels& labels) {
+    ++summary.scans;
+    summary.points += labels.size();
+    for (const Label label : labels) {
+        if (label == Label::still) ++summary.still;
+        if (label == Label::dynamic) ++summary.dynamic;
+        if (label == Label::unknown) ++summary.unknown;
+    }
+}
+
+/// Second pass: final verdicts, label files, maps.
+void write_results(Pass& pass, TopView* view) {
+    const auto folder = pass.output.subfolder("labels");
+    MapFiles maps(pass.output.path(), pass.config.output.keep_unknown);
+    Progress progress("write", pass.accepted.size());
+    std::vector<Labels> labels(pass.sequence.size());
+    const auto classify = [&](std::size_t i, MaybeFrame& maybe) {
+        const io::Frame& frame = *maybe.frame;
+        labels[i] = pass.filter.verdict({frame.points, frame.T_world_sensor, frame.stamp, i}).labels;
+        io::write_labels(folder / (io::stem(pass.sequence, i) + ".label"), labels[i]);
+    };
+    const auto use = [&](std::size_t i, MaybeFrame& maybe) {
+        if (!maybe.frame) {
+            throw InputError(pass.sequence.scan_files[i], "", "changed while it was in use: " + maybe.error);
+        }
+        maps.append(*maybe.frame, labels[i]);
+        count(pass.summary, labels[i]);
+        if (view != nullptr) view->add(shifted_world(*maybe.frame, Eigen::Vector3d::Zero()), labels[i]);
+        labels[i] = {};
+        progress.advance();
+        // After an interruption what has been filtered is still written; a second one stops it.
+        return true;
+    };
+    for_each_frame(pass.sequence, pass.accepted, classify, use);
+    maps.commit();
+}
+
+void score(Pass& pass) {
+    const double voxel = pass.config.back_end.voxel_size;
+    const Eigen::Vector3d origin = scoring_origin(pass.sequence, voxel);
+    const auto folder = pass.output.path() / "labels";
+    const auto final_labels = [&](std::size_t i) -> std::optional<Labels> {
+        const auto file = folder / (io::stem(pass.sequence, i) + ".label");
+        if (!std::filesystem::exists(file)) return std::nullopt;
+        return io::read_labels(file);
+    };
+    const auto instant_labels = [&](std::size_t i) -> std::optional<Labels> {
+        if (pass.instant[i].empty()) return std::nullopt;
+        return pass.instant[i];
+    };
+    const std::size_t n = pass.sequence.size();
+    pass.summary.scores =
+        eval::score_labels(n, scan_source(pass.sequence, origin, final_labels), voxel);
+    pass.summary.instant_scores =
+        eval::score_labels(n, scan_source(pass.sequence, origin, instant_labels), voxel);
+}
+
+double total(const StageTimes& times, const std::string& stage) {
+    const auto it = times.find(stage);
+    return it == times.end() ? 0.0 : std::accumulate(it->second.begin(), it->second.end(), 0.0);
+}
+
+double rate(std::size_t items, double seconds) {
+    return seconds > 0 ? static_cast<double>(items) / seconds : 0.0;
+}
+
+void write_timing(const Pass& pass, int threads, double cpu_seconds, long peak_rss) {
+    const RunSummary& s = pass.summary;
+    const nlohmann::ordered_json json{
+        {"scans_per_second", rate(s.scans, s.seconds)},
+        {"cpu_seconds", cpu_seconds},
+        {"front_end", {{"scans_per_second", s.front_end_scans_per_second}}},
+        {"back_end", {{"submaps_per_second", s.back_end_submaps_per_second}}},
+        {"stages", to_json(pass.filter.times())},
+        {"voxels", s.voxels},
+        {"peak_rss_bytes", peak_rss},
+        {"threads", threads > 0 ? threads : available_threads()}};
+    io::write_file(pass.output.path() / "timing.json", json.dump(2) + "\n");
+}
+
+void write_metrics(const Pass& pass) {
+    const RunSummary& s = pass.summary;
+    nlohmann::ordered_json json = nlohmann::ordered_json::object();
+    if (s.scores) json = to_json(*s.scores);
+    if (s.instant_scores) json["instant"] = to_json(*s.instant_scores);
+    json["scans"] = s.scans;
+    json["points"] = {{"static", s.still}, {"dynamic", s.dynamic}, {"unknown", s.unknown}};
+    json["rejected"] = s.rejected;
+    io::write_file(pass.output.path() / "metrics.json", json.dump(2) + "\n");
+}
+
+void write_log(const Pass& pass) {
+    std::string log = fmt::format("input    {} ({}, {} scans)\n", pass.sequence.root.string(),
+                                  io::to_string(pass.sequence.format), pass.sequence.size());
+    for (const std::string& note : pass.sequence.notes) log += "note     " + note + "\n";
+    for (const std::string& line : pass.summary.rejected) log += "rejected " + line + "\n";
+    if (const auto& beams = pass.filter.front_end().beams()) {
+        log += fmt::format("beams    {:.2f} deg along azimuth, {:.2f} deg along elevation\n",
+                           beams->azimuth_spacing * 180.0 / M_PI,
+                           beams->elevation_spacing * 180.0 / M_PI);
+    }
+    if (pass.summary.interrupted) log += "interrupted: only the scans filtered so far are here\n";
+    io::write_file(pass.output.path() / "run.log", log + to_text(pass.summary));
+}
+
+void measure(Pass& pass, Clock::time_point start, int threads) {
+    RunSummary& s = pass.summary;
+    s.seconds = seconds_since(start);
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    const auto seconds = [](const timeval& t) {
+        return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+    };
+    s.submaps = pass.filter.back_end().buffer().size();
+    s.voxels = pass.filter.back_end().voxels().size();
+    s.front_end_scans_per_second = rate(s.scans, total(pass.filter.times(), "front_end"));
+    s.back_end_submaps_per_second = rate(s.submaps, total(pass.filter.times(), "back_end"));
+    write_timing(pass, threads, seconds(usage.ru_utime) + seconds(usage.ru_stime),
+                 1024 * usage.ru_maxrss);
+}
+
+}  // namespace
+
+RunSummary run_sequence(const io::Sequence& sequence, const Config& config, int threads,
+                        const OutputFolder& output, TopView* view) {
+    RunSummary summary;
+    with_threads(threads, [&] {
+        const auto start = Clock::now();
+        Pass pass{sequence, config, output, DynamicFilter(config)};
+        io::write_file(output.path() / "config.toml", to_toml(config));
+        filter_scans(pass);
+        write_results(pass, view);
+        measure(pass, start, threads);
+        if (sequence.has_truth()) score(pass);
+        write_metrics(pass);
+        write_log(pass);
+        summary = std::move(pass.summary);
+    });
+    return summary;
+}
+
+std::string to_text(const RunSummary& s) {
+    const auto share = [&](std::size_t n) {
+        return s.points == 0 ? 0.0 : 100.0 * static_cast<double>(n) / static_cast<double>(s.points);
+    };
+    std::string text =
+        fmt::format("scans    {} ({} rejected) in {} submaps, {} voxels\n", s.scans, s.rejected.size(),
+                    s.submaps, s.voxels) +
+        fmt::format("points   {}: {:.1f} % static, {:.1f} % dynamic, {:.1f} % unknown\n", s.points,
+                    share(s.still), share(s.dynamic), share(s.unknown)) +
+        fmt::format("speed    {:.1f} scans/s over all; front-end {:.1f} scans/s, back-end {:.1f} submaps/s\n",
+                    rate(s.scans, s.seconds), s.front_end_scans_per_second,
+                    s.back_end_submaps_per_second);
+    if (s.scores) text += "scores against the ground truth of the recording\n" + table(*s.scores);
+    return text;
+}
+
+}  // namespace dynamic_filter::app

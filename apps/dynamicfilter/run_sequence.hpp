@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+/// A sequence through the filter into an output folder: what `run` and `demo` share.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamic_filter/config.hpp"
+#include "dynamic_filter/eval/scores.hpp"
+#include "dynamic_filter/io/sequence.hpp"
+#include "output_folder.hpp"
+#include "top_view.hpp"
+
+namespace dynamic_filter::app {
+
+struct RunSummary {
+    std::size_t scans = 0;  ///< that have a verdict
+    std::vector<std::string> rejected;
+    std::size_t points = 0, still = 0, dynamic = 0, unknown = 0;
+    std::size_t submaps = 0, voxels = 0;
+    double seconds = 0.0, front_end_scans_per_second = 0.0, back_end_submaps_per_second = 0.0;
+    std::optional<eval::Scores> scores, instant_scores;
+    bool interrupted = false;
+};
+
+/// Filters the sequence and writes everything a run leaves behind. `view`, if given, collects the
+/// final verdicts. Throws InputError if not a single scan is usable.
+RunSummary run_sequence(const io::Sequence& sequence, const Config& config, int threads,
+                        const OutputFolder& output, TopView* view = nullptr);
+
+/// The closing table.
+std::string to_text(const RunSummary& summary);
+
+}  // namespace dynamic_filter::app

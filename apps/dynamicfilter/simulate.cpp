@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include "commands.hpp"
+#include "dynamic_filter/io/writers.hpp"
+#include "output_folder.hpp"
+#include "progress.hpp"
+#include "write_simulation.hpp"
+
+namespace dynamic_filter::app {
+
+std::size_t write_simulation(const sim::SimulationOptions& options,
+                             const std::filesystem::path& folder) {
+    sim::Simulation simulation(options);
+    std::filesystem::create_directories(folder / "velodyne");
+    std::filesystem::create_directories(folder / "labels");
+    std::vector<Pose> poses;
+    std::vector<double> stamps;
+    std::size_t points = 0;
+    Progress progress("simulate", simulation.size());
+    for (std::size_t i = 0; i < simulation.size(); ++i) {
+        const sim::SimulatedScan scan = simulation.scan(i);
+        const std::string stem = fmt::format("{:06}", i);
+        io::write_bin(folder / "velodyne" / (stem + ".bin"), scan.points, scan.intensity);
+        io::write_labels(folder / "labels" / (stem + ".label"), scan.labels);
+        poses.push_back(scan.T_world_sensor);
+        stamps.push_back(scan.stamp);
+        points += scan.points.size();
+        progress.advance();
+    }
+    io::write_poses_kitti(folder / "poses.txt", poses);
+    io::write_times(folder / "times.txt", stamps);
+    return points;
+}
+
+int simulate(const SimulateOptions& o) {
+    const OutputFolder output(o.output, o.overwrite);
+    const std::size_t points = write_simulation(o.simulation, output.path());
+    fmt::print("written  {} ({} points)\n", output.path().string(), points);
+    return kDone;
+}
+
+}  // namespace dynamic_filter::app

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "top_view.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dynamic_filter::app {
+
+namespace {
+
+constexpr float kPixel = 0.1F;  // [m]
+constexpr int kMargin = 10, kLongSide = 2400;
+constexpr io::Color kBackground{250, 250, 250}, kRemoved{214, 39, 40};
+
+/// Dark blue at the ground to light green-grey above; none of it near red.
+io::Color height_color(float share) {
+    const auto mix = [&](double a, double b) {
+        return static_cast<std::uint8_t>(a + (b - a) * static_cast<double>(share));
+    };
+    return {mix(30, 150), mix(50, 190), mix(90, 175)};
+}
+
+/// The value below which `share` of the (sorted here) values lie.
+template <class T>
+T quantile(std::vector<T>& values, double share) {
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(
+                                         share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+}
+
+}  // namespace
+
+void TopView::add(const Points& points, const Labels& labels) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const auto cell = cell_of({points[i].x(), points[i].y(), 0.0F}, 1.0F / kPixel);
+        if (!cell) continue;
+        Column& column = columns_[pack(*cell)];
+        if (labels[i] == Label::dynamic) {
+            ++column.removed;
+        } else {
+            ++column.kept;
+            column.highest_kept = std::max(column.highest_kept, points[i].z());
+        }
+    }
+}
+
+io::Image TopView::draw(bool removed) const {
+    if (columns_.empty()) return {1, 1, {kBackground}};
+    std::vector<int> xs, ys;
+    std::vector<float> heights;
+    for (const auto& [key, column] : columns_) {
+        const Cell cell = unpack(key);
+        xs.push_back(cell.x());
+        ys.push_back(cell.y());
+        if (column.kept > 0) heights.push_back(column.highest_kept);
+    }
+    const int x0 = quantile(xs, 0.002) - kMargin, x1 = quantile(xs, 0.998) + kMargin;
+    const int y0 = quantile(ys, 0.002) - kMargin, y1 = quantile(ys, 0.998) + kMargin;
+    const float low = heights.empty() ? 0.0F : quantile(heights, 0.02);
+    const float high = heights.empty() ? 1.0F : std::max(low + 0.1F, quantile(heights, 0.98));
+    const int shrink = std::max(1, (std::max(x1 - x0, y1 - y0) + kLongSide - 1) / kLongSide);
+
+    io::Image image{(x1 - x0) / shrink + 1, (y1 - y0) / shrink + 1, {}};
+    image.pixels.assign(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height),
+                        kBackground);
+    for (const auto& [key, column] : columns_) {
+        const Cell cell = unpack(key);
+        if (cell.x() < x0 || cell.x() > x1 || cell.y() < y0 || cell.y() > y1) continue;
+        const int x = (cell.x() - x0) / shrink, y = image.height - 1 - (cell.y() - y0) / shrink;
+        io::Color& pixel = image.pixels[static_cast<std::size_t>(y) *
+                                            static_cast<std::size_t>(image.width) +
+                                        static_cast<std::size_t>(x)];
+        if (removed && column.removed > 0) {
+            pixel = kRemoved;
+        } else if (column.kept > 0 && pixel != kRemoved) {
+            pixel = height_color(std::clamp((column.highest_kept - low) / (high - low), 0.0F, 1.0F));
+        }
+    }
+    return image;
+}
+
+}  // namespace dynamic_filter::app

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+/// The map-to-map back-end (Sec. III-C): static submaps in, the static local map at any pose out.
+#pragma once
+
+#include <vector>
+
+#include "dynamic_filter/back_end/occupancy.hpp"
+#include "dynamic_filter/back_end/submap_buffer.hpp"
+#include "dynamic_filter/config.hpp"
+#include "dynamic_filter/front_end/submap.hpp"
+#include "dynamic_filter/geometry/range_image.hpp"
+#include "dynamic_filter/geometry/voxel.hpp"
+#include "dynamic_filter/stage_times.hpp"
+
+namespace dynamic_filter {
+
+/// Single caller. Poses and points are in the map frame.
+class BackEnd {
+public:
+    explicit BackEnd(const Config& config) : config_(config.back_end) {}
+
+    /// Puts a submap into the buffer: numbers its voxels, computes its normals.
+    void insert(Submap submap, const BeamPattern& beams, StageTimes& times);
+
+    /// The occupancy of every voxel that a submap near the query pose owns.
+    LocalMap local_map(const Pose& T_map_query, StageTimes& times);
+
+    [[nodiscard]] const std::vector<BufferedSubmap>& buffer() const { return buffer_; }
+    [[nodiscard]] const VoxelIndex& voxels() const { return voxels_; }
+
+private:
+    Config::BackEnd config_;
+    ImageGrid grid_;  // of the whole sphere, for any query pose
+    std::vector<BufferedSubmap> buffer_;
+    VoxelIndex voxels_;
+    std::vector<std::uint32_t> slot_of_voxel_;  // scratch of count_owners
+};
+
+}  // namespace dynamic_filter

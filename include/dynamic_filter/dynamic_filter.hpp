@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: MIT
+/// The one include: the pipeline, its configuration and its types.
+#pragma once
+
+#include "dynamic_filter/config.hpp"
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/parallel.hpp"
+#include "dynamic_filter/pipeline/dynamic_filter.hpp"
+#include "dynamic_filter/types.hpp"

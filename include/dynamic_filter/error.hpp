@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+/// Errors thrown at the boundaries. The message is one sentence for the user: what was found and
+/// where, what was expected, what to do. The core throws ConfigError only.
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+
+namespace dynamic_filter {
+
+struct Error : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// A setting or an argument is wrong (exit code 2).
+struct ConfigError : Error {
+    using Error::Error;
+};
+
+/// An input cannot be read, or contradicts itself (exit code 3).
+/// `where` says the place in the file ("byte 128", "line 3"); empty for the file as a whole.
+struct InputError : Error {
+    InputError(const std::filesystem::path& file, const std::string& where, const std::string& what)
+        : Error(file.string() + (where.empty() ? "" : " (" + where + ")") + ": " + what) {}
+};
+
+/// An output cannot be written (exit code 1).
+struct OutputError : Error {
+    OutputError(const std::filesystem::path& file, const std::string& what)
+        : Error(file.string() + ": " + what) {}
+};
+
+}  // namespace dynamic_filter

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+/// All scores of one result against ground truth.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "dynamic_filter/eval/point_scores.hpp"
+#include "dynamic_filter/eval/voxel_scores.hpp"
+#include "dynamic_filter/types.hpp"
+
+namespace dynamic_filter::eval {
+
+struct Scores {
+    std::map<std::string, VoxelScore> voxel;  ///< by reading of mixed voxels
+    PointScore point;
+    double dynamic_share = 0.0;  ///< voxels with a dynamic point / voxels
+};
+
+/// A scan with ground truth; all parallel. Points of unknown truth are left out of every score.
+struct LabelledScan {
+    Points points;   ///< any one frame for all scans, near enough to its origin for floats
+    Labels truth;
+    Labels verdict;  ///< empty when a map is scored
+};
+
+/// Gives scan i, or nothing if it was rejected. Called more than once per scan, in parallel.
+using ScanSource = std::function<std::optional<LabelledScan>(std::size_t)>;
+
+constexpr double kCoverDistance = 0.05;  ///< [m] DynamicMap_Benchmark's rule
+
+/// Scores verdicts: the clean map is every point not labelled dynamic.
+Scores score_labels(std::size_t scans, const ScanSource& source, double voxel_size);
+
+/// Scores a clean map given as points (same frame as the scans). No IoU.
+Scores score_map(std::size_t scans, const ScanSource& source, const Points& map, double voxel_size);
+
+}  // namespace dynamic_filter::eval

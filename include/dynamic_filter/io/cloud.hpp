@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+/// A point cloud as files hold it: packed records with named fields, nothing lost or converted.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamic_filter/types.hpp"
+
+namespace dynamic_filter::io {
+
+enum class FieldType : std::uint8_t { i8, u8, i16, u16, i32, u32, i64, u64, f32, f64 };
+
+std::size_t size_of(FieldType type);  ///< [bytes]
+
+struct Field {
+    std::string name;
+    FieldType type = FieldType::f32;
+    std::uint32_t count = 1;   ///< values of this type per point
+    std::uint32_t offset = 0;  ///< [bytes] from the start of the point's record
+    bool operator==(const Field&) const = default;
+};
+
+/// `data` holds size() records of `point_bytes` bytes, little endian, without padding between fields.
+struct Cloud {
+    std::vector<Field> fields;
+    std::size_t point_bytes = 0;
+    std::vector<std::byte> data;
+    std::optional<Pose> viewpoint;  ///< PCD's VIEWPOINT if the file gave one that is not the identity
+
+    [[nodiscard]] std::size_t size() const { return point_bytes == 0 ? 0 : data.size() / point_bytes; }
+    [[nodiscard]] const Field* find(const std::string& name) const;  ///< nullptr if absent
+};
+
+/// Adds a field behind the others; existing records must not exist yet (call on an empty cloud).
+void add_field(Cloud& cloud, const std::string& name, FieldType type, std::uint32_t count = 1);
+
+/// The first value of `field` in each record, converted to double. Thread-safe.
+std::vector<double> values(const Cloud& cloud, const Field& field);
+
+/// x, y, z of each record as float (float64 is narrowed). Throws Error if a coordinate is missing.
+Points positions(const Cloud& cloud);
+
+/// Reads .pcd (ascii, binary, binary_compressed), .ply (ascii, little and big endian) or
+/// .bin (float32 x y z intensity), told apart by extension. Fields keep their file order and type.
+/// Throws InputError with the byte or line; allocates no more than the file's bytes justify.
+Cloud read_cloud(const std::filesystem::path& file);
+Cloud read_pcd(const std::filesystem::path& file);
+Cloud read_ply(const std::filesystem::path& file);
+Cloud read_bin(const std::filesystem::path& file);
+
+}  // namespace dynamic_filter::io

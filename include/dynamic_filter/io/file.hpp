@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+/// Files that appear whole or not at all.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace dynamic_filter::io {
+
+/// Reads a whole regular file. Throws InputError (missing, a folder, a device, unreadable).
+std::string read_file(const std::filesystem::path& file);
+
+/// A file that is written beside its final path and renamed into place by commit(); without
+/// commit() (an exception, say) nothing is left. Throws OutputError with the system's reason.
+/// Single caller; movable.
+class AtomicFile {
+public:
+    explicit AtomicFile(std::filesystem::path path);
+    AtomicFile(AtomicFile&& other) noexcept;
+    AtomicFile& operator=(AtomicFile&&) = delete;
+    ~AtomicFile();
+
+    void write(std::span<const std::byte> bytes);  ///< appends, buffered
+    void write(std::string_view text);
+    void rewrite(std::size_t offset, std::string_view text);  ///< overwrites bytes already written
+    void commit();  ///< flushes, fsyncs, renames
+
+private:
+    void flush();
+    std::filesystem::path path_, temporary_;
+    std::string buffer_;
+    int descriptor_ = -1;
+};
+
+void write_file(const std::filesystem::path& path, std::string_view text);  ///< atomic
+
+}  // namespace dynamic_filter::io

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+/// Pose files. A line that is not a rigid motion is an error that names the line and the likely cause.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "dynamic_filter/types.hpp"
+
+namespace dynamic_filter::io {
+
+struct PoseFile {
+    std::vector<Pose> poses;     ///< T_world_sensor as written; NaN rows stay NaN (lost tracking)
+    std::vector<double> stamps;  ///< [s], empty for KITTI rows
+};
+
+/// KITTI rows (12 numbers, row-major 3x4), TUM rows (t x y z qx qy qz qw) or CSV with a header
+/// (EuRoC: ns, x y z, qw qx qy qz; or named columns), told apart by the number of columns and the
+/// header. Rotations within 1e-3 of orthogonal are made exact; others throw InputError, as do
+/// reflections, quaternions more than 1 % from unit length and wrong column counts.
+PoseFile read_poses(const std::filesystem::path& file);
+
+/// KITTI calib.txt: the 3x4 row after "Tr:" (velodyne to camera). Throws InputError.
+Pose read_calib_tr(const std::filesystem::path& file);
+
+/// One number a line [s]. Throws InputError.
+std::vector<double> read_times(const std::filesystem::path& file);
+
+}  // namespace dynamic_filter::io

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+/// A recording: scans in order, a pose and a stamp for each, ground truth where there is any.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamic_filter/io/cloud.hpp"
+#include "dynamic_filter/types.hpp"
+
+namespace dynamic_filter::io {
+
+enum class Format { kitti, benchmark, folder };
+
+std::string to_string(Format format);  ///< "kitti", "benchmark", "folder"
+
+struct OpenOptions {
+    std::optional<Format> format;                ///< empty: recognised by looking at the folder
+    std::optional<std::filesystem::path> poses;  ///< empty: the format's usual place
+    std::size_t first = 0;                       ///< index of the first scan used
+    std::optional<std::size_t> last;             ///< index of the last scan used; empty: the end
+    std::size_t stride = 1;
+};
+
+/// What is known without reading the scans. Immutable after open_sequence; thread-safe.
+struct Sequence {
+    Format format = Format::folder;
+    std::filesystem::path root;
+    std::vector<std::filesystem::path> scan_files;   ///< in natural order of their names
+    std::vector<std::filesystem::path> label_files;  ///< parallel to scan_files, or empty
+    std::vector<Pose> T_world_sensor;  ///< parallel; empty for `benchmark` (poses are in the files)
+    std::vector<double> stamps;        ///< parallel [s]; made up at 10 Hz where not measured
+    bool measured_stamps = false;
+    bool intensity_is_truth = false;   ///< `benchmark` with ground truth in the intensity
+    std::vector<std::string> notes;    ///< for the user: what was assumed
+
+    [[nodiscard]] std::size_t size() const { return scan_files.size(); }
+    [[nodiscard]] bool has_truth() const { return intensity_is_truth || !label_files.empty(); }
+};
+
+/// One scan as read: the record's own fields, and the points in the sensor frame.
+struct Frame {
+    Cloud cloud;   ///< as in the file (`benchmark`: x y z in the world frame)
+    Points points; ///< sensor frame, same order
+    Pose T_world_sensor = Pose::Identity();
+    double stamp = 0.0;
+    Labels truth;  ///< empty without ground truth; otherwise one per point
+};
+
+/// Recognises the layout, checks that scans, poses, stamps and labels agree in number.
+/// Throws InputError (nothing there, counts that differ, pose file missing, bad rotation).
+Sequence open_sequence(const std::filesystem::path& data, const OpenOptions& options = {});
+
+/// Reads scan i. Throws InputError if the scan cannot be used (truncated, no points, a non-finite
+/// pose, label count differs): the caller may count it as rejected and go on. Thread-safe.
+Frame read_frame(const Sequence& sequence, std::size_t i);
+
+/// "000123" for velodyne/000123.bin.
+std::string stem(const Sequence& sequence, std::size_t i);
+
+/// Ground-truth labels as SemanticKITTI writes them: low 16 bits; 251-259 dynamic, 0 and 1 unknown,
+/// everything else static. Throws InputError.
+Labels read_labels(const std::filesystem::path& file);
+
+/// "a2" before "a10".
+bool natural_less(const std::string& a, const std::string& b);
+
+}  // namespace dynamic_filter::io

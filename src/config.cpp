@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "dynamic_filter/config.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <type_traits>
+
+#include "dynamic_filter/error.hpp"
+
+namespace dynamic_filter {
+
+namespace {
+
+constexpr std::array<std::string_view, 2> kMethods{"dynamic_filter", "removert"};
+constexpr std::array<std::string_view, 3> kRevertings{"map", "visibility", "none"};
+constexpr std::array<std::string_view, 2> kSwitch{"false", "true"};
+
+/// The words for a choice, in the order of its enumerators.
+constexpr const auto& words(Method) { return kMethods; }
+constexpr const auto& words(Reverting) { return kRevertings; }
+constexpr const auto& words(bool) { return kSwitch; }
+
+template <class T>
+constexpr bool is_number = std::is_same_v<T, int> || std::is_same_v<T, double>;
+
+std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
+
+[[noreturn]] void reject(std::string_view key, std::string_view value, const std::string& expected) {
+    throw ConfigError("setting " + quoted(key) + ": " + quoted(value) + " is not " + expected);
+}
+
+template <class T>
+void parse(std::string_view key, std::string_view text, T& value) {
+    if constexpr (is_number<T>) {
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (error != std::errc{} || end != text.data() + text.size()) {
+            reject(key, text, std::is_same_v<T, int> ? "a whole number" : "a number");
+        }
+    } else {
+        const auto& choices = words(value);
+        const auto it = std::find(choices.begin(), choices.end(), text);
+        if (it == choices.end()) {
+            std::string list;
+            for (const auto choice : choices) list += (list.empty() ? "" : ", ") + std::string(choice);
+            reject(key, text, "one of " + list);
+        }
+        value = static_cast<T>(it - choices.begin());
+    }
+}
+
+template <class T>
+std::string print(const T& value) {
+    if constexpr (is_number<T>) {
+        std::array<char, 32> buffer{};
+        const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+        std::string text(buffer.data(), end);
+        if (std::is_same_v<T, double> && text.find_first_of(".en") == std::string::npos) text += ".0";
+        return text;
+    } else {
+        return std::string(words(value)[static_cast<std::size_t>(value)]);
+    }
+}
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i + 1;
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+        }
+    }
+    return row.back();
+}
+
+[[noreturn]] void unknown_key(std::string_view key) {
+    std::string_view nearest;
+    std::size_t best = std::string_view::npos;
+    Config config;
+    visit(config, [&](const Setting& s, const auto&) {
+        // A user who leaves out the section means the same key.
+        const auto name = s.key.substr(s.key.find('.') + 1);
+        const std::size_t d = std::min(edit_distance(key, s.key), edit_distance(key, name) + 1);
+        if (d < best) {
+            best = d;
+            nearest = s.key;
+        }
+    });
+    throw ConfigError("unknown setting " + quoted(key) + "; did you mean " + quoted(nearest) + "?");
+}
+
+}  // namespace
+
+Config preset(std::string_view name) {
+    // Until scans observe, the default preset is the paper's.
+    if (name == "default" || name == "paper") return Config{};
+    throw ConfigError("unknown preset " + quoted(name) + "; choose default or paper");
+}
+
+void set(Config& config, std::string_view key, std::string_view value) {
+    bool found = false;
+    visit(config, [&](const Setting& s, auto& member) {
+        if (s.key != key) return;
+        found = true;
+        parse(key, value, member);
+    });
+    if (!found) unknown_key(key);
+}
+
+std::string get(const Config& config, std::string_view key) {
+    std::optional<std::string> text;
+    visit(config, [&](const Setting& s, const auto& member) {
+        if (s.key == key) text = print(member);
+    });
+    if (!text) unknown_key(key);
+    return *text;
+}
+
+std::vector<std::string> violations(const Config& config) {
+    std::vector<std::string> found;
+    visit(config, [&](const Setting& s, const auto& member) {
+        if constexpr (is_number<std::decay_t<decltype(member)>>) {
+            const auto value = static_cast<double>(member);
+            if (!(value >= s.min && value <= s.max)) {  // NaN too
+                found.push_back(std::string(s.key) + " = " + print(member) + " is outside " +
+                                print(s.min) + " .. " + print(s.max));
+            }
+        }
+    });
+    if (!config.front_end.enabled && !config.back_end.enabled) {
+        found.push_back("front_end.enabled and back_end.enabled are both false: nothing would be done");
+    }
+    return found;
+}
+
+void validate(const Config& config) {
+    const auto found = violations(config);
+    if (found.empty()) return;
+    std::string message = "the configuration is not valid:";
+    for (const auto& line : found) message += "\n  " + line;
+    throw ConfigError(message);
+}
+
+}  // namespace dynamic_filter

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include "dynamic_filter/eval/point_scores.hpp"
+
+#include <cmath>
+
+namespace dynamic_filter::eval {
+
+PointScore point_score(const CoverCount& c) {
+    PointScore score;
+    if (c.still > 0) {
+        score.sa = static_cast<double>(c.covered_still) / static_cast<double>(c.still);
+    }
+    if (c.dynamic > 0) {
+        score.da = 1.0 - static_cast<double>(c.covered_dynamic) / static_cast<double>(c.dynamic);
+    }
+    if (score.sa && score.da) {
+        const double sum = *score.sa + *score.da;
+        score.aa = std::sqrt(*score.sa * *score.da);
+        score.ha = sum > 0 ? 2.0 * *score.sa * *score.da / sum : 0.0;
+    }
+    return score;
+}
+
+void Confusion::add(Label truth, Label verdict) {
+    const bool is = truth == Label::dynamic, said = verdict == Label::dynamic;
+    if (is && said) ++true_positive;
+    if (!is && said) ++false_positive;
+    if (is && !said) ++false_negative;
+}
+
+std::optional<double> Confusion::iou() const {
+    const std::size_t all = true_positive + false_positive + false_negative;
+    if (all == 0) return std::nullopt;
+    return static_cast<double>(true_positive) / static_cast<double>(all);
+}
+
+}  // namespace dynamic_filter::eval

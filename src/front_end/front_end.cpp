@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "dynamic_filter/front_end/front_end.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "dynamic_filter/front_end/reverting.hpp"
+#include "dynamic_filter/front_end/visibility_removal.hpp"
+#include "dynamic_filter/geometry/pose.hpp"
+
+namespace dynamic_filter {
+
+namespace {
+
+RemovalMargin margin_of(const Config::FrontEnd& config) {
+    return {static_cast<float>(config.tau), static_cast<float>(config.tau_per_metre)};
+}
+
+Thinner thin_static(const Window& window, const std::vector<Labels>& labels, double voxel_size) {
+    Thinner thinner(static_cast<float>(voxel_size));
+    Points points;
+    for (std::size_t s = 0; s < window.scans.size(); ++s) {
+        to_map(window.scans[s], points);
+        thinner.add(points, labels[s], Label::still);
+    }
+    return thinner;
+}
+
+Submap assemble(const Window& window, const std::vector<Labels>& labels, double voxel_size) {
+    std::vector<Pose> poses;
+    for (const Scan& scan : window.scans) poses.push_back(scan.T_world_sensor);
+    return {mean_pose(poses), thin_static(window, labels, voxel_size).take()};
+}
+
+/// The verdicts of a front-end that is switched off: every measured point is still.
+std::vector<Labels> all_still(const Window& window) {
+    return remove_by_visibility(window, {}, {});
+}
+
+}  // namespace
+
+float pixel_step(double least_deg, double beams, float beam_spacing) {
+    const auto least = static_cast<float>(least_deg * std::numbers::pi / 180.0);
+    return std::max(least, static_cast<float>(beams) * beam_spacing);
+}
+
+std::vector<RangeImage> FrontEnd::images(const Window& window, float scale) const {
+    const auto& c = config_.front_end;
+    return keyframe_images(
+        window, scale * pixel_step(c.image_step_deg, c.image_step_beams, beams_->azimuth_spacing),
+        scale * pixel_step(c.image_step_deg, c.image_step_beams, beams_->elevation_spacing));
+}
+
+void FrontEnd::revert(const Window& window, std::vector<Labels>& labels) const {
+    const auto& c = config_.front_end;
+    const auto scale = static_cast<float>(c.revert_image_scale);
+    if (config_.method == Method::removert) {
+        for (const float s : {std::sqrt(scale), scale}) {
+            revert_by_visibility(window, images(window, s), margin_of(c), labels);
+        }
+    } else if (c.reverting == Reverting::visibility) {
+        revert_by_visibility(window, images(window, scale), margin_of(c), labels);
+    } else if (c.reverting == Reverting::map) {
+        const Points points = thin_static(window, labels, config_.back_end.voxel_size).take();
+        const NeighborGrid static_map(points, static_cast<float>(c.revert_radius));
+        revert_by_map(window, static_map, c, labels);
+    }
+}
+
+FrontEndResult FrontEnd::process(const Window& window, StageTimes& times) {
+    if (!beams_) {
+        const auto few = std::min<std::size_t>(window.scans.size(), 5);
+        beams_ = estimate_beam_pattern(std::span(window.scans).first(few));
+    }
+    std::vector<Labels> labels;
+    if (config_.front_end.enabled) {
+        labels = timed(times, "visibility_removal", [&] {
+            return remove_by_visibility(window, images(window, 1.0F), margin_of(config_.front_end));
+        });
+        timed(times, "reverting", [&] { revert(window, labels); });
+    } else {
+        labels = all_still(window);
+    }
+    Submap submap = timed(times, "submap", [&] {
+        return assemble(window, labels, config_.back_end.voxel_size);
+    });
+    return {std::move(submap), std::move(labels)};
+}
+
+}  // namespace dynamic_filter

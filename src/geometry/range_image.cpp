@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "dynamic_filter/geometry/range_image.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "project_kernel.hpp"
+
+namespace dynamic_filter {
+
+namespace {
+
+constexpr float kTwoPi = 2.0F * std::numbers::pi_v<float>;
+
+auto best_kernel() {
+#ifdef DYNAMIC_FILTER_X86_LEVELS
+    if (__builtin_cpu_supports("avx512f")) return kernel::avx512::project;
+    if (__builtin_cpu_supports("avx2")) return kernel::avx2::project;
+#endif
+    return kernel::baseline::project;
+}
+
+/// Median of the gaps above `noise`; 0 if there is none. Reorders the gaps.
+float median_gap(std::vector<float>& gaps) {
+    if (gaps.empty()) return 0.0F;
+    const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
+    std::nth_element(gaps.begin(), middle, gaps.end());
+    return *middle;
+}
+
+struct Direction {
+    float slice;  ///< the angle that is binned
+    float angle;  ///< the angle whose gaps are measured
+};
+
+/// Gaps of `angle` between neighbours within slices of `width` of the other angle.
+float spacing(std::vector<Direction>& directions, float width) {
+    // Returns of one ring (or column) repeat the same angle up to jitter; that is not a gap.
+    constexpr float kJitter = 0.0012F;  // 0.07 deg: below the spacing of any sensor in use
+    for (auto& d : directions) d.slice = std::floor(d.slice / width);
+    std::sort(directions.begin(), directions.end(), [](const Direction& a, const Direction& b) {
+        return a.slice != b.slice ? a.slice < b.slice : a.angle < b.angle;
+    });
+    std::vector<float> gaps;
+    for (std::size_t i = 1; i < directions.size(); ++i) {
+        const float gap = directions[i].angle - directions[i - 1].angle;
+        if (directions[i].slice == directions[i - 1].slice && gap > kJitter) gaps.push_back(gap);
+    }
+    return median_gap(gaps);
+}
+
+}  // namespace
+
+ImageGrid make_grid(float azimuth_step, float elevation_step, float elevation_min,
+                    float elevation_max) {
+    ImageGrid grid;
+    grid.columns = std::max(1, static_cast<int>(kTwoPi / azimuth_step));
+    grid.azimuth_step = kTwoPi / static_cast<float>(grid.columns);
+    grid.elevation_step = elevation_step;
+    // Half a step of margin: the outermost beams lie inside their rows, not on an edge.
+    grid.elevation_min = elevation_min - 0.5F * elevation_step;
+    grid.rows = 1 + static_cast<int>((elevation_max - grid.elevation_min) / elevation_step);
+    return grid;
+}
+
+void project(std::span<const Point> points, const Eigen::Isometry3f& T_image_points,
+             const ImageGrid& grid, Projection& out) {
+    static const auto kernel = best_kernel();
+    static_assert(sizeof(Point) == 3 * sizeof(float));
+    out.pixel.resize(points.size());
+    out.range.resize(points.size());
+    const Eigen::Matrix<float, 3, 4, Eigen::RowMajor> matrix = T_image_points.matrix().topRows<3>();
+    kernel({.xyz = points.empty() ? nullptr : points.front().data(),
+            .count = points.size(),
+            .matrix = matrix.data(),
+            .elevation_min = grid.elevation_min,
+            .inverse_azimuth_step = 1.0F / grid.azimuth_step,
+            .inverse_elevation_step = 1.0F / grid.elevation_step,
+            .columns = grid.columns,
+            .rows = grid.rows,
+            .pixel = out.pixel.data(),
+            .range = out.range.data()});
+}
+
+RangeImage nearest_range_image(std::span<const Point> points, const ImageGrid& grid) {
+    Projection projection;
+    project(points, Eigen::Isometry3f::Identity(), grid, projection);
+    RangeImage image{grid,
+                     std::vector<float>(grid.size(), std::numeric_limits<float>::infinity())};
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (projection.pixel[i] < 0) continue;
+        float& nearest = image.range[static_cast<std::size_t>(projection.pixel[i])];
+        nearest = std::min(nearest, projection.range[i]);
+    }
+    return image;
+}
+
+BeamPattern estimate_beam_pattern(std::span<const Scan> scans) {
+    std::vector<float> azimuth_spacings, elevation_spacings;
+    for (const Scan& scan : scans) {
+        std::vector<Direction> along_elevation, along_azimuth;
+        for (const Point& p : scan.points) {
+            if (!is_measured(p)) continue;
+            const float azimuth = std::atan2(p.y(), p.x());
+            const float elevation = std::atan2(p.z(), std::hypot(p.x(), p.y()));
+            along_elevation.push_back({azimuth, elevation});
+            along_azimuth.push_back({elevation, azimuth});
+        }
+        constexpr float kColumn = 0.0087F, kRing = 0.0035F;  // 0.5 and 0.2 deg
+        elevation_spacings.push_back(spacing(along_elevation, kColumn));
+        azimuth_spacings.push_back(spacing(along_azimuth, kRing));
+    }
+    std::erase(elevation_spacings, 0.0F);
+    std::erase(azimuth_spacings, 0.0F);
+    return {median_gap(azimuth_spacings), median_gap(elevation_spacings)};
+}
+
+ElevationRange elevation_range(std::span<const Point> points) {
+    float lowest = std::numeric_limits<float>::infinity(), highest = -lowest;
+    for (const Point& p : points) {
+        if (!is_measured(p)) continue;
+        const float tangent = p.z() / std::hypot(p.x(), p.y());  // +-inf at the poles: atan is fine
+        lowest = std::min(lowest, tangent);
+        highest = std::max(highest, tangent);
+    }
+    if (lowest > highest) return {};
+    return {std::atan(lowest), std::atan(highest)};
+}
+
+}  // namespace dynamic_filter

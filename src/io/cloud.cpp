@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include "dynamic_filter/io/cloud.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "dynamic_filter/error.hpp"
+#include "input.hpp"
+#include "text.hpp"
+
+namespace dynamic_filter::io {
+namespace {
+
+constexpr std::size_t bin_point_bytes = 4 * sizeof(float);
+
+template <typename T>
+void gather(const Cloud& cloud, const Field& field, std::vector<double>& out) {
+    const std::byte* from = cloud.data.data() + field.offset;
+    for (double& value : out) {
+        T raw{};
+        std::memcpy(&raw, from, sizeof raw);
+        value = static_cast<double>(raw);
+        from += cloud.point_bytes;
+    }
+}
+
+const Field& coordinate(const Cloud& cloud, const char* name) {
+    const Field* field = cloud.find(name);
+    if (field == nullptr) throw Error(std::string("the cloud has no field '") + name + "'");
+    return *field;
+}
+
+/// What the size of a .bin that is no multiple of 16 suggests.
+std::string explain_bin_size(std::size_t bytes) {
+    if (bytes % 20 == 0) return "it looks like 5 floats a point (nuScenes); drop the fifth";
+    if (bytes % 12 == 0) return "it looks like 3 floats a point (x y z); add an intensity";
+    return "it is truncated after point " + std::to_string(bytes / bin_point_bytes);
+}
+
+}  // namespace
+
+std::size_t size_of(FieldType type) {
+    switch (type) {
+        case FieldType::i8:
+        case FieldType::u8:
+            return 1;
+        case FieldType::i16:
+        case FieldType::u16:
+            return 2;
+        case FieldType::i32:
+        case FieldType::u32:
+        case FieldType::f32:
+            return 4;
+        case FieldType::i64:
+        case FieldType::u64:
+        case FieldType::f64:
+            return 8;
+    }
+    return 0;
+}
+
+const Field* Cloud::find(const std::string& name) const {
+    const auto found = std::find_if(fields.begin(), fields.end(),
+                                    [&](const Field& field) { return field.name == name; });
+    return found == fields.end() ? nullptr : &*found;
+}
+
+void add_field(Cloud& cloud, const std::string& name, FieldType type, std::uint32_t count) {
+    if (!cloud.data.empty()) throw Error("field '" + name + "' added to a cloud that has points");
+    cloud.fields.push_back({name, type, count, static_cast<std::uint32_t>(cloud.point_bytes)});
+    cloud.point_bytes += size_of(type) * count;
+}
+
+std::vector<double> values(const Cloud& cloud, const Field& field) {
+    std::vector<double> out(cloud.size());
+    switch (field.type) {
+        case FieldType::i8:
+            gather<std::int8_t>(cloud, field, out);
+            break;
+        case FieldType::u8:
+            gather<std::uint8_t>(cloud, field, out);
+            break;
+        case FieldType::i16:
+            gather<std::int16_t>(cloud, field, out);
+            break;
+        case FieldType::u16:
+            gather<std::uint16_t>(cloud, field, out);
+            break;
+        case FieldType::i32:
+            gather<std::int32_t>(cloud, field, out);
+            break;
+        case FieldType::u32:
+            gather<std::uint32_t>(cloud, field, out);
+            break;
+        case FieldType::i64:
+            gather<std::int64_t>(cloud, field, out);
+            break;
+        case FieldType::u64:
+            gather<std::uint64_t>(cloud, field, out);
+            break;
+        case FieldType::f32:
+            gather<float>(cloud, field, out);
+            break;
+        case FieldType::f64:
+            gather<double>(cloud, field, out);
+            break;
+    }
+    return out;
+}
+
+Points positions(const Cloud& cloud) {
+    const Field* axes[] = {&coordinate(cloud, "x"), &coordinate(cloud, "y"),
+                           &coordinate(cloud, "z")};
+    Points points(cloud.size());
+    for (int axis = 0; axis < 3; ++axis) {
+        const Field& field = *axes[axis];
+        if (field.type == FieldType::f32) {
+            const std::byte* from = cloud.data.data() + field.offset;
+            for (Point& point : points) {
+                std::memcpy(&point[axis], from, sizeof(float));
+                from += cloud.point_bytes;
+            }
+        } else {
+            const std::vector<double> wide = values(cloud, field);
+            for (std::size_t i = 0; i < wide.size(); ++i) {
+                points[i][axis] = static_cast<float>(wide[i]);
+            }
+        }
+    }
+    return points;
+}
+
+Cloud read_bin(const std::filesystem::path& file) {
+    Cloud cloud;
+    for (const char* name : {"x", "y", "z", "intensity"}) add_field(cloud, name, FieldType::f32);
+    cloud.data = read_bytes(file);
+    const std::size_t bytes = cloud.data.size();
+    if (bytes == 0) throw InputError(file, "byte 0", "is empty; expected 16 bytes a point");
+    if (bytes % bin_point_bytes != 0) {
+        throw InputError(file, "byte " + std::to_string(bytes - bytes % bin_point_bytes),
+                         "its size of " + std::to_string(bytes) +
+                             " bytes is no multiple of 16 (float32 x y z intensity); " +
+                             explain_bin_size(bytes));
+    }
+    return cloud;
+}
+
+Cloud read_cloud(const std::filesystem::path& file) {
+    const std::string extension = to_lower(file.extension().string());
+    if (extension == ".pcd") return read_pcd(file);
+    if (extension == ".ply") return read_ply(file);
+    if (extension == ".bin") return read_bin(file);
+    throw InputError(file, "", "unknown kind of cloud; expected .pcd, .ply or .bin");
+}
+
+}  // namespace dynamic_filter::io

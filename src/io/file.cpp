@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+#include "dynamic_filter/io/file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <limits>
+#include <new>
+#include <utility>
+
+#include "dynamic_filter/error.hpp"
+#include "input.hpp"
+
+namespace dynamic_filter::io {
+namespace {
+
+constexpr std::size_t buffer_bytes = std::size_t{1} << 20U;
+
+std::string reason() { return std::strerror(errno); }
+
+/// An open descriptor, for reading.
+struct Descriptor {
+    explicit Descriptor(int opened) : number(opened) {}
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    ~Descriptor() {
+        if (number >= 0) ::close(number);
+    }
+    int number;
+};
+
+const char* kind_of(mode_t mode) {
+    if (S_ISDIR(mode)) return "is a folder; expected a file";
+    if (S_ISFIFO(mode)) return "is a pipe; expected a regular file, save the stream to one first";
+    if (S_ISSOCK(mode)) return "is a socket; expected a regular file";
+    return "is a device; expected a regular file";
+}
+
+/// The size of an open regular file; everything else is refused.
+std::size_t regular_size(int descriptor, const std::filesystem::path& file) {
+    struct stat status {};
+    if (::fstat(descriptor, &status) != 0)
+        throw InputError(file, "", "cannot be read: " + reason());
+    if (!S_ISREG(status.st_mode)) throw InputError(file, "", kind_of(status.st_mode));
+    return static_cast<std::size_t>(status.st_size);
+}
+
+template <typename Buffer>
+void allocate(Buffer& buffer, std::size_t size, const std::filesystem::path& file) {
+    try {
+        buffer.resize(size);
+    } catch (const std::exception&) {  // bad_alloc, or length_error for a sparse giant
+        throw InputError(file, "", "its " + std::to_string(size) + " bytes do not fit in memory");
+    }
+}
+
+template <typename Buffer>
+Buffer read_up_to(const std::filesystem::path& file, std::size_t most) {
+    // O_NONBLOCK: opening a pipe must not wait for a writer.
+    const Descriptor input(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+    if (input.number < 0) throw InputError(file, "", "cannot be opened: " + reason());
+    Buffer buffer;
+    allocate(buffer, std::min(regular_size(input.number, file), most), file);
+    for (std::size_t done = 0; done < buffer.size();) {
+        const ssize_t got = ::read(input.number, buffer.data() + done, buffer.size() - done);
+        if (got < 0 && errno == EINTR) continue;
+        const std::string where = "byte " + std::to_string(done);
+        if (got < 0) throw InputError(file, where, "cannot be read: " + reason());
+        if (got == 0) throw InputError(file, where, "became shorter while it was read; try again");
+        done += static_cast<std::size_t>(got);
+    }
+    return buffer;
+}
+
+void write_all(int descriptor, std::string_view bytes, const std::filesystem::path& path) {
+    while (!bytes.empty()) {
+        const ssize_t put = ::write(descriptor, bytes.data(), bytes.size());
+        if (put < 0 && errno == EINTR) continue;
+        if (put < 0) throw OutputError(path, "cannot be written: " + reason());
+        bytes.remove_prefix(static_cast<std::size_t>(put));
+    }
+}
+
+std::filesystem::path folder_of(const std::filesystem::path& path) {
+    return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+}
+
+/// A rename is durable only once its folder is; some file systems cannot sync folders.
+void sync_folder(const std::filesystem::path& path) {
+    const Descriptor folder(::open(folder_of(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (folder.number < 0 || ::fsync(folder.number) == 0) return;
+    if (errno == EIO || errno == ENOSPC || errno == EDQUOT) {
+        throw OutputError(path, "its folder cannot be synced: " + reason());
+    }
+}
+
+std::filesystem::path temporary_name(const std::filesystem::path& path) {
+    static std::atomic<unsigned> counter{0};
+    return folder_of(path) / ("." + path.filename().string() + ".tmp." +
+                              std::to_string(::getpid()) + "." + std::to_string(counter++));
+}
+
+/// Renaming over a device or a folder would replace or fail; say so before any work is done.
+void refuse_special(const std::filesystem::path& path) {
+    if (!path.has_filename()) throw OutputError(path, "names a folder; expected a file name");
+    struct stat status {};
+    if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) {
+        throw OutputError(path, kind_of(status.st_mode));
+    }
+}
+
+}  // namespace
+
+std::vector<std::byte> read_bytes(const std::filesystem::path& file) {
+    return read_up_to<std::vector<std::byte>>(file, std::numeric_limits<std::size_t>::max());
+}
+
+std::string read_head(const std::filesystem::path& file, std::size_t most) {
+    return read_up_to<std::string>(file, most);
+}
+
+std::string read_file(const std::filesystem::path& file) {
+    return read_up_to<std::string>(file, std::numeric_limits<std::size_t>::max());
+}
+
+AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
+    refuse_special(path_);
+    do {  // a name left by a dead process with our number is skipped
+        temporary_ = temporary_name(path_);
+        descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    } while (descriptor_ < 0 && errno == EEXIST);
+    if (descriptor_ < 0) throw OutputError(path_, "cannot be created: " + reason());
+}
+
+AtomicFile::AtomicFile(AtomicFile&& other) noexcept
+    : path_(std::move(other.path_)),
+      temporary_(std::move(other.temporary_)),
+      buffer_(std::move(other.buffer_)),
+      descriptor_(std::exchange(other.descriptor_, -1)) {
+    other.temporary_.clear();
+}
+
+AtomicFile::~AtomicFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+void AtomicFile::write(std::span<const std::byte> bytes) { write(as_text(bytes)); }
+
+void AtomicFile::write(std::string_view text) {
+    if (buffer_.size() + text.size() > buffer_bytes) flush();
+    if (text.size() > buffer_bytes) {
+        write_all(descriptor_, text, path_);
+    } else {
+        buffer_.append(text);
+    }
+}
+
+void AtomicFile::flush() {
+    write_all(descriptor_, buffer_, path_);
+    buffer_.clear();
+}
+
+void AtomicFile::rewrite(std::size_t offset, std::string_view text) {
+    flush();
+    const off_t end = ::lseek(descriptor_, 0, SEEK_CUR);
+    if (end < 0 || offset + text.size() > static_cast<std::size_t>(end)) {
+        throw OutputError(path_, "rewrite beyond its end");
+    }
+    while (!text.empty()) {
+        const ssize_t put =
+            ::pwrite(descriptor_, text.data(), text.size(), static_cast<off_t>(offset));
+        if (put < 0 && errno == EINTR) continue;
+        if (put < 0) throw OutputError(path_, "cannot be written: " + reason());
+        text.remove_prefix(static_cast<std::size_t>(put));
+        offset += static_cast<std::size_t>(put);
+    }
+}
+
+void AtomicFile::commit() {
+    flush();
+    if (::fsync(descriptor_) != 0 && errno != EINVAL) {
+        throw OutputError(path_, "cannot be synced: " + reason());
+    }
+    if (::close(std::exchange(descriptor_, -1)) != 0) {
+        throw OutputError(path_, "cannot be closed: " + reason());
+    }
+    if (::rename(temporary_.c_str(), path_.c_str()) != 0) {
+        throw OutputError(path_, "cannot be renamed into place: " + reason());
+    }
+    temporary_.clear();
+    sync_folder(path_);
+}
+
+void write_file(const std::filesystem::path& path, std::string_view text) {
+    AtomicFile file(path);
+    file.write(text);
+    file.commit();
+}
+
+}  // namespace dynamic_filter::io

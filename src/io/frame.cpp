@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <array>
+#include <cstring>
+
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/io/sequence.hpp"
+#include "input.hpp"
+
+namespace dynamic_filter::io {
+namespace {
+
+/// SemanticKITTI: the class is in the low 16 bits, the instance above.
+Label label_of(std::uint32_t raw) {
+    const std::uint32_t kind = raw & 0xFFFFU;
+    if (kind <= 1) return Label::unknown;
+    return kind >= 251 && kind <= 259 ? Label::dynamic : Label::still;
+}
+
+Labels intensity_truth(const Cloud& cloud, const std::filesystem::path& file) {
+    const Field* intensity = cloud.find("intensity");
+    if (intensity == nullptr) throw InputError(file, "", "has no intensity, which holds the truth");
+    Labels truth;
+    truth.reserve(cloud.size());
+    for (const double value : values(cloud, *intensity)) {
+        truth.push_back(value == 1.0   ? Label::dynamic
+                        : value == 0.0 ? Label::still
+                                       : Label::unknown);
+    }
+    return truth;
+}
+
+/// World coordinates into the sensor's frame, in double: the world may be far from its origin.
+Points into_sensor(const Cloud& cloud, const Pose& T_world_sensor) {
+    const Pose T_sensor_world = T_world_sensor.inverse();
+    const std::array<std::vector<double>, 3> world = {values(cloud, *cloud.find("x")),
+                                                      values(cloud, *cloud.find("y")),
+                                                      values(cloud, *cloud.find("z"))};
+    Points points(cloud.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Eigen::Vector3d p(world[0][i], world[1][i], world[2][i]);
+        points[i] = (T_sensor_world * p).cast<float>();
+    }
+    return points;
+}
+
+Labels truth_of(const Sequence& sequence, std::size_t i, const Cloud& cloud) {
+    if (sequence.intensity_is_truth) return intensity_truth(cloud, sequence.scan_files[i]);
+    if (sequence.label_files.empty()) return {};
+    Labels truth = read_labels(sequence.label_files[i]);
+    if (truth.size() != cloud.size()) {
+        throw InputError(sequence.label_files[i], "",
+                         fmt::format("{} labels but {} points in {}", truth.size(), cloud.size(),
+                                     sequence.scan_files[i].string()));
+    }
+    return truth;
+}
+
+}  // namespace
+
+Labels read_labels(const std::filesystem::path& file) {
+    const std::vector<std::byte> bytes = read_bytes(file);
+    if (bytes.size() % sizeof(std::uint32_t) != 0) {
+        throw InputError(
+            file, fmt::format("byte {}", bytes.size() - bytes.size() % 4),
+            fmt::format("its size of {} bytes is no multiple of 4 (uint32 labels)", bytes.size()));
+    }
+    Labels labels(bytes.size() / sizeof(std::uint32_t));
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        std::uint32_t raw = 0;
+        std::memcpy(&raw, bytes.data() + i * sizeof raw, sizeof raw);
+        labels[i] = label_of(raw);
+    }
+    return labels;
+}
+
+Frame read_frame(const Sequence& sequence, std::size_t i) {
+    const std::filesystem::path& file = sequence.scan_files.at(i);
+    const bool poses_in_files = sequence.T_world_sensor.empty();
+    Frame frame;
+    if (!poses_in_files) frame.T_world_sensor = sequence.T_world_sensor[i];
+    if (!frame.T_world_sensor.matrix().allFinite()) {
+        throw InputError(file, "", "its pose is not finite (lost tracking?)");
+    }
+    frame.cloud = read_cloud(file);
+    if (frame.cloud.size() == 0) throw InputError(file, "", "has no points");
+    if (poses_in_files) {
+        frame.T_world_sensor = frame.cloud.viewpoint.value_or(Pose::Identity());
+    }
+    frame.points = sequence.format == Format::benchmark
+                       ? into_sensor(frame.cloud, frame.T_world_sensor)
+                       : positions(frame.cloud);
+    frame.stamp = sequence.stamps[i];
+    frame.truth = truth_of(sequence, i, frame.cloud);
+    return frame;
+}
+
+}  // namespace dynamic_filter::io

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+#include "layout.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "dynamic_filter/error.hpp"
+#include "text.hpp"
+
+namespace dynamic_filter::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_folder(const fs::path& path) {
+    std::error_code ignored;
+    return fs::is_directory(path, ignored);
+}
+
+bool present(const fs::path& path) {
+    std::error_code ignored;
+    return fs::exists(path, ignored);
+}
+
+std::string extension_of(const fs::path& path) { return to_lower(path.extension().string()); }
+
+/// Visible files with one of the extensions, in natural order.
+Paths list_files(const fs::path& folder, const std::set<std::string>& extensions,
+                 std::error_code& error) {
+    Paths files;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error)) {
+        const fs::path& path = entry->path();
+        const bool wanted = extensions.contains(extension_of(path));
+        if (wanted && !path.filename().string().starts_with('.') && !is_folder(path)) {
+            files.push_back(path);
+        }
+    }
+    std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+        return natural_less(a.filename().string(), b.filename().string());
+    });
+    return files;
+}
+
+Paths list_files(const fs::path& folder, const std::set<std::string>& extensions) {
+    std::error_code error;
+    Paths files = list_files(folder, extensions, error);
+    if (error) throw InputError(folder, "", "cannot be listed: " + error.message());
+    return files;
+}
+
+fs::path without_slash(const fs::path& path) {
+    const fs::path normal = path.lexically_normal();
+    return normal.has_filename() ? normal : normal.parent_path();
+}
+
+fs::path parent_of(const fs::path& folder) {
+    std::error_code ignored;
+    const fs::path parent = without_slash(folder).parent_path();
+    if (!parent.empty() && folder.filename() != "." && folder.filename() != "..") return parent;
+    return without_slash(fs::absolute(folder, ignored)).parent_path();
+}
+
+const std::vector<std::string>& pose_names() {
+    static const std::vector<std::string> names = {"poses.txt", "optimized_poses.txt",
+                                                   "poses.csv", "poses_lidar2body.csv",
+                                                   "traj.txt",  "trajectory.txt"};
+    return names;
+}
+
+std::optional<fs::path> find_pose_file(const fs::path& folder) {
+    for (const std::string& name : pose_names()) {
+        if (present(folder / name)) return folder / name;
+    }
+    std::error_code ignored;  // the folder above the scans may well be unreadable
+    const Paths tum = list_files(folder, {".tum"}, ignored);
+    if (tum.size() > 1) {
+        throw InputError(folder, "",
+                         fmt::format("has {} .tum files; choose one with --poses", tum.size()));
+    }
+    return tum.empty() ? std::nullopt : std::optional(tum[0]);
+}
+
+std::optional<fs::path> if_exists(const fs::path& path) {
+    return present(path) ? std::optional(path) : std::nullopt;
+}
+
+/// Handing DATA/velodyne for DATA is common and would hide poses, labels and calibration.
+void refuse_inner_folder(const fs::path& data, const OpenOptions& options) {
+    const std::string name = without_slash(data).filename().string();
+    if (options.format || (name != "velodyne" && name != "pcd") || find_pose_file(data)) return;
+    throw InputError(data, "",
+                     "is the scan folder inside a recording; give the folder above it (" +
+                         parent_of(data).string() + "), or force --format folder");
+}
+
+void require_folder(const fs::path& data) {
+    if (!present(data)) throw InputError(data, "", "does not exist; expected a recording's folder");
+    if (!is_folder(data)) {
+        throw InputError(data, "",
+                         "is a file; expected a folder with velodyne/*.bin, pcd/*.pcd, or scans "
+                         "and a pose file");
+    }
+}
+
+Format recognise(const fs::path& data) {
+    if (is_folder(data / "velodyne")) return Format::kitti;
+    if (is_folder(data / "pcd") && !list_files(data / "pcd", {".pcd"}).empty()) {
+        return Format::benchmark;
+    }
+    return Format::folder;
+}
+
+/// Scans of one kind, in the usual subfolder or in the folder itself (which may also hold maps).
+void find_folder_scans(Layout& layout, const fs::path& data) {
+    const std::set<std::string> kinds = {".bin", ".pcd", ".ply"};
+    for (const char* name : {"Scans", "scans", "pcds", "pcd", "clouds", "velodyne", "."}) {
+        layout.scan_folder = name == std::string(".") ? data : data / name;
+        if (!is_folder(layout.scan_folder)) continue;
+        layout.scans = list_files(layout.scan_folder, kinds);
+        if (!layout.scans.empty()) break;
+    }
+    if (layout.scans.empty()) {
+        throw InputError(data, "",
+                         "holds no scans; looked for velodyne/*.bin, pcd/*.pcd, and *.bin, *.pcd, "
+                         "*.ply here and in Scans/, scans/, pcds/, clouds/");
+    }
+    const std::string kind = extension_of(layout.scans[0]);
+    for (const fs::path& scan : layout.scans) {
+        if (extension_of(scan) == kind) continue;
+        throw InputError(layout.scan_folder, "",
+                         "mixes " + layout.scans[0].filename().string() + " and " +
+                             scan.filename().string() + "; keep scans of one kind in the folder");
+    }
+}
+
+void find_scans(Layout& layout, const fs::path& data) {
+    if (layout.format == Format::folder) return find_folder_scans(layout, data);
+    const bool kitti = layout.format == Format::kitti;
+    layout.scan_folder = data / (kitti ? "velodyne" : "pcd");
+    const std::string kind = kitti ? ".bin" : ".pcd";
+    if (is_folder(layout.scan_folder)) layout.scans = list_files(layout.scan_folder, {kind});
+    if (layout.scans.empty()) {
+        throw InputError(layout.scan_folder, "",
+                         "no *" + kind + " found; a recording of format " +
+                             to_string(layout.format) + " keeps its scans there");
+    }
+}
+
+/// The folders that may hold what accompanies the scans.
+Paths companions(const Layout& layout, const fs::path& data) {
+    if (layout.format != Format::folder) return {data};
+    return {layout.scan_folder, parent_of(layout.scan_folder)};
+}
+
+std::optional<fs::path> find_beside(const Paths& folders, const char* name) {
+    for (const fs::path& folder : folders) {
+        if (present(folder / name)) return folder / name;
+    }
+    return std::nullopt;
+}
+
+void find_poses(Layout& layout, const Paths& folders, const OpenOptions& options) {
+    layout.poses = options.poses;
+    if (layout.poses || layout.format == Format::benchmark) return;
+    std::string looked;
+    for (const fs::path& folder : folders) {
+        layout.poses = layout.format == Format::kitti ? if_exists(folder / "poses.txt")
+                                                      : find_pose_file(folder);
+        if (layout.poses) return layout.notes.push_back("poses from " + layout.poses->string());
+        looked += (looked.empty() ? "" : " and ") + folder.string();
+    }
+    std::string names = pose_names()[0];
+    for (std::size_t i = 1; layout.format == Format::folder && i < pose_names().size(); ++i) {
+        names += ", " + pose_names()[i];
+    }
+    if (layout.format == Format::folder) names += ", *.tum";
+    throw InputError(
+        layout.scan_folder, "",
+        "no pose file found; looked for " + names + " in " + looked + "; give one with --poses");
+}
+
+}  // namespace
+
+Layout find_layout(const fs::path& data, const OpenOptions& options) {
+    require_folder(data);
+    refuse_inner_folder(data, options);
+    Layout layout;
+    layout.format = options.format.value_or(recognise(data));
+    find_scans(layout, data);
+    const Paths folders = companions(layout, data);
+    find_poses(layout, folders, options);
+    layout.times = find_beside(folders, "times.txt");
+    layout.labels = find_beside(folders, "labels");
+    if (layout.format == Format::kitti) layout.calib = if_exists(data / "calib.txt");
+    if (layout.format == Format::benchmark) layout.truth_map = if_exists(data / "gt_cloud.pcd");
+    return layout;
+}
+
+Paths find_labels(const Layout& layout) {
+    if (!layout.labels) return {};
+    std::map<std::string, fs::path> files;
+    for (const fs::path& path : list_files(*layout.labels, {".label"})) {
+        files[path.stem().string()] = path;
+    }
+    Paths labels;
+    const fs::path* missing = nullptr;
+    for (const fs::path& scan : layout.scans) {
+        auto file = files.extract(scan.stem().string());
+        if (!file.empty())
+            labels.push_back(file.mapped());
+        else if (missing == nullptr)
+            missing = &scan;
+    }
+    if (labels.empty())
+        throw InputError(*layout.labels, "",
+                         "holds no label for any scan of " + layout.scan_folder.string());
+    if (missing != nullptr) {
+        throw InputError(*layout.labels, "",
+                         fmt::format("{} scans but {} label files; the first without is {}",
+                                     layout.scans.size(), labels.size(), missing->string()));
+    }
+    if (!files.empty()) {
+        throw InputError(files.begin()->second, "",
+                         fmt::format("labels no scan of {}; {} label files too many",
+                                     layout.scan_folder.string(), files.size()));
+    }
+    return labels;
+}
+
+}  // namespace dynamic_filter::io

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+/// Where the files of a recording are.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamic_filter/io/sequence.hpp"
+
+namespace dynamic_filter::io {
+
+using Paths = std::vector<std::filesystem::path>;
+
+struct Layout {
+    Format format = Format::folder;
+    std::filesystem::path scan_folder;
+    Paths scans;  ///< in natural order; never empty
+    std::optional<std::filesystem::path> poses, times, calib, labels, truth_map;
+    std::vector<std::string> notes;
+};
+
+/// Throws InputError when nothing usable is there, with what was looked for.
+Layout find_layout(const std::filesystem::path& data, const OpenOptions& options);
+
+/// One label file per scan, or none if there is no labels folder. Throws InputError for a missing
+/// and for an extra one.
+Paths find_labels(const Layout& layout);
+
+}  // namespace dynamic_filter::io

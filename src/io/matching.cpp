@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "matching.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "dynamic_filter/error.hpp"
+#include "text.hpp"
+
+namespace dynamic_filter::io {
+namespace {
+
+constexpr double most_gap = 0.05;            // [s] half the period of a 10 Hz LiDAR
+constexpr double least_epoch_seconds = 1e8;  // a smaller whole number is an index, not a time
+constexpr double least_nanoseconds = 1e15;   // above any number of seconds
+
+/// A file name read as a time; nothing for "000123" and the like, which are indices.
+std::optional<double> time_in(const std::string& name) {
+    const bool numeric = name.find_first_not_of("0123456789.") == std::string::npos;
+    const auto value = numeric ? parse_real(name) : std::nullopt;
+    if (!value) return std::nullopt;
+    if (name.find('.') != std::string::npos) return value;
+    if (*value >= least_nanoseconds) return *value * 1e-9;
+    return *value >= least_epoch_seconds ? value : std::nullopt;
+}
+
+std::vector<double> times_in_names(const Paths& scans) {
+    std::vector<double> times;
+    for (const auto& scan : scans) {
+        const auto time = time_in(scan.stem().string());
+        if (!time) return {};
+        times.push_back(*time);
+    }
+    return times;
+}
+
+std::size_t nearest(const std::vector<double>& stamps, double time) {
+    const auto after = std::lower_bound(stamps.begin(), stamps.end(), time);
+    if (after == stamps.begin()) return 0;
+    const auto before = after - 1;
+    const bool later = after != stamps.end() && *after - time < time - *before;
+    return static_cast<std::size_t>((later ? after : before) - stamps.begin());
+}
+
+Match match_by_time(const Layout& layout, const PoseFile& file, std::vector<double> times,
+                    const std::string& source) {
+    Match match;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        const std::size_t pose = nearest(file.stamps, times[i]);
+        const double gap = std::abs(file.stamps[pose] - times[i]);
+        if (!(gap <= most_gap)) {
+            throw InputError(layout.scans[i], "",
+                             fmt::format("{} scans but {} poses in {}, and no pose within {} s of "
+                                         "this scan's time {}; the nearest is {:.3g} s away",
+                                         layout.scans.size(), file.poses.size(),
+                                         layout.poses->string(), most_gap, times[i], gap));
+        }
+        match.poses.push_back(file.poses[pose]);
+    }
+    match.stamps = std::move(times);
+    match.note = fmt::format("{} scans matched to {} poses by time ({})", layout.scans.size(),
+                             file.poses.size(), source);
+    return match;
+}
+
+}  // namespace
+
+Match match_poses(const Layout& layout, const PoseFile& file, const std::vector<double>& times) {
+    const std::size_t scans = layout.scans.size();
+    if (file.poses.size() == scans) {
+        return {file.poses, times.empty() ? file.stamps : times,
+                fmt::format("{} scans matched to poses by order", scans)};
+    }
+    if (!file.stamps.empty()) {
+        if (times.size() == scans) return match_by_time(layout, file, times, "times.txt");
+        const std::vector<double> named = times_in_names(layout.scans);
+        if (!named.empty()) return match_by_time(layout, file, named, "file names");
+    }
+    throw InputError(*layout.poses, "",
+                     fmt::format("{} scans in {} but {} poses; give the matching file with --poses "
+                                 "(--first, --last and --stride apply after matching)",
+                                 scans, layout.scan_folder.string(), file.poses.size()));
+}
+
+}  // namespace dynamic_filter::io

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include <compare>
+#include <string_view>
+
+#include "dynamic_filter/io/sequence.hpp"
+
+namespace dynamic_filter::io {
+namespace {
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// Cuts the run of digits off the front, without its leading zeros.
+std::string_view take_number(std::string_view& rest) {
+    std::size_t end = 0;
+    while (end < rest.size() && is_digit(rest[end])) ++end;
+    std::string_view number = rest.substr(0, end);
+    rest.remove_prefix(end);
+    while (!number.empty() && number.front() == '0') number.remove_prefix(1);
+    return number;
+}
+
+/// Numbers as digits, so that any length compares.
+std::strong_ordering compare_numbers(std::string_view a, std::string_view b) {
+    return a.size() != b.size() ? a.size() <=> b.size() : a.compare(b) <=> 0;
+}
+
+std::strong_ordering compare_naturally(std::string_view a, std::string_view b) {
+    while (!a.empty() && !b.empty()) {
+        std::strong_ordering order = std::strong_ordering::equal;
+        if (is_digit(a[0]) && is_digit(b[0])) {
+            const std::string_view number = take_number(a);
+            order = compare_numbers(number, take_number(b));
+        } else {
+            order = static_cast<unsigned char>(a[0]) <=> static_cast<unsigned char>(b[0]);
+            a.remove_prefix(1);
+            b.remove_prefix(1);
+        }
+        if (order != 0) return order;
+    }
+    return a.size() <=> b.size();
+}
+
+}  // namespace
+
+bool natural_less(const std::string& a, const std::string& b) {
+    const auto order = compare_naturally(a, b);
+    return order == 0 ? a < b : order < 0;  // "a01" and "a1" count the same; keep them apart
+}
+
+}  // namespace dynamic_filter::io

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamic_filter/io/cloud.hpp"
+#include "records.hpp"
+#include "text.hpp"
+
+namespace dynamic_filter::io {
+
+enum class PcdData : std::uint8_t { ascii, binary, compressed };
+
+struct PcdHeader {
+    std::vector<Column> columns;
+    std::uint64_t points = 0;
+    std::optional<Pose> viewpoint;  ///< empty if absent or the identity
+    PcdData data = PcdData::ascii;
+};
+
+/// Leaves `lines` behind the DATA line. Throws InputError.
+PcdHeader parse_pcd_header(Lines& lines);
+
+/// Where in a header's text its counts are; their fields are wide enough for any count.
+struct PcdHeaderText {
+    std::string text;
+    std::size_t width_at = 0, points_at = 0;
+};
+constexpr std::size_t pcd_count_width = 20;
+
+/// The header of a binary PCD with contiguous fields.
+PcdHeaderText pcd_header_text(const std::vector<Field>& fields, std::size_t points,
+                              const Pose& viewpoint);
+
+/// A count as the header holds it, padded behind.
+std::string pcd_count(std::size_t count);
+
+}  // namespace dynamic_filter::io

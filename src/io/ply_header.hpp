@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "records.hpp"
+#include "text.hpp"
+
+namespace dynamic_filter::io {
+
+enum class PlyFormat : std::uint8_t { ascii, little, big };
+
+struct PlyProperty {
+    Column column;                        ///< of a list: the type of its entries
+    std::optional<FieldType> list_count;  ///< set for a list: the type of its length
+};
+
+struct PlyElement {
+    std::string name;
+    std::uint64_t count = 0;
+    std::vector<PlyProperty> properties;
+};
+
+struct PlyHeader {
+    PlyFormat format = PlyFormat::ascii;
+    std::vector<PlyElement> before;  ///< elements in front of the vertices
+    std::uint64_t points = 0;
+    std::vector<Column> columns;  ///< of the vertices
+};
+
+/// Leaves `lines` behind the end_header line. Throws InputError.
+PlyHeader parse_ply_header(Lines& lines);
+
+}  // namespace dynamic_filter::io

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#include "pose_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "dynamic_filter/error.hpp"
+#include "rigid.hpp"
+
+namespace dynamic_filter::io {
+namespace {
+
+enum Role : std::size_t { x, y, z, qx, qy, qz, qw, time, role_count };
+
+constexpr std::array<const char*, role_count> role_names = {"x",  "y",  "z",  "qx",
+                                                            "qy", "qz", "qw", "timestamp"};
+
+/// Which column plays which role, and what makes seconds of the stamp.
+struct Columns {
+    std::array<std::optional<std::size_t>, role_count> of;
+    std::size_t count = 0;
+    double seconds = 1.0;
+};
+
+/// "#timestamp [ns]" becomes "timestamp" and "ns"; "p_RS_R_x [m]" becomes "p_rs_r_x" and "m".
+struct Title {
+    std::string name, unit;
+};
+
+Title title_of(std::string_view cell) {
+    std::string text = to_lower(cell);
+    std::erase_if(text, [](char c) { return c == '#' || c == '"' || c == ' ' || c == ']'; });
+    const std::size_t bracket = text.find('[');
+    Title title{text.substr(0, bracket), ""};
+    if (bracket != std::string::npos) title.unit = text.substr(bracket + 1);
+    for (const char* unit : {"ns", "us", "ms"}) {  // "timestamp_ns"
+        const std::string suffix = std::string("_") + unit;
+        if (!title.unit.empty() || !title.name.ends_with(suffix)) continue;
+        title.name.resize(title.name.size() - suffix.size());
+        title.unit = unit;
+    }
+    return title;
+}
+
+std::optional<Role> role_of(const std::string& name) {
+    for (const char* known : {"timestamp", "stamp", "time", "t"}) {
+        if (name == known) return time;
+    }
+    for (std::size_t axis = 0; axis < 4; ++axis) {
+        const std::string letter(1, "xyzw"[axis]);
+        if (name == "q" + letter || name == "q_" + letter || name == "q_rs_" + letter) {
+            return static_cast<Role>(qx + axis);
+        }
+        for (const char* prefix : {"", "t", "p", "t_", "p_", "p_rs_r_", "pos_", "position_"}) {
+            if (axis < 3 && name == prefix + letter) return static_cast<Role>(x + axis);
+        }
+    }
+    return std::nullopt;
+}
+
+double seconds_of(const std::string& unit, const Lines& lines) {
+    if (unit.empty() || unit == "s") return 1.0;
+    if (unit == "ms") return 1e-3;
+    if (unit == "us") return 1e-6;
+    if (unit == "ns") return 1e-9;
+    lines.fail("the stamp's unit " + quote(unit) + " is unknown; expected s, ms, us or ns");
+}
+
+Columns columns_of(std::string_view header, const Lines& lines) {
+    Columns columns;
+    for (const auto cell : split_at(header, ',')) {
+        const Title title = title_of(cell);
+        if (const auto role = role_of(title.name)) {
+            if (columns.of[*role]) lines.fail("two columns mean " + quote(role_names[*role]));
+            columns.of[*role] = columns.count;
+            if (*role == time) columns.seconds = seconds_of(title.unit, lines);
+        }
+        ++columns.count;
+    }
+    for (std::size_t role = x; role <= qw; ++role) {
+        if (!columns.of[role]) {
+            lines.fail(
+                fmt::format("the CSV header names no column '{}'; expected timestamp, x, y, "
+                            "z, qx, qy, qz, qw in any order",
+                            role_names[role]));
+        }
+    }
+    return columns;
+}
+
+std::array<double, role_count> values_of(std::string_view line, const Columns& columns,
+                                         const Lines& lines) {
+    const auto cells = split_at(line, ',');
+    if (cells.size() != columns.count) {
+        lines.fail(fmt::format("{} columns; the header names {}", cells.size(), columns.count));
+    }
+    std::array<double, role_count> values{};
+    for (std::size_t role = 0; role < role_count; ++role) {
+        if (!columns.of[role]) continue;
+        const auto value = parse_real(cells[*columns.of[role]]);
+        if (!value) lines.fail(quote(cells[*columns.of[role]]) + " is no number");
+        values[role] = *value;
+    }
+    return values;
+}
+
+void append_row(PoseFile& file, const std::array<double, role_count>& v, const Columns& columns,
+                const Lines& lines) {
+    if (columns.of[time]) append_stamp(file, v[time] * columns.seconds, lines);
+    const bool finite =
+        std::all_of(v.begin(), v.begin() + time, [](double value) { return std::isfinite(value); });
+    file.poses.push_back(finite
+                             ? pose_from_quaternion({v[x], v[y], v[z]},
+                                                    Eigen::Quaterniond(v[qw], v[qx], v[qy], v[qz]),
+                                                    "as the CSV header names them", lines)
+                             : lost_pose());
+}
+
+bool begins_with_number(std::string_view line) {
+    return parse_real(split_at(line, ',').front()).has_value();
+}
+
+/// The first line with commas names the columns, be it a comment or not.
+Columns read_header(Lines& lines) {
+    while (lines.next()) {
+        const std::string_view line = trim(lines.line());
+        if (line.find(',') == std::string_view::npos) continue;
+        if (begins_with_number(line)) {
+            lines.fail(
+                "a CSV of poses needs a header that names its columns, such as "
+                "timestamp,x,y,z,qx,qy,qz,qw");
+        }
+        return columns_of(line, lines);
+    }
+    throw InputError(lines.file(), "", "holds no CSV header");
+}
+
+}  // namespace
+
+PoseFile read_pose_table(Lines& lines) {
+    const Columns columns = read_header(lines);
+    PoseFile file;
+    while (lines.next()) {
+        const std::string_view line = trim(lines.line());
+        if (line.empty() || line.front() == '#') continue;
+        append_row(file, values_of(line, columns, lines), columns, lines);
+    }
+    return file;
+}
+
+}  // namespace dynamic_filter::io

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "dynamic_filter/io/poses.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/io/file.hpp"
+#include "pose_table.hpp"
+#include "rigid.hpp"
+#include "text.hpp"
+
+namespace dynamic_filter::io {
+namespace {
+
+constexpr std::size_t kitti_columns = 12, tum_columns = 8;
+
+bool is_comment(std::string_view line) { return line.empty() || line.front() == '#'; }
+
+std::vector<double> numbers(std::string_view line, const Lines& lines) {
+    std::vector<double> row;
+    for (const auto token : split_tokens(line)) {
+        const auto value = parse_real(token);
+        if (!value) lines.fail(quote(token) + " is no number; expected a row of a pose file");
+        row.push_back(*value);
+    }
+    return row;
+}
+
+[[noreturn]] void explain_columns(std::size_t columns, const Lines& lines) {
+    std::string hint = "expected 12 (KITTI, 3x4 row by row) or 8 (TUM: t x y z qx qy qz qw)";
+    if (columns == 16) hint += "; 16 look like a 4x4 matrix: keep the first 12";
+    if (columns == 7) hint += "; 7 look like TUM without its stamp: put one first";
+    if (columns == 13) hint += "; 13 look like KITTI behind a stamp or an index: drop the first";
+    lines.fail(fmt::format("{} columns; {}", columns, hint));
+}
+
+bool is_finite(const std::vector<double>& row) {
+    return std::all_of(row.begin(), row.end(), [](double v) { return std::isfinite(v); });
+}
+
+Pose kitti_pose(const std::vector<double>& row, const Lines& lines) {
+    if (!is_finite(row)) return lost_pose();
+    return pose_from_rows(Eigen::Map<const Rows34>(row.data()), lines);
+}
+
+Pose tum_pose(const std::vector<double>& row, const Lines& lines) {
+    if (!std::isfinite(row[0])) lines.fail("the stamp is not finite");
+    if (!is_finite(row)) return lost_pose();
+    return pose_from_quaternion({row[1], row[2], row[3]},
+                                Eigen::Quaterniond(row[7], row[4], row[5], row[6]),
+                                "t x y z qx qy qz qw (xyzw)", lines);
+}
+
+PoseFile read_rows(Lines& lines) {
+    PoseFile file;
+    std::size_t columns = 0;
+    while (lines.next()) {
+        const std::string_view line = trim(lines.line());
+        if (is_comment(line)) continue;
+        const std::vector<double> row = numbers(line, lines);
+        if (columns == 0) columns = row.size();
+        if (row.size() != columns) {
+            lines.fail(fmt::format("{} columns; the rows before have {}", row.size(), columns));
+        }
+        if (columns == kitti_columns) {
+            file.poses.push_back(kitti_pose(row, lines));
+        } else if (columns == tum_columns) {
+            file.poses.push_back(tum_pose(row, lines));
+            append_stamp(file, row[0], lines);
+        } else {
+            explain_columns(columns, lines);
+        }
+    }
+    return file;
+}
+
+/// A comment may hold commas in a file of blanks, so the first line of data decides.
+bool is_csv(const std::string& text, const std::filesystem::path& file) {
+    Lines lines(text, file);
+    bool comment_has_comma = false;
+    while (lines.next()) {
+        const std::string_view line = trim(lines.line());
+        const bool has_comma = line.find(',') != std::string_view::npos;
+        if (!is_comment(line)) return has_comma;
+        comment_has_comma = comment_has_comma || has_comma;
+    }
+    return comment_has_comma;
+}
+
+}  // namespace
+
+void append_stamp(PoseFile& file, double stamp, const Lines& where) {
+    if (!std::isfinite(stamp)) where.fail("the stamp is not finite");
+    if (!file.stamps.empty() && stamp < file.stamps.back()) {
+        where.fail(fmt::format("the stamp {} is before {} of the row above; sort the file by time",
+                               stamp, file.stamps.back()));
+    }
+    file.stamps.push_back(stamp);
+}
+
+PoseFile read_poses(const std::filesystem::path& file) {
+    const std::string text = read_file(file);
+    Lines lines(text, file);
+    PoseFile poses = is_csv(text, file) ? read_pose_table(lines) : read_rows(lines);
+    if (poses.poses.empty()) throw InputError(file, "", "holds no pose");
+    return poses;
+}
+
+Pose read_calib_tr(const std::filesystem::path& file) {
+    const std::string text = read_file(file);
+    Lines lines(text, file);
+    while (lines.next()) {
+        std::string_view rest = lines.line();
+        if (take_token(rest) != "Tr:") continue;
+        const std::vector<double> row = numbers(rest, lines);
+        if (row.size() != kitti_columns || !is_finite(row)) {
+            lines.fail("Tr: needs 12 finite numbers, a 3x4 matrix row by row");
+        }
+        return kitti_pose(row, lines);
+    }
+    throw InputError(file, "",
+                     "has no line 'Tr:' (velodyne to camera); add it, or remove the file "
+                     "if the poses are those of the LiDAR");
+}
+
+std::vector<double> read_times(const std::filesystem::path& file) {
+    const std::string text = read_file(file);
+    Lines lines(text, file);
+    std::vector<double> stamps;
+    while (lines.next()) {
+        const std::string_view line = trim(lines.line());
+        if (is_comment(line)) continue;
+        const auto stamp = parse_real(line);
+        if (!stamp || !std::isfinite(*stamp)) {
+            lines.fail(quote(line) + " is no time; expected one number a line, in seconds");
+        }
+        stamps.push_back(*stamp);
+    }
+    return stamps;
+}
+
+}  // namespace dynamic_filter::io

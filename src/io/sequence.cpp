@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "dynamic_filter/io/sequence.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "benchmark.hpp"
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/io/poses.hpp"
+#include "layout.hpp"
+#include "matching.hpp"
+
+namespace dynamic_filter::io {
+namespace {
+
+constexpr double assumed_period = 0.1;  // [s] what nearly every LiDAR is set to
+
+void check_selection(const OpenOptions& options) {
+    if (options.stride == 0) throw ConfigError("--stride is 0; expected 1 or more");
+    if (options.last && *options.last < options.first) {
+        throw ConfigError(
+            fmt::format("--last {} is before --first {}", *options.last, options.first));
+    }
+}
+
+std::vector<double> times_of(const Layout& layout) {
+    if (!layout.times) return {};
+    std::vector<double> times = read_times(*layout.times);
+    if (times.size() != layout.scans.size()) {
+        throw InputError(*layout.times, "",
+                         fmt::format("{} times but {} scans in {}", times.size(),
+                                     layout.scans.size(), layout.scan_folder.string()));
+    }
+    const auto back = std::is_sorted_until(times.begin(), times.end());
+    if (back != times.end()) {
+        const auto i = static_cast<std::size_t>(back - times.begin());
+        throw InputError(
+            *layout.times, "",
+            fmt::format("time {} of scan {} is before {} of the scan before it; stamps "
+                        "must not go back",
+                        times[i], i, times[i - 1]));
+    }
+    return times;
+}
+
+/// KITTI's poses are those of the left camera if a calibration comes with them.
+void from_camera_poses(Sequence& sequence, const std::filesystem::path& calib) {
+    const Pose Tr = read_calib_tr(calib);
+    for (Pose& pose : sequence.T_world_sensor) pose = Tr.inverse() * pose * Tr;
+    sequence.notes.push_back("poses taken as camera poses and converted with Tr of " +
+                             calib.string());
+}
+
+/// Fills the poses, and returns the stamps as far as the recording has them.
+std::vector<double> assign_poses(Sequence& sequence, const Layout& layout) {
+    std::vector<double> times = times_of(layout);
+    if (!layout.poses) return times;
+    Match match = match_poses(layout, read_poses(*layout.poses), times);
+    sequence.T_world_sensor = std::move(match.poses);
+    sequence.notes.push_back(match.note);
+    if (layout.calib) from_camera_poses(sequence, *layout.calib);
+    return match.stamps;
+}
+
+void assign_stamps(Sequence& sequence, std::vector<double> stamps) {
+    const bool constant =
+        stamps.size() > 1 &&
+        std::adjacent_find(stamps.begin(), stamps.end(), std::not_equal_to<>()) == stamps.end();
+    sequence.measured_stamps = !stamps.empty() && !constant;
+    sequence.stamps = std::move(stamps);
+    if (sequence.measured_stamps) {
+        const auto back = std::is_sorted_until(sequence.stamps.begin(), sequence.stamps.end());
+        if (back == sequence.stamps.end()) return;
+        const auto i = static_cast<std::size_t>(back - sequence.stamps.begin());
+        throw InputError(sequence.scan_files[i], "", "its time is before that of the scan before");
+    }
+    sequence.notes.push_back(constant ? "all stamps are equal; 10 Hz assumed"
+                                      : "no stamps found; 10 Hz assumed");
+    sequence.stamps.resize(sequence.size());
+    for (std::size_t i = 0; i < sequence.size(); ++i) {
+        sequence.stamps[i] = static_cast<double>(i) * assumed_period;
+    }
+}
+
+template <typename T>
+void keep(std::vector<T>& values, std::size_t first, std::size_t last, std::size_t stride) {
+    std::vector<T> kept;
+    for (std::size_t i = first; i < values.size() && i <= last; i += stride) {
+        kept.push_back(values[i]);
+        if (stride > values.size()) break;  // i + stride may overflow
+    }
+    values = std::move(kept);
+}
+
+void select(Sequence& sequence, const OpenOptions& options) {
+    if (options.first >= sequence.size()) {
+        throw ConfigError(fmt::format("--first {} is beyond the last of {} scans (index {})",
+                                      options.first, sequence.size(), sequence.size() - 1));
+    }
+    const std::size_t last = options.last.value_or(sequence.size() - 1);
+    keep(sequence.scan_files, options.first, last, options.stride);
+    keep(sequence.label_files, options.first, last, options.stride);
+    keep(sequence.T_world_sensor, options.first, last, options.stride);
+    keep(sequence.stamps, options.first, last, options.stride);
+}
+
+}  // namespace
+
+std::string to_string(Format format) {
+    switch (format) {
+        case Format::kitti:
+            return "kitti";
+        case Format::benchmark:
+            return "benchmark";
+        case Format::folder:
+            return "folder";
+    }
+    return "?";
+}
+
+Sequence open_sequence(const std::filesystem::path& data, const OpenOptions& options) {
+    check_selection(options);
+    const Layout layout = find_layout(data, options);
+    Sequence sequence;
+    sequence.format = layout.format;
+    sequence.root = data;
+    sequence.scan_files = layout.scans;
+    sequence.notes = layout.notes;
+    sequence.label_files = find_labels(layout);
+    assign_stamps(sequence, assign_poses(sequence, layout));
+    if (layout.format == Format::benchmark && !layout.poses) require_viewpoints(sequence);
+    select(sequence, options);
+    if (layout.format == Format::benchmark) find_intensity_truth(sequence, layout);
+    return sequence;
+}
+
+std::string stem(const Sequence& sequence, std::size_t i) {
+    return sequence.scan_files.at(i).stem().string();
+}
+
+}  // namespace dynamic_filter::io

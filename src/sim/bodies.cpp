@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#include "bodies.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "portable.hpp"
+#include "prototypes.hpp"
+#include "random.hpp"
+
+namespace dynamic_filter::sim {
+namespace {
+
+using Eigen::Affine3d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+std::size_t index_of(Prototype prototype) { return static_cast<std::size_t>(prototype); }
+
+/// Frame at a place in the ground plane that looks along `heading`.
+Affine3d standing_at(const Vector2d& p, double z, const Vector2d& heading) {
+    Affine3d T = Affine3d::Identity();
+    T.linear() << heading.x(), -heading.y(), 0.0,  //
+        heading.y(), heading.x(), 0.0,             //
+        0.0, 0.0, 1.0;
+    T.translation() = Vector3d(p.x(), p.y(), z);
+    return T;
+}
+
+Affine3d joint(const Vector3d& at, double angle) {
+    const SinCos a = portable_sincos(angle);
+    Affine3d T = Affine3d::Identity();
+    T.linear() << a.cos, 0.0, a.sin, 0.0, 1.0, 0.0, -a.sin, 0.0, a.cos;  // about y
+    T.translation() = at;
+    return T;
+}
+
+/// A limb that hangs along -z in its own frame, put from `from` towards `to` in the x-z plane.
+Affine3d pointing(const Vector3d& from, const Vector3d& to) {
+    const Vector3d d = (to - from).normalized();
+    Affine3d T = Affine3d::Identity();
+    T.linear() << -d.z(), 0.0, -d.x(), 0.0, 1.0, 0.0, d.x(), 0.0, -d.z();
+    T.translation() = from;
+    return T;
+}
+
+/// Legs of a cyclist from the crank's angle; the knees by the law of cosines.
+void place_pedalling(const Affine3d& T, double crank, Placements& out) {
+    for (const double side : {1.0, -1.0}) {
+        const SinCos a = portable_sincos(crank + (side > 0.0 ? 0.0 : std::numbers::pi));
+        const Vector3d hip(-0.15, 0.1 * side, 0.97);
+        const Vector3d pedal(-0.05 + 0.17 * a.sin, 0.1 * side, 0.36 + 0.17 * a.cos);
+        const Vector3d d = pedal - hip;
+        const double reach = std::min(d.norm(), 0.999 * (thigh_length + shin_length));
+        const double along =
+            (reach * reach + thigh_length * thigh_length - shin_length * shin_length) /
+            (2.0 * reach);
+        const double bend = std::sqrt(std::max(0.0, thigh_length * thigh_length - along * along));
+        const Vector3d axis = d.normalized();
+        const Vector3d knee = hip + along * axis + bend * Vector3d(-axis.z(), 0.0, axis.x());
+        out.emplace_back((T * pointing(hip, knee)).cast<float>());
+        out.emplace_back((T * pointing(knee, pedal)).cast<float>());
+    }
+}
+
+}  // namespace
+
+Vector2d half_footprint(VehicleKind kind) {
+    switch (kind) {
+        case VehicleKind::car:
+            return {2.15, 0.9};
+        case VehicleKind::van:
+            return {2.7, 1.0};
+        case VehicleKind::bus:
+            return {6.0, 1.25};
+        case VehicleKind::cyclist:
+            break;
+    }
+    return {0.85, 0.3};
+}
+
+std::vector<Part> walker_parts(std::size_t index) {
+    const auto shade = [&](std::uint64_t use) {
+        return static_cast<float>(0.5 + 0.9 * unit(hash(0xc107, index, use)));
+    };
+    const bool pack = unit(hash(0xba6, index)) < 0.3;
+    const std::size_t torso = index_of(pack ? Prototype::torso_with_pack : Prototype::torso);
+    const std::size_t leg = index_of(Prototype::leg), arm = index_of(Prototype::arm);
+    return {{torso, shade(0)}, {leg, shade(1)}, {leg, shade(1)}, {arm, shade(0)}, {arm, shade(0)}};
+}
+
+std::vector<Part> vehicle_parts(const Vehicle& vehicle) {
+    const float b = vehicle.brightness;
+    switch (vehicle.kind) {
+        case VehicleKind::car:
+            return {{index_of(Prototype::car), b}};
+        case VehicleKind::van:
+            return {{index_of(Prototype::van), b}};
+        case VehicleKind::bus:
+            return {{index_of(Prototype::bus), b}};
+        case VehicleKind::cyclist:
+            break;
+    }
+    const std::size_t thigh = index_of(Prototype::thigh), shin = index_of(Prototype::shin);
+    return {{index_of(Prototype::bicycle), b}, {thigh, b}, {shin, b}, {thigh, b}, {shin, b}};
+}
+
+void place_walker(const Walker& walker, const Stride& stride, double ground, Placements& out) {
+    const double tall = walker.height / 1.75;
+    const double hip = leg_length * 1.75;
+    const double step =
+        static_cast<double>(stride.swing) * portable_sincos(static_cast<double>(stride.phase)).sin;
+    // legs apart do not reach as far down: the hips sink, so that the soles stay on the ground
+    const double sink = hip * (1.0 - portable_sincos(step).cos);
+    const Affine3d T = standing_at(stride.position.cast<double>(), ground - tall * sink,
+                                   stride.heading.cast<double>()) *
+                       Eigen::Scaling(tall);
+    out.emplace_back(T.cast<float>());
+    out.emplace_back((T * joint({0.0, 0.09, hip}, -step)).cast<float>());
+    out.emplace_back((T * joint({0.0, -0.09, hip}, step)).cast<float>());
+    out.emplace_back((T * joint({0.0, 0.23, 1.40}, 0.9 * step)).cast<float>());
+    out.emplace_back((T * joint({0.0, -0.23, 1.40}, -0.9 * step)).cast<float>());
+}
+
+void place_vehicle(const Vehicle& vehicle, double t, Placements& out) {
+    const double s = travelled(vehicle.ride, t);
+    const PathPoint p = at(vehicle.ride.path, s);
+    const Affine3d T = standing_at(p.position, 0.0, p.direction);
+    out.emplace_back(T.cast<float>());
+    constexpr double metres_per_turn = 5.0;
+    if (vehicle.kind == VehicleKind::cyclist) {
+        place_pedalling(T, 2.0 * std::numbers::pi * s / metres_per_turn, out);
+    }
+}
+
+void add_movers(const Vehicle& vehicle, double t, std::vector<Mover>& out) {
+    const Vector2d half = half_footprint(vehicle.kind);
+    const double s = travelled(vehicle.ride, t);
+    const double speed = (travelled(vehicle.ride, t + 0.05) - s) / 0.05;
+    const PathPoint p = at(vehicle.ride.path, s);
+    const double room = half.x() - half.y();
+    const int discs = std::max(1, static_cast<int>(std::ceil(2.0 * room / half.y())));
+    for (int i = 0; i <= discs; ++i) {
+        const double along = -room + 2.0 * room * i / discs;
+        out.push_back({p.position + along * p.direction, speed * p.direction, half.y()});
+    }
+}
+
+}  // namespace dynamic_filter::sim

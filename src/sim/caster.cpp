@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "caster.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+namespace dynamic_filter::sim {
+namespace {
+
+void attach_mesh(RTCDevice device, RTCScene scene, const Mesh& mesh) {
+    const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    static_assert(sizeof(Eigen::Vector3f) == 12 && sizeof(Eigen::Vector3i) == 12);
+    void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                             12, mesh.vertices.size());
+    std::memcpy(vertices, mesh.vertices.front().data(), 12 * mesh.vertices.size());
+    void* triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                              12, mesh.triangles.size());
+    std::memcpy(triangles, mesh.triangles.front().data(), 12 * mesh.triangles.size());
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene, geometry);
+    rtcReleaseGeometry(geometry);
+}
+
+RTCScene new_scene(RTCDevice device) {
+    const RTCScene scene = rtcNewScene(device);
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    return scene;
+}
+
+}  // namespace
+
+Caster::Caster(const Mesh& still, std::vector<Mesh> prototypes, std::vector<Part> parts)
+    : still_reflectivity_(still.reflectivity),
+      prototypes_(std::move(prototypes)),
+      parts_(std::move(parts)),
+      normal_to_world_(parts_.size(), Eigen::Matrix3f::Identity()),
+      device_(rtcNewDevice(nullptr)),
+      scene_(new_scene(device_)) {
+    attach_mesh(device_, scene_, still);  // gets id 0; the parts follow as 1, 2, ...
+    for (const Mesh& mesh : prototypes_) {
+        prototype_scenes_.push_back(new_scene(device_));
+        attach_mesh(device_, prototype_scenes_.back(), mesh);
+        rtcCommitScene(prototype_scenes_.back());
+    }
+    for (const Part& part : parts_) {
+        const RTCGeometry instance = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
+        rtcSetGeometryInstancedScene(instance, prototype_scenes_[part.prototype]);
+        rtcCommitGeometry(instance);
+        rtcAttachGeometry(scene_, instance);
+        rtcReleaseGeometry(instance);
+    }
+    rtcCommitScene(scene_);
+}
+
+Caster::~Caster() {
+    rtcReleaseScene(scene_);
+    for (const RTCScene scene : prototype_scenes_) rtcReleaseScene(scene);
+    rtcReleaseDevice(device_);
+}
+
+void Caster::place(const std::vector<Eigen::Affine3f>& T_world_part) {
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+        const Eigen::Affine3f& T = T_world_part[i];
+        normal_to_world_[i] = T.linear().inverse().transpose();
+        const RTCGeometry instance = rtcGetGeometry(scene_, static_cast<unsigned>(i + 1));
+        rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, T.matrix().data());
+        rtcCommitGeometry(instance);
+    }
+    rtcCommitScene(scene_);
+}
+
+Hit Caster::cast(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
+                 float reach) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRayHit query{};
+    query.ray.org_x = origin.x();
+    query.ray.org_y = origin.y();
+    query.ray.org_z = origin.z();
+    query.ray.dir_x = direction.x();
+    query.ray.dir_y = direction.y();
+    query.ray.dir_z = direction.z();
+    query.ray.tfar = reach;
+    query.ray.mask = std::numeric_limits<unsigned>::max();
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(scene_, &context, &query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+
+    Hit hit{.range = query.ray.tfar, .found = true};
+    Eigen::Vector3f normal(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
+    if (query.hit.instID[0] == RTC_INVALID_GEOMETRY_ID) {
+        hit.reflectivity = still_reflectivity_[query.hit.primID];
+    } else {
+        const std::size_t i = query.hit.instID[0] - 1;
+        normal = normal_to_world_[i] * normal;
+        hit.reflectivity =
+            prototypes_[parts_[i].prototype].reflectivity[query.hit.primID] * parts_[i].brightness;
+        hit.dynamic = true;
+    }
+    hit.cosine = std::abs(normal.normalized().dot(direction));
+    return hit;
+}
+
+}  // namespace dynamic_filter::sim

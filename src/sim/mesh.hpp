@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+/// Triangle meshes and the few shapes that all bodies and buildings are made of.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <vector>
+
+namespace dynamic_filter::sim {
+
+struct Mesh {
+    std::vector<Eigen::Vector3f> vertices;
+    std::vector<Eigen::Vector3i> triangles;
+    std::vector<float> reflectivity;  ///< 0..1, one per triangle
+};
+
+/// Radius at a height: the outline of a body of revolution.
+struct Outline {
+    double radius = 0.0;
+    double z = 0.0;
+};
+
+void append(Mesh& mesh, const Mesh& other, const Eigen::Affine3d& T);
+
+/// A rectangle spanned by `u` and `v` from `corner`.
+void add_quad(Mesh& mesh, const Eigen::Vector3d& corner, const Eigen::Vector3d& u,
+              const Eigen::Vector3d& v, float reflectivity);
+
+/// An axis-aligned box in the frame `T`.
+void add_box(Mesh& mesh, const Eigen::Affine3d& T, const Eigen::AlignedBox3d& box,
+             float reflectivity);
+
+/// A body of revolution around z in the frame `T` (scale in `T` makes it elliptic); ends closed.
+void add_lathe(Mesh& mesh, const Eigen::Affine3d& T, const std::vector<Outline>& outline, int sides,
+               float reflectivity);
+
+/// A round bar from `a` to `b` with hemispherical ends.
+void add_capsule(Mesh& mesh, const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius,
+                 float reflectivity);
+
+/// A convex polygon in the x-z plane (counter-clockwise seen from -y), extruded over
+/// y in [-half_width, half_width].
+void add_prism(Mesh& mesh, const Eigen::Affine3d& T, const std::vector<Eigen::Vector2d>& polygon,
+               double half_width, float reflectivity);
+
+struct Crown {
+    Eigen::Vector3d centre;
+    Eigen::Vector3d radii;
+    int leaves = 0;
+    double leaf_size = 0.1;  ///< [m] edge length
+    std::uint64_t seed = 0;
+};
+
+/// Loose triangles in an ellipsoid, denser towards its hull, so that some rays pass through.
+void add_leaves(Mesh& mesh, const Crown& crown, float reflectivity);
+
+}  // namespace dynamic_filter::sim

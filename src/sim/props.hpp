@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+/// Street furniture and house fronts. Each adds its mesh to the scene and, where people could bump
+/// into it, its obstacle.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "scene.hpp"
+
+namespace dynamic_filter::sim {
+
+/// A frame in the ground plane: where a thing stands and which way its x axis looks.
+struct Spot {
+    Eigen::Vector2d at = Eigen::Vector2d::Zero();
+    Eigen::Vector2d axis = Eigen::Vector2d::UnitX();
+    double z = 0.0;
+};
+
+/// first, first + step, ... below `end`: where the things of a row stand.
+std::vector<double> row(double first, double end, double step);
+
+void add_ground(Scene& scene, const Eigen::AlignedBox2d& area, double z, float reflectivity);
+
+/// A box that stands on the spot, `size` = length along the axis, width, height.
+void add_block(Scene& scene, const Spot& spot, const Eigen::Vector3d& size, float reflectivity);
+
+void add_column(Scene& scene, const Spot& spot, double radius, double height);
+void add_bench(Scene& scene, const Spot& spot);
+void add_planter(Scene& scene, const Spot& spot, std::uint64_t seed);
+void add_sign(Scene& scene, const Spot& spot);
+/// Posts and a bar along the axis.
+void add_railing(Scene& scene, const Spot& spot, double length);
+void add_bin(Scene& scene, const Spot& spot);
+void add_lamp(Scene& scene, const Spot& spot, double height);
+void add_tree(Scene& scene, const Spot& spot, double height, std::uint64_t seed);
+void add_parked_car(Scene& scene, const Spot& spot, float brightness);
+
+enum class Bay { wall, recess, shop, door };
+
+struct Facade {
+    Spot spot;  ///< left end of the front seen from the street; x along the front, y into the house
+    std::vector<Bay> bays;
+    double bay_width = 4.0;
+    double ground_floor = 3.4;  ///< [m] its height
+    int upper_floors = 2;
+    double room_depth = 2.5;  ///< of shops and behind doors
+    std::uint64_t seed = 0;   ///< decides how the rooms are furnished
+};
+
+/// Windows have reveals and sills, shops are open to the eye but not to the foot, doors to both.
+void add_facade(Scene& scene, const Facade& facade);
+
+/// Middle of the doorway of a bay, and a place in the room behind it.
+Eigen::Vector2d doorway(const Facade& facade, std::size_t bay);
+Eigen::Vector2d behind_door(const Facade& facade, std::size_t bay);
+
+}  // namespace dynamic_filter::sim

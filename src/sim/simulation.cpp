@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#include "dynamic_filter/sim/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "dynamic_filter/error.hpp"
+#include "lidar.hpp"
+#include "portable.hpp"
+#include "prototypes.hpp"
+#include "random.hpp"
+#include "scene.hpp"
+
+namespace dynamic_filter::sim {
+namespace {
+
+constexpr int most_pedestrians = 1000;
+
+template <typename Entry>
+std::vector<std::string> names(const std::vector<Entry>& table) {
+    std::vector<std::string> out;
+    out.reserve(table.size());
+    for (const Entry& entry : table) out.push_back(entry.name);
+    return out;
+}
+
+template <typename Entry>
+const Entry& find(const std::vector<Entry>& table, const std::string& what,
+                  const std::string& name) {
+    const auto found =
+        std::find_if(table.begin(), table.end(), [&](const Entry& e) { return e.name == name; });
+    if (found != table.end()) return *found;
+    std::string choices;
+    for (const Entry& entry : table) choices += (choices.empty() ? "" : ", ") + entry.name;
+    throw ConfigError("unknown " + what + " \"" + name + "\": choose one of " + choices);
+}
+
+void check(const SimulationOptions& options) {
+    if (options.pedestrians < -1 || options.pedestrians > most_pedestrians) {
+        throw ConfigError("pedestrians is " + std::to_string(options.pedestrians) +
+                          ": expected 0 to " + std::to_string(most_pedestrians) +
+                          ", or -1 for the scene's own number");
+    }
+    const auto reject_unless_positive = [](const char* name, double value) {
+        if (!std::isfinite(value) || value < 0.0) {
+            throw ConfigError(std::string(name) + " is " + std::to_string(value) +
+                              ": expected a finite number of at least 0");
+        }
+    };
+    reject_unless_positive("rate_hz", options.rate_hz);
+    reject_unless_positive("pose_noise_m", options.pose_noise_m);
+    reject_unless_positive("pose_noise_deg", options.pose_noise_deg);
+}
+
+std::vector<Part> all_parts(const Scene& scene) {
+    std::vector<Part> parts;
+    const auto add = [&](const std::vector<Part>& more) {
+        parts.insert(parts.end(), more.begin(), more.end());
+    };
+    for (std::size_t i = 0; i < scene.walkers.size(); ++i) add(walker_parts(i));
+    for (const Vehicle& vehicle : scene.vehicles) add(vehicle_parts(vehicle));
+    return parts;
+}
+
+Crowd simulated_crowd(const Scene& scene, double duration) {
+    if (scene.walkers.empty()) return {};
+    const auto movers = [&scene](double t) {
+        std::vector<Mover> out;
+        const PathPoint p = at(scene.robot.path, travelled(scene.robot, t));
+        out.push_back({p.position, scene.robot.speed * p.direction, scene.robot_radius});
+        for (const Vehicle& vehicle : scene.vehicles) add_movers(vehicle, t, out);
+        return out;
+    };
+    const CrowdPlan plan{.walkers = scene.walkers,
+                         .field = distance_field(scene.obstacles, scene.low, scene.high),
+                         .movers = movers};
+    return simulate_crowd(plan, duration);
+}
+
+Pose rotated(const Pose& pose, const Eigen::Vector3d& rotation_vector) {
+    const double angle = rotation_vector.norm();
+    Pose out = pose;
+    if (angle > 0.0)
+        out.linear() =
+            pose.linear() * Eigen::AngleAxisd(angle, rotation_vector / angle).toRotationMatrix();
+    return out;
+}
+
+Pose true_pose(const Scene& scene, double t) {
+    const PathPoint p = at(scene.robot.path, travelled(scene.robot, t));
+    Pose pose = Pose::Identity();
+    pose.linear() << p.direction.x(), -p.direction.y(), 0.0, p.direction.y(), p.direction.x(), 0.0,
+        0.0, 0.0, 1.0;
+    pose.translation() = Eigen::Vector3d(p.position.x(), p.position.y(), scene.sensor_height);
+    // wheels on paving: a few tenths of a degree of roll and pitch
+    constexpr double sway = 0.2 * std::numbers::pi / 180.0;
+    return rotated(pose, {sway * portable_sincos(2.1 * t).sin,
+                          sway * portable_sincos(1.3 * t + 1.0).sin, 0.0});
+}
+
+Pose noisy_pose(const Pose& pose, const SimulationOptions& options, std::size_t scan) {
+    constexpr double degree = std::numbers::pi / 180.0;
+    Eigen::Matrix<double, 6, 1> draws;
+    for (int k = 0; k < 6; ++k) {
+        draws[k] = normal(hash(hash(options.seed, 0x905e), scan, static_cast<std::uint64_t>(k)));
+    }
+    Pose out = rotated(pose, options.pose_noise_deg * degree * draws.tail<3>());
+    out.translation() += options.pose_noise_m * draws.head<3>();
+    return out;
+}
+
+}  // namespace
+
+struct Simulation::World {
+    SimulationOptions options;
+    const Sensor& sensor;
+    Scene scene;
+    Caster caster;
+    double rate_hz = 1.0;
+    std::size_t scans = 0;
+    Crowd crowd;
+
+    [[nodiscard]] Placements placements(double t) const {
+        Placements out;
+        for (std::size_t i = 0; i < scene.walkers.size(); ++i) {
+            const Stride stride = stride_at(crowd, i, t);
+            const double ground = scene.ground ? scene.ground(stride.position.cast<double>()) : 0.0;
+            place_walker(scene.walkers[i], stride, ground, out);
+        }
+        for (const Vehicle& vehicle : scene.vehicles) place_vehicle(vehicle, t, out);
+        return out;
+    }
+};
+
+std::vector<std::string> scene_names() { return names(scene_table()); }
+std::vector<std::string> sensor_names() { return names(sensor_table()); }
+
+Simulation::Simulation(const SimulationOptions& options) {
+    check(options);
+    const SceneEntry& entry = find(scene_table(), "scene", options.scene);
+    const Sensor& sensor = find(sensor_table(), "sensor", options.sensor);
+    Scene scene =
+        entry.make(options.pedestrians < 0 ? entry.pedestrians : options.pedestrians, options.seed);
+    const double rate = options.rate_hz > 0.0 ? options.rate_hz : entry.rate_hz;
+    const auto full = static_cast<std::size_t>(scene.duration * rate + 1e-6);
+    const std::size_t scans = std::min(full, options.frames.value_or(full));
+    Crowd crowd = simulated_crowd(scene, static_cast<double>(scans) / rate);
+    // the mesh of the still parts is large: kept by the caster only
+    world_.reset(new World{options, sensor, scene,
+                           Caster(scene.still, prototypes(), all_parts(scene)), rate, scans,
+                           std::move(crowd)});
+    world_->scene.still = {};
+}
+
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+
+std::size_t Simulation::size() const { return world_->scans; }
+
+SimulatedScan Simulation::scan(std::size_t i) {
+    const double t = static_cast<double>(i) / world_->rate_hz;
+    world_->caster.place(world_->placements(t));
+    const Pose pose = true_pose(world_->scene, t);
+    Returns returns = sense(world_->caster, world_->sensor, pose, world_->options.seed, i);
+    return {.points = std::move(returns.points),
+            .intensity = std::move(returns.intensity),
+            .labels = std::move(returns.labels),
+            .T_world_sensor = Eigen::Translation3d(0.0, 0.0, world_->scene.floor) *
+                              noisy_pose(pose, world_->options, i),
+            .stamp = t};
+}
+
+}  // namespace dynamic_filter::sim

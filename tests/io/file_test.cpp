@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "dynamic_filter/io/file.hpp"
+
+#include <sys/stat.h>
+
+#include "io/support.hpp"
+
+namespace dynamic_filter::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::ptrdiff_t count_files(const TemporaryFolder& folder) {
+    return std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator());
+}
+
+TEST(File, ReadsWhatWasWritten) {
+    const TemporaryFolder folder;
+    const std::string bytes("a\0b\n", 4);
+    write_file(folder / "f", bytes);
+    EXPECT_EQ(read_file(folder / "f"), bytes);
+    write_file(folder / "f", "");
+    EXPECT_EQ(read_file(folder / "f"), "");
+    EXPECT_EQ(count_files(folder), 1);
+}
+
+TEST(File, RefusesWhatIsNoRegularFile) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+    fs::create_symlink(folder / "loop", folder / "loop");
+    EXPECT_HAS(error_of([&] { read_file(folder.path()); }), "folder");
+    EXPECT_HAS(error_of([&] { read_file(folder / "pipe"); }), "pipe");
+    EXPECT_HAS(error_of([] { read_file("/dev/zero"); }), "device");
+    EXPECT_HAS(error_of([&] { read_file(folder / "none"); }), "No such file");
+    EXPECT_HAS(error_of([&] { read_file(folder / "loop"); }), "cannot be opened");
+}
+
+TEST(File, NothingIsLeftWithoutCommit) {
+    const TemporaryFolder folder;
+    folder.put("f", "old");
+    {
+        AtomicFile file(folder / "f");
+        file.write("new");
+        AtomicFile moved(std::move(file));
+        moved.write(std::string(3U << 20U, 'x'));
+        EXPECT_EQ(count_files(folder), 2);
+    }
+    EXPECT_EQ(count_files(folder), 1);
+    EXPECT_EQ(slurp(folder / "f"), "old");
+}
+
+TEST(File, RewritesBufferedAndFlushedBytes) {
+    const TemporaryFolder folder;
+    AtomicFile file(folder / "f");
+    const std::string much(3U << 20U, 'x');
+    file.write("0123");
+    file.rewrite(1, "ab");
+    file.write(much);
+    file.write("tail");
+    file.rewrite(much.size() + 2, "cdef");
+    error_of<OutputError>([&] { file.rewrite(much.size() + 6, "ghi"); });
+    file.commit();
+    std::string expected = "0ab3" + much + "tail";
+    expected.replace(much.size() + 2, 4, "cdef");
+    EXPECT_TRUE(slurp(folder / "f") == expected);
+    EXPECT_EQ(count_files(folder), 1);
+}
+
+TEST(File, SaysWhyItCannotWrite) {
+    const TemporaryFolder folder;
+    folder.put("f", "");
+    EXPECT_HAS(error_of<OutputError>([] { AtomicFile file("/proc/none/f"); }), "No such file");
+    EXPECT_HAS(error_of<OutputError>([&] { AtomicFile file(folder / "f/g"); }), "Not a directory");
+    EXPECT_HAS(error_of<OutputError>([&] { AtomicFile file(folder.path()); }), "folder");
+    EXPECT_HAS(error_of<OutputError>([] { AtomicFile file("/dev/full"); }), "device");
+}
+
+}  // namespace
+}  // namespace dynamic_filter::io

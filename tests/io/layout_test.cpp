@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "io/layout.hpp"
+
+#include "io/recording.hpp"
+
+namespace dynamic_filter::io {
+namespace {
+
+using LayoutTest = Recording;
+
+TEST_F(LayoutTest, NothingThere) {
+    EXPECT_HAS(error_of([&] { (void)open_sequence(data / "none"); }), "does not exist");
+    EXPECT_HAS(error_of([&] { (void)open_sequence(data.put("a.bag", "")); }), "is a file");
+    EXPECT_HAS(open_error(), "holds no scans");
+    std::filesystem::create_directories(data / "velodyne");
+    EXPECT_HAS(open_error(), "no *.bin");
+}
+
+TEST_F(LayoutTest, TheScanFolderByMistake) {
+    put_bins("velodyne", 2);
+    data.put("poses.txt", kitti_rows(2));
+    EXPECT_HAS(error_of([&] { (void)open_sequence(data / "velodyne/"); }), "folder above");
+    OpenOptions options;
+    options.format = Format::folder;
+    EXPECT_EQ(open_sequence(data / "velodyne", options).size(), 2U);
+}
+
+TEST_F(LayoutTest, PosesAreLookedForAndNamed) {
+    put_bins("scans", 2);
+    const std::string error = open_error();
+    EXPECT_HAS(error, "optimized_poses.txt");
+    EXPECT_HAS(error, "--poses");
+    OpenOptions options;
+    options.poses = data.put("elsewhere/p.txt", kitti_rows(2));
+    EXPECT_EQ(open(options).size(), 2U);
+    options.poses = data / "none.txt";
+    EXPECT_HAS(open_error(options), "none.txt");
+    data.put("optimized_poses.txt", kitti_rows(2));
+    EXPECT_TRUE(has_note(open(), "optimized_poses.txt"));
+    EXPECT_EQ(open_sequence(data / "scans").size(), 2U);
+}
+
+TEST_F(LayoutTest, OneKindOfScans) {
+    put_bins(".", 2);
+    data.put("poses.txt", kitti_rows(2));
+    data.put(".hidden.pcd", "");
+    EXPECT_EQ(open().size(), 2U);
+    data.put("map.pcd", "");
+    EXPECT_HAS(open_error(), "mixes");
+}
+
+TEST_F(LayoutTest, SeveralTumFilesAreAmbiguous) {
+    put_bins(".", 1);
+    data.put("a.tum", tum_rows(1));
+    data.put("b.tum", tum_rows(1));
+    EXPECT_HAS(open_error(), "2 .tum files");
+}
+
+TEST_F(LayoutTest, LabelsForEachScan) {
+    put_bins("velodyne", 3);
+    data.put("poses.txt", kitti_rows(3));
+    std::filesystem::create_directories(data / "labels");
+    EXPECT_HAS(open_error(), "no label for any scan");
+    put_labels(2);
+    EXPECT_HAS(open_error(), "000002.bin");
+    put_labels(3);
+    EXPECT_TRUE(open().has_truth());
+    put_labels(4);
+    EXPECT_HAS(open_error(), "000003.label");
+}
+
+}  // namespace
+}  // namespace dynamic_filter::io

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "io/matching.hpp"
+
+#include "io/recording.hpp"
+
+namespace dynamic_filter::io {
+namespace {
+
+using MatchingTest = Recording;
+
+TEST_F(MatchingTest, CountsThatDiffer) {
+    put_bins("velodyne", 3);
+    data.put("poses.txt", kitti_rows(4));
+    const std::string error = open_error();
+    EXPECT_HAS(error, "3 scans");
+    EXPECT_HAS(error, "4 poses");
+    EXPECT_HAS(error, "velodyne");
+    EXPECT_HAS(error, "--stride");
+    data.put("poses.txt", tum_rows(4));  // indices in file names are no times
+    EXPECT_HAS(open_error(), "4 poses");
+}
+
+TEST_F(MatchingTest, TimesInFileNames) {
+    for (const char* name : {"100.21.bin", "100.58.bin"}) {
+        data.put(std::string("scans/") + name, floats({1, 2, 3, 4}));
+    }
+    data.put("traj.txt", tum_rows(5, 100.0));
+    Sequence sequence = open();
+    EXPECT_EQ(sequence.T_world_sensor[0].translation().x(), 1.0);
+    EXPECT_EQ(sequence.T_world_sensor[1].translation().x(), 3.0);
+    EXPECT_DOUBLE_EQ(sequence.stamps[1], 100.58);
+    EXPECT_TRUE(has_note(sequence, "by time (file names)"));
+    data.put("traj.txt", tum_rows(3, 100.0));
+    EXPECT_HAS(open_error(), "100.58.bin");
+}
+
+TEST_F(MatchingTest, NanosecondsInFileNames) {
+    for (const char* name : {"1500000000200000000.bin", "1500000000600000000.bin"}) {
+        data.put(std::string("scans/") + name, floats({1, 2, 3, 4}));
+    }
+    data.put("traj.txt", tum_rows(5, 1.5e9));
+    EXPECT_EQ(open().T_world_sensor[1].translation().x(), 3.0);
+}
+
+TEST_F(MatchingTest, TimesFile) {
+    put_bins("scans", 2);
+    data.put("times.txt", "0.2\n0.8\n");
+    data.put("traj.txt", tum_rows(5));
+    const Sequence sequence = open();
+    EXPECT_EQ(sequence.T_world_sensor[1].translation().x(), 4.0);
+    EXPECT_TRUE(has_note(sequence, "times.txt"));
+}
+
+}  // namespace
+}  // namespace dynamic_filter::io

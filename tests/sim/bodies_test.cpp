@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "sim/bodies.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "sim/prototypes.hpp"
+
+using namespace dynamic_filter::sim;
+
+namespace {
+
+float lowest(const std::vector<Part>& parts, const Placements& placements) {
+    const auto meshes = prototypes();
+    float z = 1e9F;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        for (const auto& v : meshes[parts[i].prototype].vertices)
+            z = std::min(z, (placements[i] * v).z());
+    }
+    return z;
+}
+
+}  // namespace
+
+TEST(Bodies, FeetStayOnTheGroundThroughTheGait) {
+    for (const double height : {1.1, 1.75, 1.95}) {
+        Walker walker;
+        walker.height = height;
+        for (float phase = 0.0F; phase < 6.3F; phase += 0.3F) {
+            Stride stride;
+            stride.phase = phase;
+            stride.swing = 0.45F;
+            Placements placements;
+            place_walker(walker, stride, 0.15, placements);
+            const auto parts = walker_parts(3);
+            ASSERT_EQ(parts.size(), placements.size());
+            EXPECT_NEAR(lowest(parts, placements), 0.15F, 0.09F);
+        }
+    }
+}
+
+TEST(Bodies, LegsSwingApartAndRestTogether) {
+    Stride stride;
+    stride.swing = 0.4F;
+    stride.phase = 1.57F;
+    Placements walking, standing;
+    place_walker({}, stride, 0.0, walking);
+    stride.swing = 0.0F;
+    place_walker({}, stride, 0.0, standing);
+    const Eigen::Vector3f foot(0, 0, -0.85F);
+    EXPECT_GT(std::abs((walking[1] * foot - walking[2] * foot).x()), 0.5F);
+    EXPECT_NEAR((standing[1] * foot - standing[2] * foot).x(), 0.0F, 1e-5F);
+}
+
+TEST(Bodies, CyclistsFeetTurnWithThePedals) {
+    const Vehicle cyclist{
+        .kind = VehicleKind::cyclist,
+        .ride = {.path = smooth_path({{0, 0}, {50, 0}, {100, 0}}, false), .speed = 4.0}};
+    for (double t = 0.0; t < 3.0; t += 0.1) {
+        Placements placements;
+        place_vehicle(cyclist, t, placements);
+        ASSERT_EQ(placements.size(), vehicle_parts(cyclist).size());
+        const Eigen::Vector3f knee =
+            placements[1] * Eigen::Vector3f(0, 0, -static_cast<float>(thigh_length));
+        EXPECT_NEAR((knee - placements[2].translation()).norm(), 0.0F, 1e-3F);
+        const Eigen::Vector3f foot =
+            placements[2] * Eigen::Vector3f(0, 0, -static_cast<float>(shin_length));
+        EXPECT_GT(foot.z(), 0.1F);
+        EXPECT_LT(foot.z(), 0.6F);
+    }
+}
+
+TEST(Bodies, MoversCoverTheVehicle) {
+    const Vehicle bus{
+        .kind = VehicleKind::bus,
+        .ride = {
+            .path = smooth_path({{0, 0}, {50, 0}, {100, 0}}, false), .start = 20.0, .speed = 7.0}};
+    std::vector<Mover> movers;
+    add_movers(bus, 0.0, movers);
+    for (double x = 14.2; x < 25.8; x += 0.1) {
+        const bool covered = std::any_of(movers.begin(), movers.end(), [&](const Mover& m) {
+            return (m.centre - Eigen::Vector2d(x, 0.0)).norm() < m.radius;
+        });
+        EXPECT_TRUE(covered) << x;
+    }
+    EXPECT_NEAR(movers[0].velocity.x(), 7.0, 1e-6);
+}

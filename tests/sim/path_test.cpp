@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include "sim/path.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+using namespace dynamic_filter::sim;
+using Eigen::Vector2d;
+
+TEST(Path, StadiumHasItsLengthAndCloses) {
+    const Path path = stadium(10.0, 2.0, -5.0);
+    EXPECT_NEAR(path.lengths.back(), 40.0 + 4.0 * std::numbers::pi, 0.01);
+    EXPECT_NEAR((at(path, 0.0).position - Vector2d(-5, -2)).norm(), 0.0, 1e-9);
+    EXPECT_NEAR((at(path, 3.0).position - Vector2d(-2, -2)).norm(), 0.0, 1e-6);
+    EXPECT_NEAR((at(path, path.lengths.back()).position - Vector2d(-5, -2)).norm(), 0.0, 1e-9);
+}
+
+TEST(Path, HeadingTurnsSmoothly) {
+    for (const Path& path :
+         {stadium(10.0, 1.8, -5.0), smooth_path({{0, 0}, {10, 0}, {20, 8}, {20, 20}}, false)}) {
+        for (double s = 0.0; s + 0.1 < path.lengths.back(); s += 0.1) {
+            const PathPoint a = at(path, s), b = at(path, s + 0.1);
+            EXPECT_NEAR((b.position - a.position).norm(), 0.1, 0.002);
+            EXPECT_GT(a.direction.dot(b.direction), 0.99);
+            EXPECT_GT(a.direction.dot((b.position - a.position).normalized()), 0.99);
+        }
+    }
+}
+
+TEST(Path, OpenPathGoesOnStraightBeyondItsEnds) {
+    const Path path = smooth_path({{0, 0}, {10, 0}, {20, 0}}, false);
+    EXPECT_NEAR((at(path, -3.0).position - Vector2d(-3, 0)).norm(), 0.0, 1e-6);
+    EXPECT_NEAR((at(path, 23.0).position - Vector2d(23, 0)).norm(), 0.0, 1e-6);
+}
+
+TEST(Path, RideBrakesStandsAndGoesOn) {
+    const Ride ride{.path = {}, .start = 10.0, .speed = 6.0, .stop_at = 70.0, .stop_time = 10.0};
+    double before = travelled(ride, 0.0), speed = 6.0, standing = 0.0;
+    EXPECT_EQ(before, 10.0);
+    for (double t = 0.01; t < 40.0; t += 0.01) {
+        const double s = travelled(ride, t), v = (s - before) / 0.01;
+        EXPECT_GE(v, -1e-9);
+        EXPECT_LT(std::abs(v - speed) / 0.01, 1.6);
+        standing += v < 1e-6 ? 0.01 : 0.0;
+        before = s;
+        speed = v;
+    }
+    EXPECT_NEAR(standing, 10.0, 0.05);
+    EXPECT_NEAR(speed, 6.0, 1e-6);
+}

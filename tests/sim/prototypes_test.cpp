@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include "sim/prototypes.hpp"
+
+#include <gtest/gtest.h>
+
+using namespace dynamic_filter::sim;
+
+namespace {
+
+Eigen::AlignedBox3f bounds(const Mesh& mesh) {
+    Eigen::AlignedBox3f box;
+    for (const auto& v : mesh.vertices) box.extend(v);
+    return box;
+}
+
+}  // namespace
+
+TEST(Prototypes, OneMeshForEachValue) {
+    const auto all = prototypes();
+    ASSERT_EQ(all.size(), static_cast<std::size_t>(Prototype::bus) + 1);
+    for (const Mesh& mesh : all) {
+        EXPECT_FALSE(mesh.triangles.empty());
+        EXPECT_EQ(mesh.triangles.size(), mesh.reflectivity.size());
+        for (const float r : mesh.reflectivity) {
+            EXPECT_GT(r, 0.0F);
+            EXPECT_LE(r, 1.0F);
+        }
+    }
+}
+
+TEST(Prototypes, VehiclesStandOnTheGround) {
+    for (const auto& mesh : {car_mesh(), van_mesh(), bus_mesh()}) {
+        EXPECT_NEAR(bounds(mesh).min().z(), 0.0F, 0.02F);
+    }
+    EXPECT_NEAR(bounds(prototypes()[static_cast<std::size_t>(Prototype::bicycle)]).min().z(), 0.0F,
+                0.02F);
+    EXPECT_NEAR(bounds(car_mesh()).sizes().x(), 4.3F, 0.05F);
+    EXPECT_NEAR(bounds(bus_mesh()).sizes().x(), 12.0F, 0.05F);
+}
+
+TEST(Prototypes, PersonReaches175Centimetres) {
+    const auto all = prototypes();
+    EXPECT_NEAR(bounds(all[static_cast<std::size_t>(Prototype::torso)]).max().z(), 1.75F, 1e-4F);
+    EXPECT_NEAR(bounds(all[static_cast<std::size_t>(Prototype::leg)]).min().z(), -0.873F, 0.005F);
+}

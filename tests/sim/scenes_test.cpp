@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "sim/scene.hpp"
+
+using namespace dynamic_filter::sim;
+
+TEST(Scenes, NamesAreUniqueAndAllCanBeMade) {
+    std::set<std::string> names;
+    for (const SceneEntry& entry : scene_table()) {
+        EXPECT_TRUE(names.insert(entry.name).second);
+        const Scene scene = entry.make(7, 5);
+        EXPECT_EQ(scene.walkers.size(), 7U) << entry.name;
+        EXPECT_GT(scene.duration * entry.rate_hz, 200.0) << entry.name;
+        EXPECT_FALSE(scene.still.triangles.empty());
+    }
+    EXPECT_TRUE(names.contains("crowd"));
+    EXPECT_TRUE(names.contains("street"));
+    EXPECT_TRUE(names.contains("square"));
+}
+
+TEST(Scenes, SeedsGiveOtherPeople) {
+    for (const SceneEntry& entry : scene_table()) {
+        EXPECT_NE(entry.make(5, 1).walkers[0].start, entry.make(5, 2).walkers[0].start);
+        EXPECT_EQ(entry.make(5, 1).walkers[0].start, entry.make(5, 1).walkers[0].start);
+    }
+}

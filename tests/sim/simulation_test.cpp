@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include "dynamic_filter/sim/simulation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/parallel.hpp"
+
+namespace dynamic_filter::sim {
+namespace {
+
+SimulationOptions short_run(const std::string& scene) {
+    SimulationOptions options;
+    options.scene = scene;
+    options.frames = 3;
+    return options;
+}
+
+void expect_equal(const SimulatedScan& a, const SimulatedScan& b) {
+    EXPECT_EQ(a.points, b.points);
+    EXPECT_EQ(a.labels, b.labels);
+    EXPECT_EQ(a.intensity, b.intensity);
+    EXPECT_EQ(a.T_world_sensor.matrix(), b.T_world_sensor.matrix());
+    EXPECT_EQ(a.stamp, b.stamp);
+}
+
+}  // namespace
+
+TEST(Simulation, SameOptionsSameBytesWhateverTheThreadsAndTheOrder) {
+    for (const auto& scene : scene_names()) {
+        Simulation one(short_run(scene)), two(short_run(scene));
+        for (const std::size_t i : {2U, 0U, 1U}) {
+            SimulatedScan a, b;
+            with_threads(1, [&] { a = one.scan(i); });
+            with_threads(2, [&] { b = two.scan(2 - i), b = two.scan(i); });
+            expect_equal(a, b);
+        }
+    }
+}
+
+TEST(Simulation, SeedsDiffer) {
+    SimulationOptions options = short_run("crowd");
+    Simulation one(options);
+    options.seed = 2;
+    Simulation two(options);
+    EXPECT_NE(one.scan(1).points, two.scan(1).points);
+}
+
+TEST(Simulation, LabelsAreStillOrDynamic) {
+    for (const auto& scene : scene_names()) {
+        Simulation simulation(short_run(scene));
+        const SimulatedScan scan = simulation.scan(1);
+        std::size_t still = 0, dynamic = 0;
+        for (const Label label : scan.labels) {
+            still += label == Label::still;
+            dynamic += label == Label::dynamic;
+        }
+        EXPECT_EQ(still + dynamic, scan.points.size()) << scene;
+        EXPECT_GT(still, 1000U) << scene;
+        EXPECT_GT(dynamic, 50U) << scene;
+    }
+}
+
+TEST(Simulation, GroundIsFlatAndNothingIsBelow) {
+    Simulation simulation(short_run("crowd"));
+    const SimulatedScan scan = simulation.scan(0);
+    std::size_t ground = 0;
+    for (const Point& point : scan.points) {
+        const double z = (scan.T_world_sensor * point.cast<double>()).z();
+        EXPECT_GT(z, -0.1);
+        ground += std::abs(z) < 0.1;
+    }
+    EXPECT_GT(ground, 500U);
+}
+
+TEST(Simulation, RangesAreWithinTheSensorsLimits) {
+    for (const auto& sensor : sensor_names()) {
+        SimulationOptions options = short_run("street");
+        options.sensor = sensor;
+        Simulation simulation(options);
+        const SimulatedScan scan = simulation.scan(2);
+        ASSERT_FALSE(scan.points.empty()) << sensor;
+        for (const Point& point : scan.points) {
+            EXPECT_GE(point.norm(), 0.399F);
+            EXPECT_LE(point.norm(), 150.01F);
+        }
+    }
+}
+
+TEST(Simulation, PoseNoiseHasTheAskedDeviation) {
+    SimulationOptions options;
+    options.pedestrians = 0;
+    Simulation exact(options);
+    options.pose_noise_m = 0.05;
+    options.pose_noise_deg = 0.5;
+    Simulation noisy(options);
+    double shift = 0.0, turn = 0.0;
+    const std::size_t n = noisy.size();
+    for (std::size_t i = 0; i < n; i += 3) {
+        const Pose a = exact.scan(i).T_world_sensor, b = noisy.scan(i).T_world_sensor;
+        shift += (b.translation() - a.translation()).squaredNorm();
+        const double angle = Eigen::AngleAxisd(a.linear().transpose() * b.linear()).angle();
+        turn += angle * angle;
+    }
+    const double draws = 3.0 * std::ceil(static_cast<double>(n) / 3.0);
+    EXPECT_NEAR(std::sqrt(shift / draws), 0.05, 0.006);
+    EXPECT_NEAR(std::sqrt(turn / draws) * 180.0 / std::numbers::pi, 0.5, 0.06);
+}
+
+TEST(Simulation, PoseNoiseLeavesThePointsAlone) {
+    SimulationOptions options = short_run("crowd");
+    Simulation exact(options);
+    options.pose_noise_m = 0.05;
+    Simulation noisy(options);
+    EXPECT_EQ(exact.scan(1).points, noisy.scan(1).points);
+}
+
+TEST(Simulation, NobodyNothingDynamic) {
+    SimulationOptions options = short_run("crowd");
+    options.pedestrians = 0;
+    Simulation simulation(options);
+    const SimulatedScan scan = simulation.scan(1);
+    EXPECT_EQ(std::count(scan.labels.begin(), scan.labels.end(), Label::dynamic), 0);
+    EXPECT_GT(scan.points.size(), 10000U);
+}
+
+TEST(Simulation, LengthFollowsFramesAndRate) {
+    SimulationOptions options;
+    options.pedestrians = 0;
+    EXPECT_NEAR(static_cast<double>(Simulation(options).size()), 325.0, 15.0);
+    options.rate_hz = 2.5;
+    EXPECT_NEAR(static_cast<double>(Simulation(options).size()), 650.0, 30.0);
+    options.frames = 4;
+    Simulation simulation(options);
+    EXPECT_EQ(simulation.size(), 4U);
+    EXPECT_DOUBLE_EQ(simulation.scan(3).stamp, 1.2);
+    options = {};
+    options.scene = "street";
+    EXPECT_EQ(Simulation(options).size(), 300U);
+}
+
+TEST(Simulation, WrongOptionsAreNamed) {
+    const auto message = [](const SimulationOptions& options) -> std::string {
+        try {
+            Simulation simulation(options);
+        } catch (const ConfigError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    SimulationOptions options;
+    options.scene = "moon";
+    EXPECT_NE(message(options).find("crowd, street, square"), std::string::npos);
+    options = {};
+    options.sensor = "eye";
+    EXPECT_NE(message(options).find("vlp16"), std::string::npos);
+    options = {};
+    options.pedestrians = -2;
+    EXPECT_NE(message(options), "");
+    options = {};
+    options.rate_hz = -1.0;
+    EXPECT_NE(message(options), "");
+    options = {};
+    options.pose_noise_m = std::nan("");
+    EXPECT_NE(message(options), "");
+}
+
+}  // namespace dynamic_filter::sim
