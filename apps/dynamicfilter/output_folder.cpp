@@ -50,19 +50,28 @@ bool holds_something(const fs::path& path) {
 
 }  // namespace
 
+OutputFolder::Lock::Lock(const fs::path& folder) : file(folder / kLock) {
+    descriptor = open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
+    if (descriptor < 0) throw OutputError(file, std::strerror(errno));
+    if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
+        close(descriptor);
+        throw ConfigError(folder.string() + ": another run is writing here; choose another -o");
+    }
+}
+
+OutputFolder::Lock::~Lock() {
+    std::error_code ignored;
+    fs::remove(file, ignored);
+    close(descriptor);
+}
+
 OutputFolder::OutputFolder(fs::path path, bool overwrite) : path_(std::move(path)) {
     try {
         if (fs::exists(path_) && !fs::is_directory(path_)) {
             throw ConfigError(path_.string() + ": the output must be a folder, and this is a file");
         }
         fs::create_directories(path_);
-        const fs::path lock = path_ / kLock;
-        lock_ = open(lock.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
-        if (lock_ < 0) throw OutputError(lock, std::strerror(errno));
-        if (flock(lock_, LOCK_EX | LOCK_NB) != 0) {
-            close(lock_);
-            throw ConfigError(path_.string() + ": another run is writing here; choose another -o");
-        }
+        lock_.emplace(path_);
         if (holds_something(path_)) {
             if (!overwrite) {
                 throw ConfigError(path_.string() +
@@ -75,11 +84,7 @@ OutputFolder::OutputFolder(fs::path path, bool overwrite) : path_(std::move(path
     }
 }
 
-OutputFolder::~OutputFolder() {
-    std::error_code ignored;
-    fs::remove(path_ / kLock, ignored);
-    close(lock_);
-}
+OutputFolder::~OutputFolder() = default;
 
 fs::path OutputFolder::subfolder(const char* name) const {
     std::error_code error;

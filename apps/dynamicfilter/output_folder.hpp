@@ -21,8 +21,15 @@ public:
     [[nodiscard]] std::filesystem::path subfolder(const char* name) const;
 
 private:
+    /// Lives and dies on its own, so that a constructor that throws gives it back.
+    struct Lock {
+        std::filesystem::path file;
+        int descriptor = -1;
+        explicit Lock(const std::filesystem::path& folder);
+        ~Lock();
+    };
     std::filesystem::path path_;
-    int lock_ = -1;
+    std::optional<Lock> lock_;
 };
 
 /// `results/<UTC stamp>`, not yet existing; `results/latest` will point to it after link_latest().

@@ -40,7 +40,7 @@ struct Config {
         double voxel_size = 0.2;
         bool visibility_check = true;
         bool incident_correction = true;
-        double incident_threshold_deg = 75.0;
+        double incident_threshold_deg = 60.0;
         double image_step_deg = 1.0;
         double image_step_beams = 0.75;
         double depth_channel = 0.2;

@@ -2,9 +2,9 @@
 #include "dynamic_filter/front_end/front_end.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
+#include "dynamic_filter/front_end/removert.hpp"
 #include "dynamic_filter/front_end/reverting.hpp"
 #include "dynamic_filter/front_end/visibility_removal.hpp"
 #include "dynamic_filter/geometry/pose.hpp"
@@ -33,10 +33,8 @@ Submap assemble(const Window& window, const std::vector<Labels>& labels, double 
     return {mean_pose(poses), thin_static(window, labels, voxel_size).take()};
 }
 
-/// The verdicts of a front-end that is switched off: every measured point is still.
-std::vector<Labels> all_still(const Window& window) {
-    return remove_by_visibility(window, {}, {});
-}
+/// Every measured point is still: what a front-end that is switched off says.
+std::vector<Labels> all_still(const Window& window) { return remove_by_visibility(window, {}, {}); }
 
 }  // namespace
 
@@ -54,18 +52,23 @@ std::vector<RangeImage> FrontEnd::images(const Window& window, float scale) cons
 
 void FrontEnd::revert(const Window& window, std::vector<Labels>& labels) const {
     const auto& c = config_.front_end;
-    const auto scale = static_cast<float>(c.revert_image_scale);
-    if (config_.method == Method::removert) {
-        for (const float s : {std::sqrt(scale), scale}) {
-            revert_by_visibility(window, images(window, s), margin_of(c), labels);
-        }
-    } else if (c.reverting == Reverting::visibility) {
-        revert_by_visibility(window, images(window, scale), margin_of(c), labels);
+    if (c.reverting == Reverting::visibility) {
+        const auto scale = static_cast<float>(c.revert_image_scale);
+        revert_by_visibility(window, images(window, scale), margin_of(c),
+                             static_cast<float>(config_.back_end.voxel_size), labels);
     } else if (c.reverting == Reverting::map) {
         const Points points = thin_static(window, labels, config_.back_end.voxel_size).take();
         const NeighborGrid static_map(points, static_cast<float>(c.revert_radius));
         revert_by_map(window, static_map, c, labels);
     }
+}
+
+std::vector<Labels> FrontEnd::remove_and_revert(const Window& window) const {
+    const std::vector<KeyframeImages> fine{images(window, 1.0F), images(window, 1.25F),
+                                           images(window, 1.5F)};
+    const auto scale = static_cast<float>(config_.front_end.revert_image_scale);
+    return removert(window, fine, images(window, scale), margin_of(config_.front_end),
+                    static_cast<float>(config_.back_end.voxel_size));
 }
 
 FrontEndResult FrontEnd::process(const Window& window, StageTimes& times) {
@@ -74,7 +77,9 @@ FrontEndResult FrontEnd::process(const Window& window, StageTimes& times) {
         beams_ = estimate_beam_pattern(std::span(window.scans).first(few));
     }
     std::vector<Labels> labels;
-    if (config_.front_end.enabled) {
+    if (config_.method == Method::removert) {
+        labels = timed(times, "removert", [&] { return remove_and_revert(window); });
+    } else if (config_.front_end.enabled) {
         labels = timed(times, "visibility_removal", [&] {
             return remove_by_visibility(window, images(window, 1.0F), margin_of(config_.front_end));
         });

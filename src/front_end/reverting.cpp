@@ -50,14 +50,4 @@ void revert_by_map(const Window& window, const NeighborGrid& static_map,
     });
 }
 
-void revert_by_visibility(const Window& window, std::span<const RangeImage> coarse_images,
-                          const RemovalMargin& margin, std::vector<Labels>& labels) {
-    const std::vector<Labels> coarse = remove_by_visibility(window, coarse_images, margin);
-    for (std::size_t s = 0; s < labels.size(); ++s) {
-        for (std::size_t i = 0; i < labels[s].size(); ++i) {
-            if (coarse[s][i] == Label::still) labels[s][i] = Label::still;
-        }
-    }
-}
-
 }  // namespace dynamic_filter

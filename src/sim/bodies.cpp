@@ -59,8 +59,8 @@ void place_pedalling(const Affine3d& T, double crank, Placements& out) {
         const double bend = std::sqrt(std::max(0.0, thigh_length * thigh_length - along * along));
         const Vector3d axis = d.normalized();
         const Vector3d knee = hip + along * axis + bend * Vector3d(-axis.z(), 0.0, axis.x());
-        out.emplace_back((T * pointing(hip, knee)).cast<float>());
-        out.emplace_back((T * pointing(knee, pedal)).cast<float>());
+        out.push_back({(T * pointing(hip, knee)).cast<float>(), Kind::vehicle});
+        out.push_back({(T * pointing(knee, pedal)).cast<float>(), Kind::vehicle});
     }
 }
 
@@ -116,18 +116,20 @@ void place_walker(const Walker& walker, const Stride& stride, double ground, Pla
     const Affine3d T = standing_at(stride.position.cast<double>(), ground - tall * sink,
                                    stride.heading.cast<double>()) *
                        Eigen::Scaling(tall);
-    out.emplace_back(T.cast<float>());
-    out.emplace_back((T * joint({0.0, 0.09, hip}, -step)).cast<float>());
-    out.emplace_back((T * joint({0.0, -0.09, hip}, step)).cast<float>());
-    out.emplace_back((T * joint({0.0, 0.23, 1.40}, 0.9 * step)).cast<float>());
-    out.emplace_back((T * joint({0.0, -0.23, 1.40}, -0.9 * step)).cast<float>());
+    constexpr float slowest_walk = 0.2F;  // [m/s]
+    const Kind kind = stride.speed < slowest_walk ? Kind::standing : Kind::walking;
+    out.push_back({T.cast<float>(), kind});
+    out.push_back({(T * joint({0.0, 0.09, hip}, -step)).cast<float>(), kind});
+    out.push_back({(T * joint({0.0, -0.09, hip}, step)).cast<float>(), kind});
+    out.push_back({(T * joint({0.0, 0.23, 1.40}, 0.9 * step)).cast<float>(), kind});
+    out.push_back({(T * joint({0.0, -0.23, 1.40}, -0.9 * step)).cast<float>(), kind});
 }
 
 void place_vehicle(const Vehicle& vehicle, double t, Placements& out) {
     const double s = travelled(vehicle.ride, t);
     const PathPoint p = at(vehicle.ride.path, s);
     const Affine3d T = standing_at(p.position, 0.0, p.direction);
-    out.emplace_back(T.cast<float>());
+    out.push_back({T.cast<float>(), Kind::vehicle});
     constexpr double metres_per_turn = 5.0;
     if (vehicle.kind == VehicleKind::cyclist) {
         place_pedalling(T, 2.0 * std::numbers::pi * s / metres_per_turn, out);

@@ -25,7 +25,7 @@ Eigen::Vector2d half_footprint(VehicleKind kind);
 std::vector<Part> walker_parts(std::size_t index);
 std::vector<Part> vehicle_parts(const Vehicle& vehicle);
 
-using Placements = std::vector<Eigen::Affine3f>;
+using Placements = std::vector<Placement>;
 
 /// Appends the placements of the parts, in the order of walker_parts(); `ground` is the height of
 /// the floor there.

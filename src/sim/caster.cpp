@@ -32,9 +32,10 @@ RTCScene new_scene(RTCDevice device) {
 }  // namespace
 
 Caster::Caster(const Mesh& still, std::vector<Mesh> prototypes, std::vector<Part> parts)
-    : still_reflectivity_(still.reflectivity),
+    : still_materials_(still.materials),
       prototypes_(std::move(prototypes)),
       parts_(std::move(parts)),
+      kinds_(parts_.size(), Kind::structure),
       normal_to_world_(parts_.size(), Eigen::Matrix3f::Identity()),
       device_(rtcNewDevice(nullptr)),
       scene_(new_scene(device_)) {
@@ -60,9 +61,10 @@ Caster::~Caster() {
     rtcReleaseDevice(device_);
 }
 
-void Caster::place(const std::vector<Eigen::Affine3f>& T_world_part) {
+void Caster::place(const std::vector<Placement>& placements) {
     for (std::size_t i = 0; i < parts_.size(); ++i) {
-        const Eigen::Affine3f& T = T_world_part[i];
+        const Eigen::Affine3f& T = placements[i].T_world_part;
+        kinds_[i] = placements[i].kind;
         normal_to_world_[i] = T.linear().inverse().transpose();
         const RTCGeometry instance = rtcGetGeometry(scene_, static_cast<unsigned>(i + 1));
         rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, T.matrix().data());
@@ -92,13 +94,15 @@ Hit Caster::cast(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction
     Hit hit{.range = query.ray.tfar, .found = true};
     Eigen::Vector3f normal(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
     if (query.hit.instID[0] == RTC_INVALID_GEOMETRY_ID) {
-        hit.reflectivity = still_reflectivity_[query.hit.primID];
+        hit.reflectivity = still_materials_[query.hit.primID].reflectivity;
+        hit.kind = still_materials_[query.hit.primID].kind;
     } else {
         const std::size_t i = query.hit.instID[0] - 1;
         normal = normal_to_world_[i] * normal;
+        const Mesh& prototype = prototypes_[parts_[i].prototype];
         hit.reflectivity =
-            prototypes_[parts_[i].prototype].reflectivity[query.hit.primID] * parts_[i].brightness;
-        hit.dynamic = true;
+            prototype.materials[query.hit.primID].reflectivity * parts_[i].brightness;
+        hit.kind = kinds_[i];
     }
     hit.cosine = std::abs(normal.normalized().dot(direction));
     return hit;

@@ -19,11 +19,17 @@ struct Part {
     float brightness = 1.0F;
 };
 
+/// Where a part is at a moment, and what it counts as then.
+struct Placement {
+    Eigen::Affine3f T_world_part;
+    Kind kind;
+};
+
 struct Hit {
     float range = 0.0F;   ///< [m] in units of the direction's length
     float cosine = 0.0F;  ///< |cos| of the angle between ray and surface normal
     float reflectivity = 0.0F;
-    bool dynamic = false;
+    Kind kind = Kind::structure;
     bool found = false;
 };
 
@@ -35,17 +41,18 @@ public:
     Caster(const Caster&) = delete;
     Caster& operator=(const Caster&) = delete;
 
-    /// Puts every part where `T_world_part` says (parallel to the parts).
-    void place(const std::vector<Eigen::Affine3f>& T_world_part);
+    /// `placements` is parallel to the parts.
+    void place(const std::vector<Placement>& placements);
 
     /// `direction` is a unit vector; hits beyond `reach` [m] are not found.
     [[nodiscard]] Hit cast(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
                            float reach) const;
 
 private:
-    std::vector<float> still_reflectivity_;
+    std::vector<Material> still_materials_;
     std::vector<Mesh> prototypes_;
     std::vector<Part> parts_;
+    std::vector<Kind> kinds_;                       // of the parts
     std::vector<Eigen::Matrix3f> normal_to_world_;  // inverse transpose of the parts' linear maps
     RTCDevice device_ = nullptr;
     RTCScene scene_ = nullptr;

@@ -22,7 +22,7 @@ constexpr double strongest = 6.0;   // [m/s2]
 
 struct Body {
     Vector2d position, velocity = Vector2d::Zero(), heading, leg_start;
-    double phase = 0.0, swing = 0.0;
+    double phase = 0.0, swing = 0.0, speed = 0.0;
     double pause_until = -1.0;
     double leg_since = 0.0;  // when the present waypoint became the target
     std::size_t next = 0;
@@ -147,6 +147,7 @@ void separate(State& state) {
 /// Turns the body and moves the legs as far as it has really moved.
 void update_gait(const Walker& walker, Body& body, const Vector2d& moved) {
     const double speed = std::sqrt(moved.squaredNorm()) / crowd_step;
+    body.speed = speed;
     Vector2d look = speed > 0.2 ? unit_or(moved, body.heading) : body.heading;
     if (body.standing) {
         const auto last = (body.next + walker.route.size() - 1) % walker.route.size();
@@ -220,7 +221,8 @@ Crowd simulate_crowd(const CrowdPlan& plan, double duration) {
             for (const Body& body : state.bodies) {
                 crowd.strides.push_back({body.position.cast<float>(), body.heading.cast<float>(),
                                          static_cast<float>(body.phase),
-                                         static_cast<float>(body.swing)});
+                                         static_cast<float>(body.swing),
+                                         static_cast<float>(body.speed)});
             }
         }
         advance(state);
@@ -240,6 +242,7 @@ Stride stride_at(const Crowd& crowd, std::size_t walker, double t) {
     out.heading = ((1.0F - u) * a.heading + u * b.heading).normalized();
     out.phase = (1.0F - u) * a.phase + u * b.phase;
     out.swing = (1.0F - u) * a.swing + u * b.swing;
+    out.speed = (1.0F - u) * a.speed + u * b.speed;
     return out;
 }
 

@@ -42,6 +42,7 @@ struct Stride {
     Eigen::Vector2f heading = Eigen::Vector2f::UnitX();  ///< unit vector
     float phase = 0.0F;                                  ///< [rad] of the gait, never wrapped
     float swing = 0.0F;                                  ///< [rad] largest angle of the legs
+    float speed = 0.0F;                                  ///< [m/s] as really moved
 };
 
 constexpr double crowd_step = 0.05;  ///< [s]

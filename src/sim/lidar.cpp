@@ -14,7 +14,7 @@ namespace {
 struct Echo {
     float range = 0.0F;  // 0: no return
     float intensity = 0.0F;
-    Label label = Label::unknown;
+    Kind kind = Kind::structure;
 };
 
 /// The returned power falls with range squared, incidence and reflectivity (Lambert); what is
@@ -34,8 +34,7 @@ Echo measure(const Hit& hit, const Sensor& sensor, std::uint64_t bits) {
     const double range = resolution * std::floor(noisy / resolution + 0.5);
     if (range < sensor.min_range || range > sensor.max_range) return {};
     const float shade = hit.reflectivity * std::sqrt(hit.cosine);
-    return {static_cast<float>(range), std::clamp(shade, 0.0F, 1.0F),
-            hit.dynamic ? Label::dynamic : Label::still};
+    return {static_cast<float>(range), std::clamp(shade, 0.0F, 1.0F), hit.kind};
 }
 
 }  // namespace
@@ -58,7 +57,8 @@ Returns sense(const Caster& caster, const Sensor& sensor, const Pose& T_world_se
         if (echoes[i].range == 0.0F) continue;
         out.points.emplace_back(directions[i] * echoes[i].range);
         out.intensity.push_back(echoes[i].intensity);
-        out.labels.push_back(echoes[i].label);
+        out.labels.push_back(is_dynamic(echoes[i].kind) ? Label::dynamic : Label::still);
+        out.kinds.push_back(echoes[i].kind);
     }
     return out;
 }

@@ -15,6 +15,7 @@ struct Returns {
     Points points;  ///< sensor frame
     std::vector<float> intensity;
     Labels labels;
+    std::vector<Kind> kinds;
 };
 
 Returns sense(const Caster& caster, const Sensor& sensor, const Pose& T_world_sensor,

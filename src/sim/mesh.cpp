@@ -17,9 +17,9 @@ int add_vertex(Mesh& mesh, const Vector3d& p) {
     return static_cast<int>(mesh.vertices.size()) - 1;
 }
 
-void add_triangle(Mesh& mesh, int a, int b, int c, float reflectivity) {
+void add_triangle(Mesh& mesh, int a, int b, int c, Material material) {
     mesh.triangles.emplace_back(a, b, c);
-    mesh.reflectivity.push_back(reflectivity);
+    mesh.materials.push_back(material);
 }
 
 Vector3d random_direction(Random& random) {
@@ -35,22 +35,32 @@ void append(Mesh& mesh, const Mesh& other, const Eigen::Affine3d& T) {
     const auto offset = static_cast<int>(mesh.vertices.size());
     for (const auto& v : other.vertices) add_vertex(mesh, T * v.cast<double>());
     for (const auto& t : other.triangles) mesh.triangles.emplace_back(t.array() + offset);
-    mesh.reflectivity.insert(mesh.reflectivity.end(), other.reflectivity.begin(),
-                             other.reflectivity.end());
+    mesh.materials.insert(mesh.materials.end(), other.materials.begin(), other.materials.end());
 }
 
 void add_quad(Mesh& mesh, const Vector3d& corner, const Vector3d& u, const Vector3d& v,
-              float reflectivity) {
+              Material material) {
     const int a = add_vertex(mesh, corner);
     const int b = add_vertex(mesh, corner + u);
     const int c = add_vertex(mesh, corner + u + v);
     const int d = add_vertex(mesh, corner + v);
-    add_triangle(mesh, a, b, c, reflectivity);
-    add_triangle(mesh, a, c, d, reflectivity);
+    add_triangle(mesh, a, b, c, material);
+    add_triangle(mesh, a, c, d, material);
+}
+
+void pave(Mesh& mesh, std::size_t first) {
+    constexpr float level = 0.9F;  // ramps too
+    const auto vertex = [&](int i) { return mesh.vertices[static_cast<std::size_t>(i)]; };
+    for (std::size_t i = first; i < mesh.triangles.size(); ++i) {
+        const auto& t = mesh.triangles[i];
+        const Eigen::Vector3f a = vertex(t[0]);
+        const Eigen::Vector3f normal = (vertex(t[1]) - a).cross(vertex(t[2]) - a).normalized();
+        if (std::abs(normal.z()) > level) mesh.materials[i].kind = Kind::ground;
+    }
 }
 
 void add_box(Mesh& mesh, const Eigen::Affine3d& T, const Eigen::AlignedBox3d& box,
-             float reflectivity) {
+             Material material) {
     const auto& low = box.min();
     const Vector3d size = box.sizes();
     for (int axis = 0; axis < 3; ++axis) {
@@ -58,13 +68,13 @@ void add_box(Mesh& mesh, const Eigen::Affine3d& T, const Eigen::AlignedBox3d& bo
         const Vector3d v = size[(axis + 2) % 3] * Vector3d::Unit((axis + 2) % 3);
         for (const double side : {0.0, size[axis]}) {
             const Vector3d corner = low + side * Vector3d::Unit(axis);
-            add_quad(mesh, T * corner, T.linear() * u, T.linear() * v, reflectivity);
+            add_quad(mesh, T * corner, T.linear() * u, T.linear() * v, material);
         }
     }
 }
 
 void add_lathe(Mesh& mesh, const Eigen::Affine3d& T, const std::vector<Outline>& outline, int sides,
-               float reflectivity) {
+               Material material) {
     const auto rings = static_cast<int>(outline.size());
     const int first = static_cast<int>(mesh.vertices.size());
     for (const auto& [radius, z] : outline) {
@@ -77,8 +87,8 @@ void add_lathe(Mesh& mesh, const Eigen::Affine3d& T, const std::vector<Outline>&
         for (int i = 0; i < sides; ++i) {
             const int a = first + ring * sides + i;
             const int b = first + ring * sides + (i + 1) % sides;
-            add_triangle(mesh, a, b, b + sides, reflectivity);
-            add_triangle(mesh, a, b + sides, a + sides, reflectivity);
+            add_triangle(mesh, a, b, b + sides, material);
+            add_triangle(mesh, a, b + sides, a + sides, material);
         }
     }
     for (const int ring : {0, rings - 1}) {
@@ -86,13 +96,13 @@ void add_lathe(Mesh& mesh, const Eigen::Affine3d& T, const std::vector<Outline>&
             add_vertex(mesh, T * Vector3d(0.0, 0.0, outline[ring == 0 ? 0 : outline.size() - 1].z));
         for (int i = 0; i < sides; ++i) {
             add_triangle(mesh, centre, first + ring * sides + i,
-                         first + ring * sides + (i + 1) % sides, reflectivity);
+                         first + ring * sides + (i + 1) % sides, material);
         }
     }
 }
 
 void add_capsule(Mesh& mesh, const Vector3d& a, const Vector3d& b, double radius,
-                 float reflectivity) {
+                 Material material) {
     const double length = (b - a).norm();
     Eigen::Affine3d T = Eigen::Affine3d::Identity();
     T.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), b - a).toRotationMatrix();
@@ -105,11 +115,11 @@ void add_capsule(Mesh& mesh, const Vector3d& a, const Vector3d& b, double radius
                {radius, length},
                {s, length + s},
                {0.3 * radius, length + radius}},
-              8, reflectivity);
+              8, material);
 }
 
 void add_prism(Mesh& mesh, const Eigen::Affine3d& T, const std::vector<Eigen::Vector2d>& polygon,
-               double half_width, float reflectivity) {
+               double half_width, Material material) {
     const auto n = static_cast<int>(polygon.size());
     const int first = static_cast<int>(mesh.vertices.size());
     for (const double y : {-half_width, half_width}) {
@@ -118,16 +128,16 @@ void add_prism(Mesh& mesh, const Eigen::Affine3d& T, const std::vector<Eigen::Ve
     for (int i = 0; i < n; ++i) {
         const int a = first + i;
         const int b = first + (i + 1) % n;
-        add_triangle(mesh, a, b, b + n, reflectivity);
-        add_triangle(mesh, a, b + n, a + n, reflectivity);
+        add_triangle(mesh, a, b, b + n, material);
+        add_triangle(mesh, a, b + n, a + n, material);
     }
     for (int i = 1; i + 1 < n; ++i) {
-        add_triangle(mesh, first, first + i, first + i + 1, reflectivity);
-        add_triangle(mesh, first + n, first + n + i, first + n + i + 1, reflectivity);
+        add_triangle(mesh, first, first + i, first + i + 1, material);
+        add_triangle(mesh, first + n, first + n + i, first + n + i + 1, material);
     }
 }
 
-void add_leaves(Mesh& mesh, const Crown& crown, float reflectivity) {
+void add_leaves(Mesh& mesh, const Crown& crown, Material material) {
     Random random{hash(crown.seed, 0x1eaf)};
     for (int i = 0; i < crown.leaves; ++i) {
         const double depth = std::sqrt(random.uniform(0.15, 1.0));
@@ -138,7 +148,7 @@ void add_leaves(Mesh& mesh, const Crown& crown, float reflectivity) {
         const int a = add_vertex(mesh, centre);
         const int b = add_vertex(mesh, centre + u);
         const int c = add_vertex(mesh, centre + v);
-        add_triangle(mesh, a, b, c, reflectivity);
+        add_triangle(mesh, a, b, c, material);
     }
 }
 

@@ -6,12 +6,22 @@
 #include <cstdint>
 #include <vector>
 
+#include "dynamic_filter/sim/kind.hpp"
+
 namespace dynamic_filter::sim {
+
+/// Of a surface. A bare reflectivity (0..1) means a structure; the kind of moving parts comes from
+/// their placement instead.
+struct Material {
+    constexpr Material(float r, Kind k = Kind::structure) : reflectivity(r), kind(k) {}
+    float reflectivity;
+    Kind kind;
+};
 
 struct Mesh {
     std::vector<Eigen::Vector3f> vertices;
     std::vector<Eigen::Vector3i> triangles;
-    std::vector<float> reflectivity;  ///< 0..1, one per triangle
+    std::vector<Material> materials;  ///< one per triangle
 };
 
 /// Radius at a height: the outline of a body of revolution.
@@ -24,24 +34,27 @@ void append(Mesh& mesh, const Mesh& other, const Eigen::Affine3d& T);
 
 /// A rectangle spanned by `u` and `v` from `corner`.
 void add_quad(Mesh& mesh, const Eigen::Vector3d& corner, const Eigen::Vector3d& u,
-              const Eigen::Vector3d& v, float reflectivity);
+              const Eigen::Vector3d& v, Material material);
+
+/// Makes the level surfaces from triangle `first` on ground: people tread on them.
+void pave(Mesh& mesh, std::size_t first);
 
 /// An axis-aligned box in the frame `T`.
 void add_box(Mesh& mesh, const Eigen::Affine3d& T, const Eigen::AlignedBox3d& box,
-             float reflectivity);
+             Material material);
 
 /// A body of revolution around z in the frame `T` (scale in `T` makes it elliptic); ends closed.
 void add_lathe(Mesh& mesh, const Eigen::Affine3d& T, const std::vector<Outline>& outline, int sides,
-               float reflectivity);
+               Material material);
 
 /// A round bar from `a` to `b` with hemispherical ends.
 void add_capsule(Mesh& mesh, const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius,
-                 float reflectivity);
+                 Material material);
 
 /// A convex polygon in the x-z plane (counter-clockwise seen from -y), extruded over
 /// y in [-half_width, half_width].
 void add_prism(Mesh& mesh, const Eigen::Affine3d& T, const std::vector<Eigen::Vector2d>& polygon,
-               double half_width, float reflectivity);
+               double half_width, Material material);
 
 struct Crown {
     Eigen::Vector3d centre;
@@ -52,6 +65,6 @@ struct Crown {
 };
 
 /// Loose triangles in an ellipsoid, denser towards its hull, so that some rays pass through.
-void add_leaves(Mesh& mesh, const Crown& crown, float reflectivity);
+void add_leaves(Mesh& mesh, const Crown& crown, Material material);
 
 }  // namespace dynamic_filter::sim

@@ -11,7 +11,9 @@ using Eigen::Affine3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr float concrete = 0.35F, wood = 0.3F, steel = 0.4F, leaf = 0.45F;
+constexpr Material concrete = 0.35F, wood = 0.3F, steel = 0.4F;
+constexpr Material trunk_wood(0.3F, Kind::thin), pole(0.4F, Kind::thin), plate(0.9F, Kind::thin);
+constexpr Material leaf(0.45F, Kind::vegetation);
 
 Affine3d frame(const Spot& spot) {
     Affine3d T = Affine3d::Identity();
@@ -31,8 +33,8 @@ void block_rectangle(Scene& scene, const Spot& spot, double length, double width
 
 /// Box given by its middle in plan and the heights of its bottom and top.
 void box(Scene& scene, const Spot& spot, const Vector3d& low, const Vector3d& high,
-         float reflectivity) {
-    add_box(scene.still, frame(spot), {low, high}, reflectivity);
+         Material material) {
+    add_box(scene.still, frame(spot), {low, high}, material);
 }
 
 }  // namespace
@@ -46,7 +48,7 @@ std::vector<double> row(double first, double end, double step) {
 void add_ground(Scene& scene, const Eigen::AlignedBox2d& area, double z, float reflectivity) {
     const Vector2d size = area.sizes();
     add_quad(scene.still, {area.min().x(), area.min().y(), z}, {size.x(), 0, 0}, {0, size.y(), 0},
-             reflectivity);
+             {reflectivity, Kind::ground});
 }
 
 void add_block(Scene& scene, const Spot& spot, const Vector3d& size, float reflectivity) {
@@ -90,16 +92,16 @@ void add_planter(Scene& scene, const Spot& spot, std::uint64_t seed) {
 }
 
 void add_sign(Scene& scene, const Spot& spot) {
-    add_lathe(scene.still, frame(spot), {{0.04, 0}, {0.04, 2.9}}, 8, steel);
-    box(scene, spot, {-0.35, -0.06, 2.1}, {0.35, -0.04, 2.9}, 0.9F);
+    add_lathe(scene.still, frame(spot), {{0.04, 0}, {0.04, 2.9}}, 8, pole);
+    box(scene, spot, {-0.35, -0.06, 2.1}, {0.35, -0.04, 2.9}, plate);
     block_disc(scene, spot, 0.06);
 }
 
 void add_railing(Scene& scene, const Spot& spot, double length) {
     const double end = length / 2;
-    box(scene, spot, {-end, -0.02, 0.96}, {end, 0.02, 1.02}, steel);
+    box(scene, spot, {-end, -0.02, 0.96}, {end, 0.02, 1.02}, pole);
     for (const double x : {-end, 0.0})
-        box(scene, spot, {x, -0.03, 0.0}, {x + 0.06, 0.03, 1.0}, steel);
+        box(scene, spot, {x, -0.03, 0.0}, {x + 0.06, 0.03, 1.0}, pole);
     block_rectangle(scene, spot, length, 0.06);
 }
 
@@ -110,8 +112,8 @@ void add_bin(Scene& scene, const Spot& spot) {
 
 void add_lamp(Scene& scene, const Spot& spot, double height) {
     add_lathe(scene.still, frame(spot), {{0.12, 0}, {0.12, 0.8}, {0.07, 0.85}, {0.05, height}}, 10,
-              steel);
-    box(scene, spot, {-0.1, -0.1, height}, {0.9, 0.1, height + 0.12}, steel);
+              pole);
+    box(scene, spot, {-0.1, -0.1, height}, {0.9, 0.1, height + 0.12}, pole);
     block_disc(scene, spot, 0.13);
 }
 
@@ -121,14 +123,14 @@ void add_tree(Scene& scene, const Spot& spot, double height, std::uint64_t seed)
     const double fork = 0.42 * height;
     add_lathe(scene.still, frame(spot),
               {{1.4 * trunk, 0}, {trunk, 0.4}, {0.8 * trunk, fork}, {0.3 * trunk, 0.8 * height}},
-              10, wood);
+              10, trunk_wood);
     const double spread = 0.28 * height;
     for (int i = 0; i < 4; ++i) {  // boughs, each with its part of the crown
         const Vector3d root(spot.at.x(), spot.at.y(), spot.z + fork * random.uniform(0.85, 1.1));
         const Vector3d tip =
             root + Vector3d((i % 2 == 0 ? 1 : -1) * random.uniform(0.2, 0.6) * spread,
                             (i < 2 ? 1 : -1) * random.uniform(0.2, 0.6) * spread, 0.28 * height);
-        add_capsule(scene.still, root, tip, 0.35 * trunk, wood);
+        add_capsule(scene.still, root, tip, 0.35 * trunk, trunk_wood);
         const double size = random.uniform(0.7, 0.9) * spread;
         add_leaves(scene.still,
                    {.centre = tip,
@@ -143,7 +145,7 @@ void add_tree(Scene& scene, const Spot& spot, double height, std::uint64_t seed)
 
 void add_parked_car(Scene& scene, const Spot& spot, float brightness) {
     Mesh mesh = car_mesh();
-    for (float& r : mesh.reflectivity) r *= brightness;
+    for (Material& material : mesh.materials) material.reflectivity *= brightness;
     append(scene.still, mesh, frame(spot));
     block_rectangle(scene, spot, 4.3, 1.8);
 }

@@ -59,6 +59,7 @@ void add_fountain(Scene& scene) {
 /// Five steps up to a stage, and a ramp at its side.
 void add_stage(Scene& scene) {
     const Vector2d middle(17.0, 18.0);
+    const std::size_t first = scene.still.triangles.size();
     for (int i = 0; i < 5; ++i) {
         const double depth = 6.0 - 0.7 * i;
         add_block(scene, {.at = middle + Vector2d(0.0, 0.35 * i)}, {9.0, depth, 0.16 * (i + 1)},
@@ -68,6 +69,7 @@ void add_stage(Scene& scene) {
               Eigen::Affine3d(Eigen::Translation3d(middle.x() + 5.4, middle.y() + 1.4, 0.0)) *
                   Eigen::AngleAxisd(std::numbers::pi / 2.0, Eigen::Vector3d::UnitZ()),
               {{-6.5, 0.0}, {1.5, 0.0}, {1.5, 0.8}, {0.5, 0.8}}, 0.9, 0.35F);
+    pave(scene.still, first);
     scene.obstacles.push_back({.centre = middle + Vector2d(5.4, -1.1), .half = {0.9, 4.0}});
 }
 

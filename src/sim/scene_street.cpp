@@ -179,7 +179,8 @@ Scene street_scene(int pedestrians, std::uint64_t seed) {
         const double low = std::min(side * kerb, side * 40.0);
         add_ground(scene, AlignedBox2d(Vector2d(-300, low), Vector2d(500, low + 40.0 - kerb)),
                    pavement, 0.3F);
-        add_quad(scene.still, {-300, side * kerb, 0}, {800, 0, 0}, {0, 0, pavement}, 0.4F);
+        add_quad(scene.still, {-300, side * kerb, 0}, {800, 0, 0}, {0, 0, pavement},
+                 {0.4F, Kind::ground});
     }
     add_fronts(scene, seed);
     add_furniture(scene, seed);

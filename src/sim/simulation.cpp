@@ -63,6 +63,18 @@ std::vector<Part> all_parts(const Scene& scene) {
     return parts;
 }
 
+/// How many scans are asked for; there must be that many.
+std::size_t scan_count(const SimulationOptions& options, double duration, double rate_hz) {
+    const auto full = static_cast<std::size_t>(duration * rate_hz + 1e-6);
+    const std::size_t scans = options.frames.value_or(full);
+    if (scans > full) {
+        throw ConfigError("frames is " + std::to_string(scans) + ": the scene \"" + options.scene +
+                          "\" has " + std::to_string(full) +
+                          " scans; ask for fewer, or for more per second (rate_hz)");
+    }
+    return scans;
+}
+
 Crowd simulated_crowd(const Scene& scene, double duration) {
     if (scene.walkers.empty()) return {};
     const auto movers = [&scene](double t) {
@@ -143,8 +155,7 @@ Simulation::Simulation(const SimulationOptions& options) {
     Scene scene =
         entry.make(options.pedestrians < 0 ? entry.pedestrians : options.pedestrians, options.seed);
     const double rate = options.rate_hz > 0.0 ? options.rate_hz : entry.rate_hz;
-    const auto full = static_cast<std::size_t>(scene.duration * rate + 1e-6);
-    const std::size_t scans = std::min(full, options.frames.value_or(full));
+    const std::size_t scans = scan_count(options, scene.duration, rate);
     Crowd crowd = simulated_crowd(scene, static_cast<double>(scans) / rate);
     // the mesh of the still parts is large: kept by the caster only
     world_.reset(new World{options, sensor, scene,
@@ -166,6 +177,7 @@ SimulatedScan Simulation::scan(std::size_t i) {
     return {.points = std::move(returns.points),
             .intensity = std::move(returns.intensity),
             .labels = std::move(returns.labels),
+            .kinds = std::move(returns.kinds),
             .T_world_sensor = Eigen::Translation3d(0.0, 0.0, world_->scene.floor) *
                               noisy_pose(pose, world_->options, i),
             .stamp = t};

@@ -16,7 +16,7 @@ float lowest(const std::vector<Part>& parts, const Placements& placements) {
     float z = 1e9F;
     for (std::size_t i = 0; i < parts.size(); ++i) {
         for (const auto& v : meshes[parts[i].prototype].vertices)
-            z = std::min(z, (placements[i] * v).z());
+            z = std::min(z, (placements[i].T_world_part * v).z());
     }
     return z;
 }
@@ -49,8 +49,11 @@ TEST(Bodies, LegsSwingApartAndRestTogether) {
     stride.swing = 0.0F;
     place_walker({}, stride, 0.0, standing);
     const Eigen::Vector3f foot(0, 0, -0.85F);
-    EXPECT_GT(std::abs((walking[1] * foot - walking[2] * foot).x()), 0.5F);
-    EXPECT_NEAR((standing[1] * foot - standing[2] * foot).x(), 0.0F, 1e-5F);
+    const auto apart = [&](const Placements& p) {
+        return (p[1].T_world_part * foot - p[2].T_world_part * foot).x();
+    };
+    EXPECT_GT(std::abs(apart(walking)), 0.5F);
+    EXPECT_NEAR(apart(standing), 0.0F, 1e-5F);
 }
 
 TEST(Bodies, CyclistsFeetTurnWithThePedals) {
@@ -62,12 +65,34 @@ TEST(Bodies, CyclistsFeetTurnWithThePedals) {
         place_vehicle(cyclist, t, placements);
         ASSERT_EQ(placements.size(), vehicle_parts(cyclist).size());
         const Eigen::Vector3f knee =
-            placements[1] * Eigen::Vector3f(0, 0, -static_cast<float>(thigh_length));
-        EXPECT_NEAR((knee - placements[2].translation()).norm(), 0.0F, 1e-3F);
+            placements[1].T_world_part * Eigen::Vector3f(0, 0, -static_cast<float>(thigh_length));
+        EXPECT_NEAR((knee - placements[2].T_world_part.translation()).norm(), 0.0F, 1e-3F);
         const Eigen::Vector3f foot =
-            placements[2] * Eigen::Vector3f(0, 0, -static_cast<float>(shin_length));
+            placements[2].T_world_part * Eigen::Vector3f(0, 0, -static_cast<float>(shin_length));
         EXPECT_GT(foot.z(), 0.1F);
         EXPECT_LT(foot.z(), 0.6F);
+    }
+}
+
+TEST(Bodies, KindFollowsTheSpeed) {
+    for (const auto& [speed, kind] :
+         {std::pair(0.0F, Kind::standing), std::pair(0.19F, Kind::standing),
+          std::pair(0.21F, Kind::walking), std::pair(1.2F, Kind::walking)}) {
+        Stride stride;
+        stride.speed = speed;
+        Placements placements;
+        place_walker({}, stride, 0.0, placements);
+        for (const Placement& placement : placements) EXPECT_EQ(placement.kind, kind) << speed;
+    }
+}
+
+TEST(Bodies, HaltedVehiclesAndCyclistsAreVehicles) {
+    const Path path = smooth_path({{0, 0}, {50, 0}, {100, 0}}, false);
+    for (const auto kind :
+         {VehicleKind::car, VehicleKind::van, VehicleKind::bus, VehicleKind::cyclist}) {
+        Placements placements;
+        place_vehicle({.kind = kind, .ride = {.path = path, .speed = 0.0}}, 1.0, placements);
+        for (const Placement& placement : placements) EXPECT_EQ(placement.kind, Kind::vehicle);
     }
 }
 

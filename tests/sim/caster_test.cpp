@@ -77,7 +77,7 @@ TEST(Caster, AgreesWithBruteForceOnMovedPart) {
     Caster caster(far, {car}, {{.prototype = 0}});
     Eigen::Affine3d T = Eigen::Affine3d::Identity();
     T.translate(Vector3d(3, 1, 0)).rotate(Eigen::AngleAxisd(0.7, Vector3d::UnitZ())).scale(1.1);
-    caster.place({T.cast<float>()});
+    caster.place({{T.cast<float>(), Kind::vehicle}});
     Mesh moved;
     append(moved, car, T);
     const Vector3d origin(0.2, -0.5, 1.2);
@@ -87,22 +87,22 @@ TEST(Caster, AgreesWithBruteForceOnMovedPart) {
 
 TEST(Caster, TellsSurfaceFromRay) {
     Mesh floor, wall;
-    add_quad(floor, {-10, -10, 0}, {20, 0, 0}, {0, 20, 0}, 0.25F);
+    add_quad(floor, {-10, -10, 0}, {20, 0, 0}, {0, 20, 0}, {0.25F, Kind::ground});
     add_quad(wall, {0, -1, -1}, {0, 2, 0}, {0, 0, 2}, 0.5F);
     Caster caster(floor, {wall}, {{.prototype = 0, .brightness = 0.5F}});
     Eigen::Affine3f T = Eigen::Affine3f::Identity();
     T.translation().x() = 4.0F;
-    caster.place({T});
+    caster.place({{T, Kind::standing}});
     const Hit down = caster.cast({0, 0, 2}, Eigen::Vector3f(0.6F, 0, -0.8F), 50.0F);
     ASSERT_TRUE(down.found);
     EXPECT_NEAR(down.range, 2.5F, 1e-5F);
     EXPECT_NEAR(down.cosine, 0.8F, 1e-5F);
     EXPECT_EQ(down.reflectivity, 0.25F);
-    EXPECT_FALSE(down.dynamic);
+    EXPECT_EQ(down.kind, Kind::ground);
     const Hit ahead = caster.cast({0, 0, 0.5F}, Eigen::Vector3f::UnitX(), 50.0F);
     ASSERT_TRUE(ahead.found);
     EXPECT_NEAR(ahead.range, 4.0F, 1e-5F);
     EXPECT_EQ(ahead.reflectivity, 0.25F);
-    EXPECT_TRUE(ahead.dynamic);
+    EXPECT_EQ(ahead.kind, Kind::standing);
     EXPECT_FALSE(caster.cast({0, 0, 0.5F}, Eigen::Vector3f::UnitX(), 3.0F).found);
 }

@@ -42,6 +42,19 @@ TEST(Crowd, WalksItsRouteAtItsSpeed) {
     EXPECT_NEAR(way / 60.0, 1.2, 0.1);
 }
 
+TEST(Crowd, SpeedIsThatOfThePositions) {
+    CrowdPlan plan = corridor();
+    plan.walkers = {walker({-10, 0}, {{10, 0}, {-10, 0}})};
+    plan.walkers[0].route[0].pause = 5.0;
+    const Crowd crowd = simulate_crowd(plan, 30.0);
+    for (double t = crowd_step; t < 29.0; t += crowd_step) {
+        const auto before = stride_at(crowd, 0, t - crowd_step);
+        const auto now = stride_at(crowd, 0, t);
+        const float moved = (now.position - before.position).norm();
+        EXPECT_NEAR(now.speed, moved / static_cast<float>(crowd_step), 0.01F) << t;
+    }
+}
+
 TEST(Crowd, OpposingWalkersPass) {
     CrowdPlan plan = corridor();
     plan.walkers = {walker({-15, 0}, {{15, 0}, {-15, 0}}), walker({15, 0.05}, {{-15, 0}, {15, 0}})};
@@ -64,6 +77,7 @@ TEST(Crowd, StandsForItsPauseWithLegsAtRest) {
         const Stride s = stride_at(crowd, 0, t);
         if (s.swing > 0.01F) continue;
         ++still;
+        EXPECT_LT(s.speed, 0.2F);
         EXPECT_GT(s.position.x(), 13.5F);
     }
     EXPECT_NEAR(still * 0.1, 8.5, 2.0);

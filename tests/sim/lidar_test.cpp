@@ -54,6 +54,7 @@ TEST(Lidar, RangesAreQuantisedAndWithinLimits) {
         const Returns returns = sense(caster, sensor, Pose::Identity(), 1, 2);
         ASSERT_EQ(returns.points.size(), returns.labels.size());
         ASSERT_EQ(returns.points.size(), returns.intensity.size());
+        ASSERT_EQ(returns.points.size(), returns.kinds.size());
         ASSERT_FALSE(returns.points.empty());
         for (std::size_t i = 0; i < returns.points.size(); ++i) {
             const double steps = static_cast<double>(returns.points[i].norm()) / 0.002;
@@ -61,6 +62,7 @@ TEST(Lidar, RangesAreQuantisedAndWithinLimits) {
             EXPECT_GE(returns.intensity[i], 0.0F);
             EXPECT_LE(returns.intensity[i], 1.0F);
             EXPECT_EQ(returns.labels[i], Label::still);
+            EXPECT_EQ(returns.kinds[i], Kind::structure);
         }
     }
 }

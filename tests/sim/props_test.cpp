@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <set>
 
 using namespace dynamic_filter::sim;
 
@@ -40,6 +41,25 @@ TEST(Props, StandOnTheirSpotAndBlockTheWay) {
         ASSERT_FALSE(scene.obstacles.empty()) << k;
         EXPECT_LT(distance(scene.obstacles[0], spot.at), 0.0) << k;
     }
+}
+
+TEST(Props, AreOfTheKindsTheyAreMadeOf) {
+    const auto structure = std::set{Kind::structure}, thin = std::set{Kind::thin};
+    const auto planter = std::set{Kind::structure, Kind::vegetation};
+    const auto tree = std::set{Kind::thin, Kind::vegetation};
+    const std::vector<std::set<Kind>> expected = {
+        structure, structure, structure, planter, thin, thin, structure, thin, tree, structure};
+    ASSERT_EQ(expected.size(), all_props().size());
+    for (std::size_t k = 0; k < all_props().size(); ++k) {
+        Scene scene;
+        all_props()[k](scene, {});
+        std::set<Kind> kinds;
+        for (const Material& material : scene.still.materials) kinds.insert(material.kind);
+        EXPECT_EQ(kinds, expected[k]) << k;
+    }
+    Scene scene;
+    add_ground(scene, {Eigen::Vector2d(0, 0), Eigen::Vector2d(1, 1)}, 0.0, 0.3F);
+    EXPECT_EQ(scene.still.materials[0].kind, Kind::ground);
 }
 
 TEST(Props, PeopleCannotWalkIntoWhatIsAtKneeHeight) {

@@ -20,8 +20,8 @@ TEST(Prototypes, OneMeshForEachValue) {
     ASSERT_EQ(all.size(), static_cast<std::size_t>(Prototype::bus) + 1);
     for (const Mesh& mesh : all) {
         EXPECT_FALSE(mesh.triangles.empty());
-        EXPECT_EQ(mesh.triangles.size(), mesh.reflectivity.size());
-        for (const float r : mesh.reflectivity) {
+        EXPECT_EQ(mesh.triangles.size(), mesh.materials.size());
+        for (const auto& [r, kind] : mesh.materials) {
             EXPECT_GT(r, 0.0F);
             EXPECT_LE(r, 1.0F);
         }

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <set>
 
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/parallel.hpp"
@@ -24,6 +26,7 @@ void expect_equal(const SimulatedScan& a, const SimulatedScan& b) {
     EXPECT_EQ(a.points, b.points);
     EXPECT_EQ(a.labels, b.labels);
     EXPECT_EQ(a.intensity, b.intensity);
+    EXPECT_EQ(a.kinds, b.kinds);
     EXPECT_EQ(a.T_world_sensor.matrix(), b.T_world_sensor.matrix());
     EXPECT_EQ(a.stamp, b.stamp);
 }
@@ -62,6 +65,57 @@ TEST(Simulation, LabelsAreStillOrDynamic) {
         EXPECT_EQ(still + dynamic, scan.points.size()) << scene;
         EXPECT_GT(still, 1000U) << scene;
         EXPECT_GT(dynamic, 50U) << scene;
+    }
+}
+
+TEST(Simulation, KindsAgreeWithLabels) {
+    for (const auto& scene : scene_names()) {
+        Simulation simulation(short_run(scene));
+        const SimulatedScan scan = simulation.scan(1);
+        ASSERT_EQ(scan.kinds.size(), scan.points.size());
+        for (std::size_t i = 0; i < scan.kinds.size(); ++i) {
+            const bool dynamic = scan.kinds[i] == Kind::walking ||
+                                 scan.kinds[i] == Kind::standing || scan.kinds[i] == Kind::vehicle;
+            EXPECT_EQ(scan.labels[i], dynamic ? Label::dynamic : Label::still) << scene;
+        }
+    }
+}
+
+TEST(Simulation, EveryKindIsSeenWhereItIs) {
+    std::map<std::string, std::set<Kind>> seen;
+    for (const auto& scene : scene_names()) {
+        SimulationOptions options;
+        options.scene = scene;
+        Simulation simulation(options);
+        for (std::size_t i = 0; i < simulation.size(); i += 20) {
+            const SimulatedScan scan = simulation.scan(i);
+            seen[scene].insert(scan.kinds.begin(), scan.kinds.end());
+        }
+    }
+    EXPECT_EQ(seen["crowd"].count(Kind::vehicle), 0U);
+    EXPECT_EQ(seen["crowd"].size(), kind_names.size() - 1);
+    EXPECT_EQ(seen["street"].size(), kind_names.size());
+    EXPECT_EQ(seen["square"].size(), kind_names.size());
+}
+
+TEST(Simulation, GroundIsAtTheGroundAndOthersMostlyAreNot) {
+    const std::map<std::string, double> highest = {
+        {"crowd", 0.0}, {"street", 0.15}, {"square", 0.8}};
+    for (const auto& scene : scene_names()) {
+        Simulation simulation(short_run(scene));
+        const SimulatedScan scan = simulation.scan(0);
+        std::size_t low = 0, others = 0;
+        for (std::size_t i = 0; i < scan.points.size(); ++i) {
+            const double z = (scan.T_world_sensor * scan.points[i].cast<double>()).z() - 0.05;
+            if (scan.kinds[i] == Kind::ground) {
+                EXPECT_GT(z, -0.1) << scene;
+                EXPECT_LT(z, highest.at(scene) + 0.1) << scene;
+            } else {
+                ++others;
+                low += std::abs(z) < 0.1;
+            }
+        }
+        EXPECT_LT(static_cast<double>(low), 0.1 * static_cast<double>(others)) << scene;
     }
 }
 
@@ -164,6 +218,14 @@ TEST(Simulation, WrongOptionsAreNamed) {
     options = {};
     options.rate_hz = -1.0;
     EXPECT_NE(message(options), "");
+    options = {};
+    options.scene = "street";
+    options.frames = 301;
+    EXPECT_NE(message(options).find("300 scans"), std::string::npos);
+    options.rate_hz = 5.0;
+    EXPECT_NE(message(options).find("150 scans"), std::string::npos);
+    options.rate_hz = 20.0;
+    EXPECT_EQ(message(options), "");
     options = {};
     options.pose_noise_m = std::nan("");
     EXPECT_NE(message(options), "");

@@ -37,6 +37,7 @@ public:
 private:
     std::vector<RangeImage> images(const Window& window, float scale) const;
     void revert(const Window& window, std::vector<Labels>& labels) const;
+    std::vector<Labels> remove_and_revert(const Window& window) const;  // Removert
 
     Config config_;
     std::optional<BeamPattern> beams_;

@@ -2,11 +2,9 @@
 /// Reverting of points that visibility removed although they are static (Sec. III-B2).
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "dynamic_filter/config.hpp"
-#include "dynamic_filter/front_end/visibility_removal.hpp"
 #include "dynamic_filter/front_end/window.hpp"
 #include "dynamic_filter/geometry/neighbor_grid.hpp"
 
@@ -22,10 +20,5 @@ bool fits_static_map(const Point& point, const NeighborGrid& static_map,
 /// `static_map` holds the points that survived removal [map frame].
 void revert_by_map(const Window& window, const NeighborGrid& static_map,
                    const Config::FrontEnd& config, std::vector<Labels>& labels);
-
-/// Visibility-based reverting, after Removert's idea: the window is looked at again in coarser images
-/// (the nearest range of a larger pixel is smaller); what they do not see through is still.
-void revert_by_visibility(const Window& window, std::span<const RangeImage> coarse_images,
-                          const RemovalMargin& margin, std::vector<Labels>& labels);
 
 }  // namespace dynamic_filter

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+/// Which kinds of surface the final verdicts get wrong: simulates a scene, filters it, and prints a
+/// Markdown table.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <string_view>
+#include <vector>
+
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/eval/voxel_scores.hpp"
+#include "dynamic_filter/geometry/voxel.hpp"
+#include "dynamic_filter/pipeline/dynamic_filter.hpp"
+#include "dynamic_filter/sim/simulation.hpp"
+
+namespace {
+
+using namespace dynamic_filter;
+using sim::kind_names;
+
+constexpr double kVoxel = 0.2;  // [m] of the scores, whatever the filter's own
+constexpr std::size_t kKinds = kind_names.size();
+
+struct Arguments {
+    sim::SimulationOptions scene;
+    Config config = preset("paper");
+};
+
+template <class Number>
+Number parse(std::string_view what, std::string_view text) {
+    Number number{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc{} || end != text.data() + text.size()) {
+        throw ConfigError(fmt::format("{} is \"{}\": expected an integer", what, text));
+    }
+    return number;
+}
+
+Arguments read_arguments(const std::vector<std::string_view>& words) {
+    if (words.size() < 4) {
+        throw ConfigError("usage: error_table SCENE SENSOR PEDESTRIANS SEED [KEY=VALUE ...]");
+    }
+    Arguments arguments;
+    arguments.scene.scene = words[0];
+    arguments.scene.sensor = words[1];
+    arguments.scene.pedestrians = parse<int>("PEDESTRIANS", words[2]);
+    arguments.scene.seed = parse<std::uint64_t>("SEED", words[3]);
+    for (std::size_t i = 4; i < words.size(); ++i) {
+        const std::size_t equals = words[i].find('=');
+        if (equals == std::string_view::npos) {
+            throw ConfigError(fmt::format("\"{}\" is not KEY=VALUE", words[i]));
+        }
+        set(arguments.config, words[i].substr(0, equals), words[i].substr(equals + 1));
+    }
+    return arguments;
+}
+
+/// Points of one voxel.
+struct VoxelKinds {
+    std::array<std::uint32_t, kKinds> points{};
+    bool kept = false;  // at least one of them
+};
+
+/// Voxels of one kind.
+struct Row {
+    std::size_t voxels = 0, wrong = 0;
+    void operator+=(const Row& other) { voxels += other.voxels, wrong += other.wrong; }
+};
+
+struct Table {
+    std::array<Row, kKinds> rows{};
+    std::size_t mixed = 0;
+
+    /// Sum over the static or the dynamic kinds.
+    [[nodiscard]] Row sum(bool dynamic) const {
+        Row total;
+        for (std::size_t k = 0; k < kKinds; ++k) {
+            if (is_dynamic(sim::Kind{static_cast<std::uint8_t>(k)}) == dynamic) total += rows[k];
+        }
+        return total;
+    }
+};
+
+Scan to_scan(const sim::SimulatedScan& scan, std::size_t index) {
+    return {scan.points, scan.T_world_sensor, scan.stamp, index};
+}
+
+/// Scans are simulated a second time here: cheaper than keeping them all.
+std::vector<VoxelKinds> tally(sim::Simulation& simulation, const DynamicFilter& filter) {
+    VoxelIndex index;
+    std::vector<VoxelKinds> voxels;
+    for (std::size_t i = 0; i < simulation.size(); ++i) {
+        const sim::SimulatedScan scan = simulation.scan(i);
+        const Labels verdict = filter.verdict(to_scan(scan, i)).labels;
+        for (std::size_t p = 0; p < scan.points.size(); ++p) {
+            const Eigen::Vector3d world = scan.T_world_sensor * scan.points[p].cast<double>();
+            const auto cell = cell_of(world.cast<float>(), static_cast<float>(1.0 / kVoxel));
+            if (!cell) continue;
+            const std::uint32_t id = index.insert(pack(*cell));
+            if (id == voxels.size()) voxels.emplace_back();
+            ++voxels[id].points[static_cast<std::size_t>(scan.kinds[p])];
+            voxels[id].kept |= verdict[p] != Label::dynamic;
+        }
+    }
+    return voxels;
+}
+
+/// Voxels with both static and dynamic points count for neither, as in eval's "excluded" reading.
+Table tabulate(const std::vector<VoxelKinds>& voxels) {
+    constexpr auto first_dynamic = static_cast<std::ptrdiff_t>(sim::Kind::walking);
+    Table table;
+    for (const auto& [points, kept] : voxels) {
+        const auto has_points = [](std::uint32_t n) { return n > 0; };
+        const bool still = std::any_of(points.begin(), points.begin() + first_dynamic, has_points);
+        const bool dynamic = std::any_of(points.begin() + first_dynamic, points.end(), has_points);
+        if (still && dynamic) {
+            ++table.mixed;
+            continue;
+        }
+        const auto most = std::max_element(points.begin(), points.end()) - points.begin();
+        table.rows[static_cast<std::size_t>(most)] += {1, kept == dynamic ? 1U : 0U};
+    }
+    return table;
+}
+
+double percent(std::size_t part, std::size_t whole) {
+    return whole > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(whole) : 0.0;
+}
+
+void print_row(std::string_view name, std::string_view error, const Row& row, std::size_t errors) {
+    fmt::print("| {:<11} | {:<12} | {:>8} | {:>7} | {:>9.2f} | {:>19.1f} |\n", name, error,
+               row.voxels, row.wrong, percent(row.wrong, row.voxels), percent(row.wrong, errors));
+}
+
+void print(const Table& table) {
+    const Row still = table.sum(false), dynamic = table.sum(true);
+    const std::size_t errors = still.wrong + dynamic.wrong;
+    fmt::print("| {:<11} | {:<12} | {:>8} | {:>7} | {:>9} | {:>19} |\n", "kind", "error", "voxels",
+               "wrong", "wrong [%]", "share of errors [%]");
+    fmt::print("|:{0:-<11}-|:{0:-<12}-|-{0:->8}:|-{0:->7}:|-{0:->9}:|-{0:->19}:|\n", "");
+    for (std::size_t k = 0; k < kKinds; ++k) {
+        if (table.rows[k].voxels == 0) continue;  // the scene has none
+        const bool moves = is_dynamic(sim::Kind{static_cast<std::uint8_t>(k)});
+        print_row(kind_names[k], moves ? "dynamic kept" : "static lost", table.rows[k], errors);
+    }
+    print_row("all static", "static lost", still, errors);
+    print_row("all dynamic", "dynamic kept", dynamic, errors);
+
+    const auto count = [](std::size_t n) { return static_cast<double>(n); };
+    const auto score = eval::voxel_score(count(still.voxels), count(still.voxels - still.wrong),
+                                         count(dynamic.voxels), count(dynamic.wrong));
+    fmt::print("\nPR {:.2f} %, RR {:.2f} %, F1 {:.4f}; {} mixed voxels are left out\n",
+               100.0 * score.pr.value_or(0.0), 100.0 * score.rr.value_or(0.0),
+               score.f1.value_or(0.0), table.mixed);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        const Arguments arguments = read_arguments({argv + 1, argv + argc});
+        sim::Simulation simulation(arguments.scene);
+        DynamicFilter filter(arguments.config);
+        for (std::size_t i = 0; i < simulation.size(); ++i) {
+            filter.push(to_scan(simulation.scan(i), i));
+        }
+        filter.finish();
+        print(tabulate(tally(simulation, filter)));
+        return 0;
+    } catch (const Error& error) {
+        fmt::print(stderr, "error_table: {}\n", error.what());
+        return 2;
+    }
+}

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT
+// The command as a user types it: exit codes, what a run leaves behind, and what it says of bad input.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "dynamic_filter/io/cloud.hpp"
+#include "dynamic_filter/io/sequence.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace fs = std::filesystem;
+
+namespace dynamic_filter {
+namespace {
+
+using test::slurp;
+using test::spill;
+
+/// A small simulated recording, made once.
+const fs::path& recording() {
+    static const test::TemporaryFolder folder;
+    static const fs::path path = folder / "recording";
+    if (!fs::exists(path)) {
+        const std::string make = std::string(COMMAND) +
+                                 " simulate crowd --frames 24 --pedestrians 30 -o " + path.string() +
+                                 " >/dev/null 2>&1";
+        EXPECT_EQ(std::system(make.c_str()), 0);
+    }
+    return path;
+}
+
+class Command : public testing::Test {
+protected:
+    /// Runs the command in the test's folder; its output goes to said().
+    int run(const std::string& arguments) {
+        const std::string line = "cd " + folder_.path().string() + " && " + COMMAND + " " + arguments +
+                                 " >out.txt 2>&1";
+        const int status = std::system(line.c_str());
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+    std::string said() { return slurp(folder_ / "out.txt"); }
+    void expect_said(const std::string& text) {
+        EXPECT_NE(said().find(text), std::string::npos) << "expected: " << text << "\nsaid: " << said();
+    }
+    /// A copy of the recording that a test may spoil.
+    fs::path copy() {
+        fs::copy(recording(), folder_ / "data", fs::copy_options::recursive);
+        return folder_ / "data";
+    }
+    std::map<std::string, std::string> bytes_of(const std::string& output) {
+        std::map<std::string, std::string> files;
+        for (const auto& entry : fs::recursive_directory_iterator(folder_ / output)) {
+            const std::string name = entry.path().filename();
+            if (entry.is_regular_file() && name != "timing.json" && name != "run.log") {
+                files[fs::relative(entry.path(), folder_ / output)] = slurp(entry.path());
+            }
+        }
+        return files;
+    }
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(Command, RunLeavesWhatTheContractSays) {
+    ASSERT_EQ(run("run " + recording().string() + " -o out"), 0) << said();
+    const io::Sequence sequence = io::open_sequence(recording());
+    std::size_t points = 0;
+    for (std::size_t i = 0; i < sequence.size(); ++i) {
+        const auto label_file = folder_ / ("out/labels/" + io::stem(sequence, i) + ".label");
+        const std::size_t in_scan = io::read_frame(sequence, i).points.size();
+        ASSERT_EQ(fs::file_size(label_file), 4 * in_scan);
+        points += in_scan;
+    }
+    const io::Cloud still = io::read_cloud(folder_ / "out/static_map.pcd");
+    const io::Cloud dynamic = io::read_cloud(folder_ / "out/dynamic_points.pcd");
+    EXPECT_EQ(still.size() + dynamic.size(), points);
+    EXPECT_GT(dynamic.size(), 0U);
+    EXPECT_NE(still.find("intensity"), nullptr);
+
+    const auto metrics = nlohmann::json::parse(slurp(folder_ / "out/metrics.json"));
+    for (const char* reading : {"excluded", "static_wins", "majority", "erasor"}) {
+        EXPECT_GT(metrics["voxel"][reading]["f1"], 0.5) << reading;
+        EXPECT_GT(metrics["instant"]["voxel"][reading]["pr"], 0.5) << reading;
+    }
+    for (const char* score : {"sa", "da", "aa", "ha", "iou"}) EXPECT_GT(metrics["point"][score], 0.3);
+    const auto timing = nlohmann::json::parse(slurp(folder_ / "out/timing.json"));
+    EXPECT_GT(timing["scans_per_second"], 0);
+    EXPECT_GT(timing["front_end"]["scans_per_second"], 0);
+    EXPECT_GT(timing["back_end"]["submaps_per_second"], 0);
+    EXPECT_GT(timing["stages"]["front_end"]["p99"], 0);
+    for (const char* key : {"cpu_seconds", "voxels", "peak_rss_bytes", "threads"}) EXPECT_GT(timing[key], 0);
+    EXPECT_TRUE(fs::exists(folder_ / "out/run.log"));
+    // The written configuration gives the same run again.
+    ASSERT_EQ(run("run " + recording().string() + " -o again --config out/config.toml"), 0);
+    EXPECT_EQ(bytes_of("again"), bytes_of("out"));
+}
+
+TEST_F(Command, GivesTheSameBytesForOneAndTwoThreads) {
+    ASSERT_EQ(run("run " + recording().string() + " -o one --threads 1"), 0);
+    ASSERT_EQ(run("run " + recording().string() + " -o two --threads 2"), 0);
+    EXPECT_EQ(bytes_of("one"), bytes_of("two"));
+}
+
+TEST_F(Command, SimulatesTheSameBytesForTheSameSeed) {
+    ASSERT_EQ(run("simulate street --frames 2 --sensor vlp16 --seed 5 -o a"), 0) << said();
+    ASSERT_EQ(run("simulate street --frames 2 --sensor vlp16 --seed 5 -o b"), 0);
+    ASSERT_EQ(run("simulate street --frames 2 --sensor vlp16 --seed 6 -o c"), 0);
+    EXPECT_EQ(bytes_of("a"), bytes_of("b"));
+    EXPECT_NE(bytes_of("a"), bytes_of("c"));
+}
+
+TEST_F(Command, EvalOfLabelsAndOfTheMapAgreeWithTheRun) {
+    ASSERT_EQ(run("run " + recording().string() + " -o out"), 0);
+    const auto metrics = nlohmann::json::parse(slurp(folder_ / "out/metrics.json"));
+    ASSERT_EQ(run("eval --truth " + recording().string() + " --labels out --json l.json"), 0) << said();
+    ASSERT_EQ(run("eval --truth " + recording().string() + " --map out/static_map.pcd --json m.json"), 0);
+    const auto labels = nlohmann::json::parse(slurp(folder_ / "l.json"));
+    const auto map = nlohmann::json::parse(slurp(folder_ / "m.json"));
+    EXPECT_EQ(labels["voxel"], metrics["voxel"]);
+    EXPECT_EQ(labels["point"], metrics["point"]);
+    EXPECT_NEAR(map["voxel"]["excluded"]["f1"], labels["voxel"]["excluded"]["f1"], 0.002);
+    EXPECT_NEAR(map["point"]["aa"], labels["point"]["aa"], 0.002);
+    EXPECT_EQ(run("eval --truth " + recording().string()), 2);
+}
+
+TEST_F(Command, UsageErrorsExitWithTwo) {
+    EXPECT_EQ(run(""), 2);
+    EXPECT_EQ(run("fly"), 2);
+    EXPECT_EQ(run("run"), 2);
+    EXPECT_EQ(run("run " + recording().string() + " --set back_end.voxle_size=1"), 2);
+    expect_said("back_end.voxel_size");
+    EXPECT_EQ(run("run " + recording().string() + " --set back_end.voxel_size=-1"), 2);
+    EXPECT_EQ(run("run " + recording().string() + " --preset best"), 2);
+    EXPECT_EQ(run("run " + recording().string() + " --format cloud"), 2);
+    EXPECT_EQ(run("run " + recording().string() + " --first 99"), 2);
+    EXPECT_EQ(run("simulate moon -o x"), 2);
+    expect_said("crowd");
+    EXPECT_FALSE(fs::exists(folder_ / "results"));
+}
+
+TEST_F(Command, HelpAndVersionExitWithZero) {
+    EXPECT_EQ(run("--help"), 0);
+    expect_said("simulate");
+    EXPECT_EQ(run("run --help"), 0);
+    EXPECT_EQ(run("--version"), 0);
+}
+
+TEST_F(Command, AnOutputFolderInUseIsLeftAlone) {
+    fs::create_directories(folder_ / "out");
+    spill(folder_ / "out/static_map.pcd", "precious");
+    EXPECT_EQ(run("run " + recording().string() + " -o out"), 2);
+    expect_said("not empty");
+    EXPECT_EQ(slurp(folder_ / "out/static_map.pcd"), "precious");
+    EXPECT_EQ(run("run " + recording().string() + " -o out --overwrite"), 0);
+}
+
+TEST_F(Command, InputThatIsNotThereOrContradictsItselfExitsWithThree) {
+    EXPECT_EQ(run("run nowhere"), 3);
+    const fs::path data = copy();
+    const std::string poses = slurp(data / "poses.txt");
+    spill(data / "poses.txt", poses.substr(0, poses.size() / 2));
+    EXPECT_EQ(run("run data -o out"), 3);
+    fs::remove(data / "poses.txt");
+    EXPECT_EQ(run("run data -o out"), 3);
+    expect_said("poses");
+    spill(data / "poses.txt", poses + poses);
+    EXPECT_EQ(run("run data -o out"), 3);
+    expect_said("24");
+    expect_said("48");
+    spill(data / "poses.txt", "2 0 0 0 0 2 0 0 0 0 2 0\n" + poses.substr(poses.find('\n') + 1));
+    EXPECT_EQ(run("run data -o out"), 3);
+    expect_said("line 1");
+    EXPECT_FALSE(fs::exists(folder_ / "out/static_map.pcd"));
+}
+
+TEST_F(Command, BadScansAreRejectedCountedAndNamed) {
+    const fs::path data = copy();
+    fs::resize_file(data / "velodyne/000003.bin", 1001);
+    fs::resize_file(data / "velodyne/000005.bin", 0);
+    fs::resize_file(data / "labels/000007.label", 8);
+    EXPECT_EQ(run("run data -o out"), 4) << said();
+    const auto metrics = nlohmann::json::parse(slurp(folder_ / "out/metrics.json"));
+    EXPECT_EQ(metrics["rejected"].size(), 3U);
+    for (const char* stem : {"000003", "000005", "000007"}) {
+        EXPECT_FALSE(fs::exists(folder_ / "out/labels" / (std::string(stem) + ".label")));
+        EXPECT_NE(slurp(folder_ / "out/run.log").find(std::string("rejected ") + stem), std::string::npos);
+    }
+    EXPECT_TRUE(fs::exists(folder_ / "out/labels/000004.label"));
+}
+
+TEST_F(Command, PointsThatAreNoMeasurementsEndAsUnknown) {
+    const fs::path data = copy();
+    std::string bytes = slurp(data / "velodyne/000002.bin");
+    const float nan = std::numeric_limits<float>::quiet_NaN(), zero[3] = {0, 0, 0};
+    std::memcpy(bytes.data(), &nan, sizeof nan);
+    std::memcpy(bytes.data() + 16, zero, sizeof zero);
+    spill(data / "velodyne/000002.bin", bytes);
+    EXPECT_EQ(run("run data -o out"), 0) << said();
+    const std::string labels = slurp(folder_ / "out/labels/000002.label");
+    EXPECT_EQ(labels.substr(0, 8), std::string(8, '\0'));
+    EXPECT_NE(labels.substr(8, 4), std::string(4, '\0'));
+}
+
+TEST_F(Command, FailingToWriteExitsWithOne) {
+    spill(folder_ / "file", "");
+    EXPECT_EQ(run("run " + recording().string() + " -o file/out"), 1);
+    EXPECT_EQ(run("run " + recording().string() + " -o /proc/none"), 1);
+}
+
+TEST_F(Command, InfoDescribesFilesAndFolders) {
+    EXPECT_EQ(run("info " + recording().string()), 0) << said();
+    expect_said("kitti");
+    expect_said("intensity");
+    EXPECT_EQ(run("info " + (recording() / "velodyne/000000.bin").string()), 0);
+    EXPECT_EQ(run("info nothing.pcd"), 3);
+}
+
+TEST_F(Command, ConfigPrintsWhatRunReads) {
+    EXPECT_EQ(run("config --preset paper"), 0);
+    spill(folder_ / "paper.toml", said());
+    EXPECT_EQ(run("config --config paper.toml"), 0);
+    EXPECT_EQ(said(), slurp(folder_ / "paper.toml"));
+}
+
+TEST_F(Command, NamesTheDefaultOutputByTimeAndLinksTheLatest) {
+    ASSERT_EQ(run("run " + recording().string() + " --last 3"), 0) << said();
+    EXPECT_TRUE(fs::exists(folder_ / "results/latest/static_map.pcd"));
+    EXPECT_TRUE(fs::is_symlink(folder_ / "results/latest"));
+}
+
+TEST_F(Command, FirstLastAndStrideSelectScans) {
+    ASSERT_EQ(run("run " + recording().string() + " --first 2 --last 10 --stride 4 -o out"), 0);
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder_ / "out/labels")) {
+        names.push_back(entry.path().filename());
+    }
+    std::sort(names.begin(), names.end());
+    EXPECT_EQ(names, (std::vector<std::string>{"000002.label", "000006.label", "000010.label"}));
+}
+
+}  // namespace
+}  // namespace dynamic_filter

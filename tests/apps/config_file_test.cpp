@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "config_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include "dynamic_filter/error.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace dynamic_filter::app {
+namespace {
+
+using test::spill;
+using test::TemporaryFolder;
+
+std::string error_of(const std::string& toml) {
+    const TemporaryFolder folder;
+    spill(folder / "c.toml", toml);
+    Config config;
+    try {
+        apply_toml(config, folder / "c.toml");
+    } catch (const ConfigError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(ConfigFile, WhatIsPrintedIsReadBackEqual) {
+    Config config;
+    set(config, "method", "removert");
+    set(config, "front_end.reverting", "none");
+    set(config, "back_end.voxel_size", "0.123");
+    set(config, "back_end.incident_correction", "false");
+    set(config, "submap.keyframes", "7");
+    const TemporaryFolder folder;
+    spill(folder / "c.toml", to_toml(config));
+    Config read;
+    apply_toml(read, folder / "c.toml");
+    EXPECT_EQ(to_toml(read), to_toml(config));
+    EXPECT_NE(to_toml(read), to_toml(Config{}));
+}
+
+TEST(ConfigFile, NamesFileLineAndNearestKey) {
+    const std::string error = error_of("[back_end]\nvoxel_size = 0.1\nvoxle_size = 0.2\n");
+    EXPECT_NE(error.find("c.toml"), std::string::npos) << error;
+    EXPECT_NE(error.find("line 3"), std::string::npos) << error;
+    EXPECT_NE(error.find("'back_end.voxel_size'"), std::string::npos) << error;
+}
+
+TEST(ConfigFile, ReportsAllWrongLinesAtOnce) {
+    const std::string error = error_of("[submap]\nkeyframes = 2.5\n[front_end]\ntau = \"wide\"\n");
+    EXPECT_NE(error.find("line 2"), std::string::npos) << error;
+    EXPECT_NE(error.find("line 4"), std::string::npos) << error;
+}
+
+TEST(ConfigFile, RejectsWhatIsNotToml) {
+    EXPECT_NE(error_of("[back_end\n").find("not TOML"), std::string::npos);
+    EXPECT_NE(error_of("a = 1\na = 2\n").find("line 2"), std::string::npos);
+    EXPECT_NE(error_of("back_end = 3\n").find("unknown setting"), std::string::npos);
+}
+
+TEST(LoadConfig, AppliesPresetFileThenAssignmentsAndChecksBounds) {
+    const TemporaryFolder folder;
+    spill(folder / "c.toml", "[back_end]\nvoxel_size = 0.1\ndepth_channel = 0.3\n");
+    ConfigOptions options{"paper", folder / "c.toml", {"back_end.voxel_size=0.4"}};
+    const Config config = load_config(options);
+    EXPECT_EQ(config.back_end.voxel_size, 0.4);
+    EXPECT_EQ(config.back_end.depth_channel, 0.3);
+    options.assignments = {"back_end.voxel_size"};
+    EXPECT_THROW(load_config(options), ConfigError);
+    options.assignments = {"back_end.voxel_size=-1"};
+    EXPECT_THROW(load_config(options), ConfigError);
+    options = {"best", std::nullopt, {}};
+    EXPECT_THROW(load_config(options), ConfigError);
+    options = {"paper", folder / "missing.toml", {}};
+    EXPECT_THROW(load_config(options), ConfigError);
+}
+
+}  // namespace
+}  // namespace dynamic_filter::app

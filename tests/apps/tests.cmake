@@ -1,0 +1,6 @@
+foreach(unit config_file map_files output_folder report top_view)
+  df_test(apps/${unit} dynamic_filter_app)
+endforeach()
+df_test(apps/command dynamic_filter_app)
+add_dependencies(apps_command_test dynamicfilter)
+target_compile_definitions(apps_command_test PRIVATE COMMAND="$<TARGET_FILE:dynamicfilter>")

@@ -1,0 +1,16 @@
+foreach(unit config parallel
+             geometry/neighbor_grid geometry/pose geometry/principal_axes geometry/project_kernel
+             geometry/range_image geometry/voxel
+             front_end/front_end front_end/reverting front_end/submap front_end/visibility_removal
+             front_end/window
+             back_end/back_end back_end/normals back_end/occupancy back_end/submap_buffer
+             back_end/visibility_check
+             pipeline/dynamic_filter pipeline/merge)
+  df_test(${unit} dynamic_filter)
+endforeach()
+
+# The kernels are private to the library, and so is the word on which of them exist.
+target_include_directories(geometry_project_kernel_test PRIVATE ${PROJECT_SOURCE_DIR}/src)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  target_compile_definitions(geometry_project_kernel_test PRIVATE DYNAMIC_FILTER_X86_LEVELS)
+endif()

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include "dynamic_filter/eval/scores.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+#include <vector>
+
+namespace dynamic_filter::eval {
+namespace {
+
+constexpr Label kStill = Label::still, kDynamic = Label::dynamic, kUnknown = Label::unknown;
+
+std::vector<LabelledScan> random_scans() {
+    std::mt19937 random(11);
+    const auto coordinate = [&] { return static_cast<float>(random() % 1000) / 1000.0F; };
+    std::vector<LabelledScan> scans(5);
+    for (LabelledScan& scan : scans) {
+        for (int i = 0; i < 400; ++i) {
+            scan.points.emplace_back(coordinate(), coordinate(), coordinate());
+            scan.truth.push_back(random() % 5 == 0 ? kUnknown : random() % 2 == 0 ? kDynamic : kStill);
+            scan.verdict.push_back(random() % 6 == 0 ? kUnknown : random() % 2 == 0 ? kDynamic : kStill);
+        }
+    }
+    return scans;
+}
+
+ScanSource source_of(const std::vector<LabelledScan>& scans) {
+    return [&scans](std::size_t i) { return std::optional(scans[i]); };
+}
+
+/// SA and DA by comparing every ground-truth point with every point of the clean map.
+PointScore plain_point_score(const std::vector<LabelledScan>& scans, const Points& map) {
+    CoverCount count;
+    for (const LabelledScan& scan : scans) {
+        for (std::size_t i = 0; i < scan.points.size(); ++i) {
+            if (scan.truth[i] == kUnknown) continue;
+            bool covered = false;
+            for (const Point& m : map) covered |= (m - scan.points[i]).squaredNorm() <= 0.05F * 0.05F;
+            const bool dynamic = scan.truth[i] == kDynamic;
+            (dynamic ? count.dynamic : count.still) += 1;
+            if (covered) (dynamic ? count.covered_dynamic : count.covered_still) += 1;
+        }
+    }
+    return point_score(count);
+}
+
+Points clean_map(const std::vector<LabelledScan>& scans) {
+    Points map;
+    for (const LabelledScan& scan : scans) {
+        for (std::size_t i = 0; i < scan.points.size(); ++i) {
+            if (scan.truth[i] != kUnknown && scan.verdict[i] != kDynamic) map.push_back(scan.points[i]);
+        }
+    }
+    return map;
+}
+
+TEST(ScoreLabels, CoverAgreesWithBruteForce) {
+    const auto scans = random_scans();
+    const Scores scores = score_labels(scans.size(), source_of(scans), 0.2);
+    const PointScore plain = plain_point_score(scans, clean_map(scans));
+    EXPECT_DOUBLE_EQ(*scores.point.sa, *plain.sa);
+    EXPECT_DOUBLE_EQ(*scores.point.da, *plain.da);
+    EXPECT_LT(*scores.point.da, 1.0);
+    EXPECT_GT(*scores.point.da, 0.0);
+}
+
+TEST(ScoreMap, OfTheKeptPointsAgreesWithScoreLabels) {
+    const auto scans = random_scans();
+    const Scores by_labels = score_labels(scans.size(), source_of(scans), 0.2);
+    const Scores by_map = score_map(scans.size(), source_of(scans), clean_map(scans), 0.2);
+    EXPECT_DOUBLE_EQ(*by_map.point.sa, *by_labels.point.sa);
+    EXPECT_DOUBLE_EQ(*by_map.point.da, *by_labels.point.da);
+    EXPECT_FALSE(by_map.point.iou);
+    for (const char* reading : {"excluded", "static_wins", "majority"}) {
+        EXPECT_EQ(by_map.voxel.at(reading).f1, by_labels.voxel.at(reading).f1) << reading;
+    }
+}
+
+TEST(ScoreLabels, PerfectVerdictsScoreOne) {
+    auto scans = random_scans();
+    for (LabelledScan& scan : scans) {
+        scan.verdict = scan.truth;
+        // Apart, so that no removed point lies near a kept one.
+        for (std::size_t i = 0; i < scan.points.size(); ++i) {
+            if (scan.truth[i] == kDynamic) scan.points[i].x() += 5.0F;
+        }
+    }
+    const Scores scores = score_labels(scans.size(), source_of(scans), 0.2);
+    EXPECT_DOUBLE_EQ(*scores.voxel.at("excluded").f1, 1.0);
+    EXPECT_DOUBLE_EQ(*scores.point.aa, 1.0);
+    EXPECT_DOUBLE_EQ(*scores.point.iou, 1.0);
+}
+
+TEST(ScoreLabels, LeavesOutUnknownTruthMissingScansAndPointsThatAreNotFinite) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const LabelledScan scan{{{0, 0, 0.1F}, {1, 0, 0.1F}, {nan, 0, 0}},
+                            {kUnknown, kStill, kDynamic},
+                            {kDynamic, kStill, kStill}};
+    const ScanSource source = [&](std::size_t i) {
+        return i == 0 ? std::optional(scan) : std::nullopt;
+    };
+    const Scores scores = score_labels(2, source, 0.2);
+    EXPECT_DOUBLE_EQ(*scores.voxel.at("excluded").pr, 1.0);
+    EXPECT_FALSE(scores.voxel.at("excluded").rr);
+    EXPECT_DOUBLE_EQ(*scores.point.sa, 1.0);
+    EXPECT_FALSE(scores.point.da);
+    EXPECT_DOUBLE_EQ(scores.dynamic_share, 0.0);
+}
+
+}  // namespace
+}  // namespace dynamic_filter::eval

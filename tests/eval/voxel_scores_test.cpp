@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "dynamic_filter/eval/voxel_scores.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <random>
+#include <tuple>
+
+namespace dynamic_filter::eval {
+namespace {
+
+constexpr Label kStill = Label::still, kDynamic = Label::dynamic;
+
+/// Middle of the n-th voxel of 0.2 m along x, and a little off it.
+Point in_voxel(int n, float off = 0.0F) { return {0.2F * static_cast<float>(n) + 0.1F + off, 0.1F, 0.1F}; }
+
+TEST(VoxelScore, IsWorkedByHand) {
+    const VoxelScore s = voxel_score(10, 9, 5, 1);
+    EXPECT_DOUBLE_EQ(*s.pr, 0.9);
+    EXPECT_DOUBLE_EQ(*s.rr, 0.8);
+    EXPECT_DOUBLE_EQ(*s.f1, 2 * 0.9 * 0.8 / 1.7);
+}
+
+TEST(VoxelScore, IsUndefinedWithoutVoxelsOfAKind) {
+    EXPECT_FALSE(voxel_score(0, 0, 5, 1).pr);
+    EXPECT_FALSE(voxel_score(0, 0, 5, 1).f1);
+    EXPECT_FALSE(voxel_score(10, 9, 0, 0).rr);
+    EXPECT_DOUBLE_EQ(*voxel_score(10, 0, 5, 5).f1, 0.0);
+}
+
+/// Voxel 0: 2 static, 1 kept. Voxel 1: 1 dynamic kept. Voxel 2: 1 dynamic removed.
+/// Voxel 3: 2 static removed, 1 dynamic kept. Voxel 4: 1 static, 2 dynamic, all removed.
+VoxelTally worked_example() {
+    VoxelTally tally(0.2);
+    tally.add(in_voxel(0, 0.05F), kStill, true);
+    tally.add(in_voxel(0, -0.05F), kStill, false);
+    tally.add(in_voxel(1), kDynamic, true);
+    tally.add(in_voxel(2), kDynamic, false);
+    tally.add(in_voxel(3), kStill, false);
+    tally.add(in_voxel(3), kStill, false);
+    tally.add(in_voxel(3), kDynamic, true);
+    tally.add(in_voxel(4), kStill, false);
+    tally.add(in_voxel(4), kDynamic, false);
+    tally.add(in_voxel(4), kDynamic, false);
+    return tally;
+}
+
+TEST(VoxelTally, ReadsMixedVoxelsAsNamed) {
+    const auto scores = worked_example().scores();
+    // Excluded: static {0}, kept; dynamic {1, 2}, 1 kept.
+    EXPECT_DOUBLE_EQ(*scores.at("excluded").pr, 1.0);
+    EXPECT_DOUBLE_EQ(*scores.at("excluded").rr, 0.5);
+    // Static wins: static {0, 3, 4}, 0 and 3 hold a kept point; dynamic {1, 2}.
+    EXPECT_DOUBLE_EQ(*scores.at("static_wins").pr, 2.0 / 3.0);
+    EXPECT_DOUBLE_EQ(*scores.at("static_wins").rr, 0.5);
+    // Majority: static {0, 3}, dynamic {1, 2, 4}.
+    EXPECT_DOUBLE_EQ(*scores.at("majority").pr, 1.0);
+    EXPECT_DOUBLE_EQ(*scores.at("majority").rr, 1.0 - 1.0 / 3.0);
+}
+
+TEST(VoxelTally, ErasorReadingNeedsTheSameLabelAtTheNearestSurvivor) {
+    VoxelTally tally(0.2);
+    tally.add(in_voxel(0), kStill, true);
+    tally.add(in_voxel(10), kDynamic, true);
+    tally.add(in_voxel(20), kStill, false);    // no survivor near: lost
+    tally.add(in_voxel(30), kDynamic, false);  // rejected, although ...
+    tally.add(in_voxel(31, -0.05F), kStill, true);  // ... a static survivor is 0.15 m away
+    const auto s = tally.scores().at("erasor");
+    EXPECT_DOUBLE_EQ(*s.pr, 2.0 / 3.0);
+    EXPECT_DOUBLE_EQ(*s.rr, 0.5);
+}
+
+TEST(VoxelTally, DynamicShareCountsVoxelsWithAnyMovingPoint) {
+    EXPECT_DOUBLE_EQ(worked_example().dynamic_share(), 4.0 / 5.0);
+    EXPECT_DOUBLE_EQ(VoxelTally(0.2).dynamic_share(), 0.0);
+}
+
+TEST(VoxelTally, AMapMadeElsewherePreservesTheVoxelsItHasPointsIn) {
+    VoxelTally tally(0.2);
+    for (int n = 0; n < 4; ++n) tally.add(in_voxel(n), n < 2 ? kStill : kDynamic, false);
+    tally.add_map_point(in_voxel(0, 0.09F));
+    tally.add_map_point(in_voxel(3, -0.09F));
+    tally.add_map_point(in_voxel(50));  // where the raw map has nothing
+    const auto scores = tally.scores();
+    EXPECT_DOUBLE_EQ(*scores.at("excluded").pr, 0.5);
+    EXPECT_DOUBLE_EQ(*scores.at("excluded").rr, 0.5);
+    EXPECT_FALSE(scores.contains("erasor"));
+}
+
+/// A slow, plain re-count of the four readings.
+struct Plain {
+    struct Voxel {
+        int still = 0, dynamic = 0, kept = 0;
+    };
+    std::map<std::tuple<int, int, int>, Voxel> voxels;
+
+    void add(const Point& p, Label truth, bool kept) {
+        const auto cell = [](float v) { return static_cast<int>(std::floor(v / 0.2F)); };
+        Voxel& v = voxels[{cell(p.x()), cell(p.y()), cell(p.z())}];
+        (truth == kDynamic ? v.dynamic : v.still) += 1;
+        v.kept += kept ? 1 : 0;
+    }
+    template <class IsStill, class Counts>
+    VoxelScore score(IsStill is_still, Counts counts) const {
+        double s = 0, sk = 0, d = 0, dk = 0;
+        for (const auto& [key, v] : voxels) {
+            if (!counts(v)) continue;
+            (is_still(v) ? s : d) += 1;
+            if (v.kept > 0) (is_still(v) ? sk : dk) += 1;
+        }
+        return voxel_score(s, sk, d, dk);
+    }
+};
+
+void expect_equal(const VoxelScore& a, const VoxelScore& b) {
+    EXPECT_DOUBLE_EQ(*a.pr, *b.pr);
+    EXPECT_DOUBLE_EQ(*a.rr, *b.rr);
+    EXPECT_DOUBLE_EQ(*a.f1, *b.f1);
+}
+
+TEST(VoxelTally, AgreesWithAPlainCountOnRandomPoints) {
+    std::mt19937 random(7);
+    // Multiples of 1/64, so that no point sits on the border of a 0.2 m voxel but 0 itself.
+    const auto coordinate = [&] { return (static_cast<float>(random() % 256) - 127.5F) / 64.0F; };
+    VoxelTally tally(0.2);
+    Plain plain;
+    for (int i = 0; i < 5000; ++i) {
+        const Point p(coordinate(), coordinate(), coordinate());
+        const Label truth = random() % 3 == 0 ? kDynamic : kStill;
+        const bool kept = random() % 4 != 0;
+        tally.add(p, truth, kept);
+        plain.add(p, truth, kept);
+    }
+    const auto scores = tally.scores();
+    const auto all = [](const Plain::Voxel&) { return true; };
+    expect_equal(scores.at("excluded"),
+                 plain.score([](const auto& v) { return v.dynamic == 0; },
+                             [](const auto& v) { return v.still == 0 || v.dynamic == 0; }));
+    expect_equal(scores.at("static_wins"), plain.score([](const auto& v) { return v.still > 0; }, all));
+    expect_equal(scores.at("majority"),
+                 plain.score([](const auto& v) { return v.still >= v.dynamic; }, all));
+}
+
+}  // namespace
+}  // namespace dynamic_filter::eval

