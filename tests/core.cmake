@@ -1,7 +1,7 @@
 foreach(unit config parallel
              geometry/neighbor_grid geometry/pose geometry/principal_axes geometry/project_kernel
              geometry/range_image geometry/voxel
-             front_end/front_end front_end/reverting front_end/submap front_end/visibility_removal
+             front_end/front_end front_end/removert front_end/reverting front_end/submap front_end/visibility_removal
              front_end/window
              back_end/back_end back_end/normals back_end/occupancy back_end/submap_buffer
              back_end/visibility_check

@@ -22,7 +22,7 @@ struct Config {
 
     struct FrontEnd {
         bool enabled = true;
-        double image_step_deg = 1.0;
+        double image_step_deg = 0.5;
         double image_step_beams = 1.0;
         double tau = 0.2;
         double tau_per_metre = 0.05;

@@ -81,7 +81,9 @@ FrontEndResult FrontEnd::process(const Window& window, StageTimes& times) {
         labels = timed(times, "removert", [&] { return remove_and_revert(window); });
     } else if (config_.front_end.enabled) {
         labels = timed(times, "visibility_removal", [&] {
-            return remove_by_visibility(window, images(window, 1.0F), margin_of(config_.front_end));
+            auto seen = images(window, 1.0F);
+            std::transform(seen.begin(), seen.end(), seen.begin(), halve_rows);
+            return remove_by_visibility(window, seen, margin_of(config_.front_end));
         });
         timed(times, "reverting", [&] { revert(window, labels); });
     } else {

@@ -97,6 +97,27 @@ RangeImage nearest_range_image(std::span<const Point> points, const ImageGrid& g
     return image;
 }
 
+RangeImage halve_rows(const RangeImage& image) {
+    RangeImage halved{image.grid, {}};
+    halved.grid.rows *= 2;
+    halved.grid.elevation_step *= 0.5F;
+    halved.range.reserve(halved.grid.size());
+    const auto columns = static_cast<std::size_t>(image.grid.columns);
+    const auto rows = static_cast<std::size_t>(image.grid.rows);
+    for (std::size_t half = 0; half < 2 * rows; ++half) {
+        const std::size_t row = half / 2;
+        const bool lower = half % 2 == 0;
+        const bool outermost = lower ? row == 0 : row + 1 == rows;
+        const float* const own = image.range.data() + row * columns;
+        const float* const next = outermost ? own : lower ? own - columns : own + columns;
+        for (std::size_t c = 0; c < columns; ++c) {
+            const bool empty = own[c] == std::numeric_limits<float>::infinity();
+            halved.range.push_back(empty ? own[c] : std::min(own[c], next[c]));
+        }
+    }
+    return halved;
+}
+
 BeamPattern estimate_beam_pattern(std::span<const Scan> scans) {
     std::vector<float> azimuth_spacings, elevation_spacings;
     for (const Scan& scan : scans) {

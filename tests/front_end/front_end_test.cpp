@@ -6,6 +6,7 @@
 #include <numbers>
 #include <set>
 
+#include "dynamic_filter/front_end/removert.hpp"
 #include "dynamic_filter/front_end/reverting.hpp"
 #include "dynamic_filter/front_end/visibility_removal.hpp"
 #include "dynamic_filter/geometry/pose.hpp"
@@ -103,24 +104,16 @@ TEST(FrontEnd, RevertsByTheChosenRule) {
     const auto images = [&](float scale) {
         return keyframe_images(window, scale * step, scale * step);
     };
-    const auto removed = remove_by_visibility(window, images(1.0F), margin);
-    EXPECT_GT(count(removed, Label::dynamic), 100U);
-
     config.front_end.reverting = Reverting::none;
-    EXPECT_EQ(process(config).labels, removed);
+    const auto removed = process(config).labels;
+    EXPECT_GT(count(removed, Label::dynamic), 100U);
 
     config.front_end.reverting = Reverting::visibility;
     auto expected = removed;
-    revert_by_visibility(window, images(4.0F), margin, expected);
+    revert_by_visibility(window, images(4.0F), margin,
+                         static_cast<float>(config.back_end.voxel_size), expected);
     EXPECT_EQ(process(config).labels, expected);
 
-    config.method = Method::removert;  // two steps up to the scale
-    expected = removed;
-    revert_by_visibility(window, images(2.0F), margin, expected);
-    revert_by_visibility(window, images(4.0F), margin, expected);
-    EXPECT_EQ(process(config).labels, expected);
-
-    config.method = Method::dynamic_filter;
     config.front_end.reverting = Reverting::map;
     expected = removed;
     Thinner thinner(static_cast<float>(config.back_end.voxel_size));
@@ -132,6 +125,17 @@ TEST(FrontEnd, RevertsByTheChosenRule) {
     const NeighborGrid grid(thinner.points(), static_cast<float>(config.front_end.revert_radius));
     revert_by_map(window, grid, config.front_end, expected);
     EXPECT_EQ(process(config).labels, expected);
+}
+
+TEST(FrontEnd, RemovertHasItsOwnReverting) {
+    Config config;
+    config.method = Method::removert;
+    const auto labels = process(config).labels;
+    EXPECT_GT(count(labels, Label::dynamic), 0U);
+    EXPECT_GT(count(labels, Label::still), count(labels, Label::dynamic));
+    EXPECT_EQ(count(labels, Label::unknown), 1U);
+    config.front_end.reverting = Reverting::none;
+    EXPECT_EQ(process(config).labels, labels);
 }
 
 TEST(FrontEnd, ReadsTheBeamsOffTheFirstWindowOnly) {

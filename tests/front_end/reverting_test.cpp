@@ -167,33 +167,5 @@ TEST(RevertByMap, TurnsExactlyTheDynamicPointsThatFit) {
     EXPECT_EQ(labels[1], after);
 }
 
-TEST(RevertByVisibility, OnlyTurnsDynamicToStillWhereTheCoarseImageDoesNotSeeThrough) {
-    test::Random random(3);
-    const RemovalMargin margin{0.2F, 0.05F};
-    Window window;
-    for (int s = 0; s < 3; ++s) {
-        Scan scan;
-        scan.points = random.points(1000, 8.0);
-        scan.points[7] = Point::Zero();
-        scan.T_world_sensor = random.pose(1.0, 1.0);
-        window.scans.push_back(scan);
-    }
-    window.keyframes = {0, 1, 2};
-    const auto before = remove_by_visibility(window, keyframe_images(window, 0.05F, 0.05F), margin);
-    const auto coarse_images = keyframe_images(window, 0.2F, 0.2F);
-    const auto coarse = remove_by_visibility(window, coarse_images, margin);
-    auto labels = before;
-    revert_by_visibility(window, coarse_images, margin, labels);
-    int reverted = 0;
-    for (std::size_t s = 0; s < 3; ++s) {
-        for (std::size_t i = 0; i < labels[s].size(); ++i) {
-            const bool turned = before[s][i] == Label::dynamic && coarse[s][i] == Label::still;
-            ASSERT_EQ(labels[s][i], turned ? Label::still : before[s][i]);
-            reverted += turned ? 1 : 0;
-        }
-    }
-    EXPECT_GT(reverted, 50);
-}
-
 }  // namespace
 }  // namespace dynamic_filter

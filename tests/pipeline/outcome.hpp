@@ -9,8 +9,14 @@
 
 namespace dynamic_filter::test {
 
+/// Windows of 4 s; the thresholds that decide are pinned here, so that tuning breaks no test.
 inline Config small_windows() {
     Config config = preset("paper");
+    config.front_end.tau = 0.2;
+    config.front_end.tau_per_metre = 0.05;
+    config.back_end.incident_threshold_deg = 75.0;
+    config.back_end.depth_channel = 0.2;
+    config.back_end.occupancy_threshold = 0.35;
     config.submap.keyframes = 8;
     config.submap.keyframe_interval = 0.5;
     config.submap.keyframe_distance = 100.0;
