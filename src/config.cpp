@@ -36,10 +36,12 @@ std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"
 template <class T>
 void parse(std::string_view key, std::string_view text, T& value) {
     if constexpr (is_number<T>) {
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        T parsed{};
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), parsed);
         if (error != std::errc{} || end != text.data() + text.size()) {
             reject(key, text, std::is_same_v<T, int> ? "a whole number" : "a number");
         }
+        value = parsed;
     } else {
         const auto& choices = words(value);
         const auto it = std::find(choices.begin(), choices.end(), text);

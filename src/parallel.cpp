@@ -7,6 +7,7 @@
 #include <exception>
 #include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 #else
 #include <tbb/blocked_range.h>
@@ -26,9 +27,11 @@ thread_local int thread_limit = 0;
 int available_threads() { return std::max(1U, std::thread::hardware_concurrency()); }
 
 void with_threads(int threads, const std::function<void()>& work) {
-    const int before = std::exchange(thread_limit, threads);
+    struct Restore {
+        int before;
+        ~Restore() { thread_limit = before; }
+    } const restore{std::exchange(thread_limit, threads)};
     work();
-    thread_limit = before;
 }
 
 void parallel_for(std::size_t count, std::size_t grain,

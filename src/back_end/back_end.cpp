@@ -50,10 +50,18 @@ void BackEnd::insert(Submap submap, const BeamPattern& beams, StageTimes& times)
 }
 
 LocalMap BackEnd::local_map(const Pose& T_map_query, StageTimes& times) {
+    return buffer_.empty() ? LocalMap{} : local_map(T_map_query, buffer_.size() - 1, times);
+}
+
+LocalMap BackEnd::local_map_of(std::size_t submap, StageTimes& times) {
+    return local_map(buffer_[submap].submap.T_map_submap, submap, times);
+}
+
+LocalMap BackEnd::local_map(const Pose& T_map_query, std::size_t anchor, StageTimes& times) {
     std::vector<const BufferedSubmap*> nearby;
     for (const std::size_t i :
          search_radius(buffer_, T_map_query.translation(), config_.search_radius,
-                       static_cast<std::size_t>(config_.max_submaps))) {
+                       static_cast<std::size_t>(config_.max_submaps), anchor)) {
         nearby.push_back(&buffer_[i]);
     }
     const auto boundaries = timed(times, "visibility_check", [&] {

@@ -72,7 +72,7 @@ std::vector<Labels> FrontEnd::remove_and_revert(const Window& window) const {
 }
 
 FrontEndResult FrontEnd::process(const Window& window, StageTimes& times) {
-    if (!beams_) {
+    if (!beams_ || beams_->elevation_spacing == 0.0F) {  // first window, or only empty ones so far
         const auto few = std::min<std::size_t>(window.scans.size(), 5);
         beams_ = estimate_beam_pattern(std::span(window.scans).first(few));
     }

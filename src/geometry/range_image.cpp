@@ -22,7 +22,7 @@ auto best_kernel() {
     return kernel::baseline::project;
 }
 
-/// Median of the gaps above `noise`; 0 if there is none. Reorders the gaps.
+/// 0 if there are no gaps. Reorders them.
 float median_gap(std::vector<float>& gaps) {
     if (gaps.empty()) return 0.0F;
     const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);

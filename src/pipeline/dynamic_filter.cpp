@@ -56,12 +56,12 @@ std::vector<Verdict> DynamicFilter::finish() {
     std::vector<Verdict> instant;
     if (const auto window = cutter_.flush()) instant = process(*window);
     if (!config_.back_end.enabled) return instant;
-    for (const BufferedSubmap& b : back_end_.buffer()) {
+    for (std::size_t i = 0; i < back_end_.buffer().size(); ++i) {
         timed(times_, "back_end", [&] {
-            const Pose& T_map_query = b.submap.T_map_submap;
-            const LocalMap local = back_end_.local_map(T_map_query, times_);
+            const LocalMap local = back_end_.local_map_of(i, times_);
             timed(times_, "merging", [&] {
-                merge(merged_, local, T_map_query, back_end_.voxels(), config_.back_end.voxel_size);
+                merge(merged_, local, back_end_.buffer()[i].submap.T_map_submap, back_end_.voxels(),
+                      config_.back_end.voxel_size);
             });
         });
     }
@@ -74,7 +74,12 @@ Label DynamicFilter::label_of(const Point& map_point, float& probability) const 
     if (!key) return Label::unknown;
     const auto voxel = back_end_.voxels().find(*key);
     if (!voxel) return Label::dynamic;  // no static submap holds it: the front-end removed it all
-    probability = config_.back_end.enabled ? merged_.probability[*voxel] : 1.0F;
+    if (!config_.back_end.enabled) {
+        probability = 1.0F;
+        return Label::still;
+    }
+    if (*voxel >= merged_.probability.size()) return Label::unknown;  // before finish()
+    probability = merged_.probability[*voxel];
     const auto threshold = static_cast<float>(config_.back_end.occupancy_threshold);
     return probability >= threshold ? Label::still : Label::dynamic;
 }

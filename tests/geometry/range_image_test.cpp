@@ -177,6 +177,33 @@ TEST(BeamPattern, FindsTheSpacingOfSpinningSensors) {
     }
 }
 
+TEST(HalveRows, HoldsTheNearerOfARowAndTheOneItBorders) {
+    test::Random random(21);
+    const float none = std::numeric_limits<float>::infinity();
+    RangeImage image{make_grid(0.1F, 0.05F, -0.2F, 0.2F), {}};
+    for (std::size_t i = 0; i < image.grid.size(); ++i) {
+        image.range.push_back(random.below(4) == 0 ? none : static_cast<float>(random.uniform(1, 9)));
+    }
+    const RangeImage halved = halve_rows(image);
+    ASSERT_EQ(halved.grid.rows, 2 * image.grid.rows);
+    ASSERT_EQ(halved.grid.columns, image.grid.columns);
+    EXPECT_FLOAT_EQ(halved.grid.elevation_step, image.grid.elevation_step / 2);
+    EXPECT_EQ(halved.grid.elevation_min, image.grid.elevation_min);
+    const auto at = [](const RangeImage& i, int row, int column) {
+        return i.range[static_cast<std::size_t>(row * i.grid.columns + column)];
+    };
+    for (int row = 0; row < halved.grid.rows; ++row) {
+        const int own = row / 2, next = row % 2 == 0 ? own - 1 : own + 1;
+        for (int column = 0; column < image.grid.columns; ++column) {
+            float expected = at(image, own, column);
+            if (expected < none && next >= 0 && next < image.grid.rows) {
+                expected = std::min(expected, at(image, next, column));
+            }
+            EXPECT_EQ(at(halved, row, column), expected) << row << ' ' << column;
+        }
+    }
+}
+
 TEST(BeamPattern, DoesNotDependOnTheOrderOfThePoints) {
     test::Random random(8);
     Scan scan = sweep(random, 16, -15, 15, 360);

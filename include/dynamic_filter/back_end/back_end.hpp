@@ -22,13 +22,19 @@ public:
     /// Puts a submap into the buffer: numbers its voxels, computes its normals.
     void insert(Submap submap, const BeamPattern& beams, StageTimes& times);
 
-    /// The occupancy of every voxel that a submap near the query pose owns.
+    /// The occupancy of every voxel that a submap near the query pose owns. Empty before the first
+    /// insert().
     LocalMap local_map(const Pose& T_map_query, StageTimes& times);
+
+    /// The same at the pose of a submap of the buffer, which is always among those consulted.
+    LocalMap local_map_of(std::size_t submap, StageTimes& times);
 
     [[nodiscard]] const std::vector<BufferedSubmap>& buffer() const { return buffer_; }
     [[nodiscard]] const VoxelIndex& voxels() const { return voxels_; }
 
 private:
+    LocalMap local_map(const Pose& T_map_query, std::size_t anchor, StageTimes& times);
+
     Config::BackEnd config_;
     ImageGrid grid_;  // of the whole sphere, for any query pose
     std::vector<BufferedSubmap> buffer_;

@@ -18,9 +18,10 @@ struct BufferedSubmap {
 };
 
 /// The submaps whose pose lies within `radius` [m] of `position`: at most `most`, the nearest,
-/// nearest first; equal distances by age. Indices into `buffer`.
+/// nearest first; at equal distance those nearest in age to the submap `anchor`, so that a sensor
+/// that stands still for long still finds the submap asked for. Indices into `buffer`.
 std::vector<std::size_t> search_radius(const std::vector<BufferedSubmap>& buffer,
                                        const Eigen::Vector3d& position, double radius,
-                                       std::size_t most);
+                                       std::size_t most, std::size_t anchor);
 
 }  // namespace dynamic_filter

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Voxels as 64-bit keys: 21 bits per axis, so +-209 km at 0.2 m.
+/// Voxels as 64-bit keys: 21 bits per axis. Points reach voxels by way of half cells, so +-105 km at
+/// voxels of 0.2 m, from the map frame's origin.
 #pragma once
 
 #include <tsl/robin_map.h>

@@ -37,7 +37,8 @@ public:
     /// submap poses. No push() after it.
     std::vector<Verdict> finish();
 
-    /// The final verdict on a scan that was pushed, after finish().
+    /// The final verdict on a scan that was pushed, after finish(). Unknown where nothing can be
+    /// said: not measured, or beyond the reach of a voxel's key.
     [[nodiscard]] Verdict verdict(const Scan& scan) const;
 
     [[nodiscard]] const StageTimes& times() const { return times_; }
