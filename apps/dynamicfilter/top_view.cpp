@@ -29,6 +29,19 @@ T quantile(std::vector<T>& values, double share) {
     return *at;
 }
 
+/// Every pixel as a block of `factor` x `factor`: small scenes fill a screen, and stay sharp.
+io::Image enlarged(const io::Image& image, int factor) {
+    io::Image out{factor * image.width, factor * image.height, {}};
+    out.pixels.reserve(image.pixels.size() * static_cast<std::size_t>(factor * factor));
+    for (int y = 0; y < out.height; ++y) {
+        for (int x = 0; x < out.width; ++x) {
+            out.pixels.push_back(
+                image.pixels[static_cast<std::size_t>(y / factor * image.width + x / factor)]);
+        }
+    }
+    return out;
+}
+
 }  // namespace
 
 void TopView::add(const Points& points, const Labels& labels) {
@@ -77,7 +90,7 @@ io::Image TopView::draw(bool removed) const {
             pixel = height_color(std::clamp((column.highest_kept - low) / (high - low), 0.0F, 1.0F));
         }
     }
-    return image;
+    return enlarged(image, std::max(1, kLongSide / std::max(image.width, image.height)));
 }
 
 }  // namespace dynamic_filter::app
