@@ -29,7 +29,8 @@ constexpr bool is_number = std::is_same_v<T, int> || std::is_same_v<T, double>;
 
 std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
 
-[[noreturn]] void reject(std::string_view key, std::string_view value, const std::string& expected) {
+[[noreturn]] void reject(std::string_view key, std::string_view value,
+                         const std::string& expected) {
     throw ConfigError("setting " + quoted(key) + ": " + quoted(value) + " is not " + expected);
 }
 
@@ -47,7 +48,8 @@ void parse(std::string_view key, std::string_view text, T& value) {
         const auto it = std::find(choices.begin(), choices.end(), text);
         if (it == choices.end()) {
             std::string list;
-            for (const auto choice : choices) list += (list.empty() ? "" : ", ") + std::string(choice);
+            for (const auto choice : choices)
+                list += (list.empty() ? "" : ", ") + std::string(choice);
             reject(key, text, "one of " + list);
         }
         value = static_cast<T>(it - choices.begin());
@@ -60,7 +62,8 @@ std::string print(const T& value) {
         std::array<char, 32> buffer{};
         const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
         std::string text(buffer.data(), end);
-        if (std::is_same_v<T, double> && text.find_first_of(".en") == std::string::npos) text += ".0";
+        if (std::is_same_v<T, double> && text.find_first_of(".en") == std::string::npos)
+            text += ".0";
         return text;
     } else {
         return std::string(words(value)[static_cast<std::size_t>(value)]);
@@ -137,7 +140,8 @@ std::vector<std::string> violations(const Config& config) {
         }
     });
     if (!config.front_end.enabled && !config.back_end.enabled) {
-        found.push_back("front_end.enabled and back_end.enabled are both false: nothing would be done");
+        found.push_back(
+            "front_end.enabled and back_end.enabled are both false: nothing would be done");
     }
     return found;
 }

@@ -36,8 +36,10 @@ void with_threads(int threads, const std::function<void()>& work) {
 
 void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t)>& body) {
-    const auto limit = static_cast<std::size_t>(thread_limit > 0 ? thread_limit : available_threads());
-    const std::size_t chunks = std::clamp<std::size_t>(count / std::max<std::size_t>(1, grain), 1, limit);
+    const auto limit =
+        static_cast<std::size_t>(thread_limit > 0 ? thread_limit : available_threads());
+    const std::size_t chunks =
+        std::clamp<std::size_t>(count / std::max<std::size_t>(1, grain), 1, limit);
     std::mutex mutex;
     std::exception_ptr failure;
     {

@@ -11,7 +11,14 @@
 
 namespace dynamic_filter::app {
 
-enum ExitCode { kDone = 0, kInternal = 1, kUsage = 2, kInput = 3, kRejected = 4, kInterrupted = 130 };
+enum ExitCode {
+    kDone = 0,
+    kInternal = 1,
+    kUsage = 2,
+    kInput = 3,
+    kRejected = 4,
+    kInterrupted = 130
+};
 
 struct ConfigOptions {
     std::string preset = "default";

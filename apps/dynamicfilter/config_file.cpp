@@ -71,7 +71,8 @@ std::string to_toml(const Config& config) {
     std::string text, section;
     visit(config, [&](const Setting& setting, const auto& member) {
         const auto dot = setting.key.find('.');
-        const auto own = dot == std::string_view::npos ? std::string_view{} : setting.key.substr(0, dot);
+        const auto own =
+            dot == std::string_view::npos ? std::string_view{} : setting.key.substr(0, dot);
         if (own != section) {
             section = own;
             text += fmt::format("\n[{}]\n", section);

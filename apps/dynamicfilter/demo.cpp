@@ -48,10 +48,11 @@ int demo(const DemoOptions& o) {
 
     fmt::print("\n{}", to_text(summary));
     print_table(summary.scores->voxel.at("excluded"));
-    fmt::print("\npictures {0}/before.png (removed points in red) and {0}/after.png\n"
-               "maps     {0}/result/static_map.pcd and dynamic_points.pcd\n"
-               "next     build/release/dynamicfilter run YOUR_DATA\n",
-               o.output.string());
+    fmt::print(
+        "\npictures {0}/before.png (removed points in red) and {0}/after.png\n"
+        "maps     {0}/result/static_map.pcd and dynamic_points.pcd\n"
+        "next     build/release/dynamicfilter run YOUR_DATA\n",
+        o.output.string());
     return kDone;
 }
 

@@ -17,7 +17,8 @@ namespace {
 eval::Scores score_label_folder(const io::Sequence& sequence, const Eigen::Vector3d& origin,
                                 const std::filesystem::path& folder, double voxel) {
     // Given the output folder of a run, its labels are meant.
-    const auto labels = std::filesystem::is_directory(folder / "labels") ? folder / "labels" : folder;
+    const auto labels =
+        std::filesystem::is_directory(folder / "labels") ? folder / "labels" : folder;
     std::size_t missing = 0;
     for (std::size_t i = 0; i < sequence.size(); ++i) {
         const auto file = labels / (io::stem(sequence, i) + ".label");
@@ -28,13 +29,16 @@ eval::Scores score_label_folder(const io::Sequence& sequence, const Eigen::Vecto
         const std::size_t truth = io::read_frame(sequence, i).truth.size();
         const std::size_t given = io::read_labels(file).size();
         if (truth != given) {
-            throw InputError(file, "", fmt::format("{} labels, but the scan has {} points", given, truth));
+            throw InputError(file, "",
+                             fmt::format("{} labels, but the scan has {} points", given, truth));
         }
     }
     if (missing == sequence.size()) {
-        throw InputError(labels, "", "holds no label file of any scan in " + sequence.root.string());
+        throw InputError(labels, "",
+                         "holds no label file of any scan in " + sequence.root.string());
     }
-    if (missing > 0) fmt::print(stderr, "note: {} scans have no label file and are left out\n", missing);
+    if (missing > 0)
+        fmt::print(stderr, "note: {} scans have no label file and are left out\n", missing);
     const auto labels_of = [&](std::size_t i) -> std::optional<Labels> {
         const auto file = labels / (io::stem(sequence, i) + ".label");
         if (!std::filesystem::exists(file)) return std::nullopt;

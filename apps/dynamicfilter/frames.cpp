@@ -23,7 +23,8 @@ io::Format format_of(const std::string& name) {
 io::Sequence open(const std::filesystem::path& data, const std::string& format,
                   const std::optional<std::filesystem::path>& poses, std::size_t first,
                   std::optional<std::size_t> last, std::size_t stride) {
-    io::OpenOptions options{.format = {}, .poses = poses, .first = first, .last = last, .stride = stride};
+    io::OpenOptions options{
+        .format = {}, .poses = poses, .first = first, .last = last, .stride = stride};
     if (!format.empty()) options.format = format_of(format);
     return io::open_sequence(data, options);
 }
@@ -77,8 +78,8 @@ Eigen::Vector3d scoring_origin(const io::Sequence& sequence, double voxel_size) 
 
 eval::ScanSource scan_source(const io::Sequence& sequence, const Eigen::Vector3d& origin,
                              std::function<std::optional<Labels>(std::size_t)> labels_of) {
-    return [&sequence, origin, labels_of = std::move(labels_of)](
-               std::size_t i) -> std::optional<eval::LabelledScan> {
+    return [&sequence, origin,
+            labels_of = std::move(labels_of)](std::size_t i) -> std::optional<eval::LabelledScan> {
         try {
             io::Frame frame = io::read_frame(sequence, i);
             eval::LabelledScan scan{{}, std::move(frame.truth), {}};

@@ -39,7 +39,8 @@ void describe_cloud(const std::filesystem::path& file) {
 
 void describe_sequence(const std::filesystem::path& folder) {
     const io::Sequence s = io::open_sequence(folder);
-    fmt::print("{}\n  format  {}\n  scans   {}\n", folder.string(), io::to_string(s.format), s.size());
+    fmt::print("{}\n  format  {}\n  scans   {}\n", folder.string(), io::to_string(s.format),
+               s.size());
     if (s.size() > 1) {
         fmt::print("  stamps  {:.3f} .. {:.3f} s{}\n", s.stamps.front(), s.stamps.back(),
                    s.measured_stamps ? "" : " (made up at 10 Hz)");
@@ -47,7 +48,8 @@ void describe_sequence(const std::filesystem::path& folder) {
     if (!s.T_world_sensor.empty()) {
         double length = 0.0;
         for (std::size_t i = 1; i < s.size(); ++i) {
-            length += (s.T_world_sensor[i].translation() - s.T_world_sensor[i - 1].translation()).norm();
+            length +=
+                (s.T_world_sensor[i].translation() - s.T_world_sensor[i - 1].translation()).norm();
         }
         fmt::print("  path    {:.1f} m\n", length);
     }

@@ -31,7 +31,8 @@ void add_run(CLI::App& app, std::function<int()>& chosen) {
     c.add_option("--last", o->last, "index of the last scan");
     c.add_option("--stride", o->stride, "use every n-th scan");
     c.add_option("--threads", o->threads, "0: all cores")->check(CLI::Range(0, 1024));
-    c.add_flag("--overwrite", o->overwrite, "replace what an earlier run left in the output folder");
+    c.add_flag("--overwrite", o->overwrite,
+               "replace what an earlier run left in the output folder");
     c.callback([o, &chosen] { chosen = [o] { return run(*o); }; });
 }
 
@@ -40,7 +41,8 @@ void add_eval(CLI::App& app, std::function<int()>& chosen) {
     CLI::App& c = *app.add_subcommand("eval", "Score labels or a map against ground truth");
     c.add_option("--truth", o->truth, "recording with ground truth")->required();
     CLI::Option_group& result = *c.add_option_group("result");
-    result.add_option("--labels", o->labels, "folder of label files, or the output folder of a run");
+    result.add_option("--labels", o->labels,
+                      "folder of label files, or the output folder of a run");
     result.add_option("--map", o->map, "clean map (.pcd or .ply) in the world frame");
     result.require_option(1);
     c.add_option("--poses", o->poses, "pose file (default: the one in the recording)");
@@ -56,7 +58,8 @@ void add_simulate(CLI::App& app, std::function<int()>& chosen) {
     auto o = std::make_shared<SimulateOptions>();
     auto& s = o->simulation;
     CLI::App& c = *app.add_subcommand("simulate", "Make a recording with exact labels");
-    c.add_option("SCENE", s.scene, fmt::format("{}", fmt::join(sim::scene_names(), ", ")))->required();
+    c.add_option("SCENE", s.scene, fmt::format("{}", fmt::join(sim::scene_names(), ", ")))
+        ->required();
     c.add_option("-o,--output", o->output, "output folder")->required();
     c.add_option("--pedestrians", s.pedestrians, "how many (default: the scene's own number)");
     c.add_option("--seed", s.seed, "same seed, same bytes")->capture_default_str();

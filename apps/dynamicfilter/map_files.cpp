@@ -37,7 +37,8 @@ std::vector<std::byte> world_records(const io::Frame& frame) {
 void MapFiles::append(const io::Frame& frame, const Labels& labels) {
     if (!still_) {
         still_.emplace(folder_ / "static_map.pcd", frame.cloud.fields, frame.cloud.point_bytes);
-        dynamic_.emplace(folder_ / "dynamic_points.pcd", frame.cloud.fields, frame.cloud.point_bytes);
+        dynamic_.emplace(folder_ / "dynamic_points.pcd", frame.cloud.fields,
+                         frame.cloud.point_bytes);
     }
     const std::size_t bytes = frame.cloud.point_bytes;
     const std::vector<std::byte> records = world_records(frame);

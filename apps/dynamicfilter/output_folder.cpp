@@ -23,8 +23,9 @@ namespace {
 constexpr const char* kLock = ".lock";
 
 /// What run, simulate and demo write: all that --overwrite may remove.
-constexpr std::array kOwnFiles{"static_map.pcd", "dynamic_points.pcd", "metrics.json", "timing.json",
-                               "config.toml",    "run.log",            "poses.txt",    "times.txt"};
+constexpr std::array kOwnFiles{"static_map.pcd", "dynamic_points.pcd", "metrics.json",
+                               "timing.json",    "config.toml",        "run.log",
+                               "poses.txt",      "times.txt"};
 constexpr std::array kOwnFolders{"labels", "velodyne"};
 constexpr std::array kOwnSuffixes{".label", ".bin"};
 
@@ -96,7 +97,8 @@ fs::path OutputFolder::subfolder(const char* name) const {
 fs::path default_output() {
     const auto stamp = fmt::format("{:%Y%m%dT%H%M%SZ}", fmt::gmtime(std::time(nullptr)));
     fs::path path = fs::path("results") / stamp;
-    for (int n = 2; fs::exists(path); ++n) path = fs::path("results") / fmt::format("{}-{}", stamp, n);
+    for (int n = 2; fs::exists(path); ++n)
+        path = fs::path("results") / fmt::format("{}-{}", stamp, n);
     return path;
 }
 

@@ -6,9 +6,9 @@
 
 namespace dynamic_filter::app {
 
-/// A folder that one process fills. Creates it, refuses one that holds something (ConfigError) unless
-/// `overwrite`, which removes what an earlier run left there and nothing else. Locked while it lives:
-/// a second process gets a ConfigError. Throws OutputError if it cannot be made.
+/// A folder that one process fills. Creates it, refuses one that holds something (ConfigError)
+/// unless `overwrite`, which removes what an earlier run left there and nothing else. Locked while
+/// it lives: a second process gets a ConfigError. Throws OutputError if it cannot be made.
 class OutputFolder {
 public:
     OutputFolder(std::filesystem::path path, bool overwrite);

@@ -51,7 +51,8 @@ void Progress::print(double seconds) const {
     const double per_second = seconds > 0 ? static_cast<double>(done_) / seconds : 0.0;
     const double left = per_second > 0 ? static_cast<double>(total_ - done_) / per_second : 0.0;
     fmt::print(stderr, "{}{} {}/{} [{}<{}, {:.1f} scans/s]{}", terminal_ ? "\r" : "", verb_, done_,
-               total_, clock_text(seconds), clock_text(left), per_second, terminal_ ? "\x1b[K" : "\n");
+               total_, clock_text(seconds), clock_text(left), per_second,
+               terminal_ ? "\x1b[K" : "\n");
     std::fflush(stderr);
 }
 

@@ -40,15 +40,14 @@ ordered_json to_json(const StageTimes& times) {
         std::vector<double> sorted = calls;
         std::sort(sorted.begin(), sorted.end());
         const auto quantile = [&](double share) {
-            return 1e3 * sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+            return 1e3 *
+                   sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
         };
         const double sum = std::accumulate(sorted.begin(), sorted.end(), 0.0);
-        json[stage] = {{"count", sorted.size()},
-                       {"mean", 1e3 * sum / static_cast<double>(sorted.size())},
-                       {"p50", quantile(0.50)},
-                       {"p95", quantile(0.95)},
-                       {"p99", quantile(0.99)},
-                       {"max", quantile(1.0)}};
+        json[stage] = {
+            {"count", sorted.size()}, {"mean", 1e3 * sum / static_cast<double>(sorted.size())},
+            {"p50", quantile(0.50)},  {"p95", quantile(0.95)},
+            {"p99", quantile(0.99)},  {"max", quantile(1.0)}};
     }
     return json;
 }
@@ -62,7 +61,8 @@ std::string three_digits(const std::optional<double>& value) {
 }
 
 std::string table(const eval::Scores& scores) {
-    std::string text = fmt::format("  {:<24} {:>7} {:>7} {:>6}\n", "mixed voxels", "PR [%]", "RR [%]", "F1");
+    std::string text =
+        fmt::format("  {:<24} {:>7} {:>7} {:>6}\n", "mixed voxels", "PR [%]", "RR [%]", "F1");
     for (const auto& [reading, s] : scores.voxel) {
         text += fmt::format("  {:<24} {:>7} {:>7} {:>6}\n", reading, percent(s.pr), percent(s.rr),
                             three_digits(s.f1));

@@ -32,7 +32,7 @@ struct Pass {
     DynamicFilter filter;
     RunSummary summary{};
     std::vector<std::size_t> accepted{};
-    std::vector<Labels> instant{};       ///< by scan; filled only where there is ground truth
+    std::vector<Labels> instant{};  ///< by scan; filled only where there is ground truth
 };
 
 std::vector<std::size_t> all_scans(const io::Sequence& sequence) {
@@ -70,8 +70,9 @@ void filter_scans(Pass& pass) {
     };
     for_each_frame(pass.sequence, all_scans(pass.sequence), {}, use);
     if (pass.accepted.empty()) {
-        throw InputError(pass.sequence.root, "", "no scan is usable; the first was rejected: " +
-                                                     pass.summary.rejected.front());
+        throw InputError(
+            pass.sequence.root, "",
+            "no scan is usable; the first was rejected: " + pass.summary.rejected.front());
     }
     keep_instant(pass, pass.filter.finish());
 }
@@ -94,16 +95,19 @@ void write_results(Pass& pass, TopView* view) {
     std::vector<Labels> labels(pass.sequence.size());
     const auto classify = [&](std::size_t i, MaybeFrame& maybe) {
         const io::Frame& frame = *maybe.frame;
-        labels[i] = pass.filter.verdict({frame.points, frame.T_world_sensor, frame.stamp, i}).labels;
+        labels[i] =
+            pass.filter.verdict({frame.points, frame.T_world_sensor, frame.stamp, i}).labels;
         io::write_labels(folder / (io::stem(pass.sequence, i) + ".label"), labels[i]);
     };
     const auto use = [&](std::size_t i, MaybeFrame& maybe) {
         if (!maybe.frame) {
-            throw InputError(pass.sequence.scan_files[i], "", "changed while it was in use: " + maybe.error);
+            throw InputError(pass.sequence.scan_files[i], "",
+                             "changed while it was in use: " + maybe.error);
         }
         maps.append(*maybe.frame, labels[i]);
         count(pass.summary, labels[i]);
-        if (view != nullptr) view->add(shifted_world(*maybe.frame, Eigen::Vector3d::Zero()), labels[i]);
+        if (view != nullptr)
+            view->add(shifted_world(*maybe.frame, Eigen::Vector3d::Zero()), labels[i]);
         labels[i] = {};
         progress.advance();
         // After an interruption what has been filtered is still written; a second one stops it.
@@ -222,13 +226,14 @@ std::string to_text(const RunSummary& s) {
         return s.points == 0 ? 0.0 : 100.0 * static_cast<double>(n) / static_cast<double>(s.points);
     };
     std::string text =
-        fmt::format("scans    {} ({} rejected) in {} submaps, {} voxels\n", s.scans, s.rejected.size(),
-                    s.submaps, s.voxels) +
+        fmt::format("scans    {} ({} rejected) in {} submaps, {} voxels\n", s.scans,
+                    s.rejected.size(), s.submaps, s.voxels) +
         fmt::format("points   {}: {:.1f} % static, {:.1f} % dynamic, {:.1f} % unknown\n", s.points,
                     share(s.still), share(s.dynamic), share(s.unknown)) +
-        fmt::format("speed    {:.1f} scans/s over all; front-end {:.1f} scans/s, back-end {:.1f} submaps/s\n",
-                    rate(s.scans, s.seconds), s.front_end_scans_per_second,
-                    s.back_end_submaps_per_second);
+        fmt::format(
+            "speed    {:.1f} scans/s over all; front-end {:.1f} scans/s, back-end {:.1f} "
+            "submaps/s\n",
+            rate(s.scans, s.seconds), s.front_end_scans_per_second, s.back_end_submaps_per_second);
     if (s.scores) text += "scores against the ground truth of the recording\n" + table(*s.scores);
     return text;
 }

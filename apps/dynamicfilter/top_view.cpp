@@ -23,8 +23,8 @@ io::Color height_color(float share) {
 /// The value below which `share` of the (sorted here) values lie.
 template <class T>
 T quantile(std::vector<T>& values, double share) {
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(
-                                         share * static_cast<double>(values.size() - 1));
+    const auto at = values.begin() +
+                    static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
     std::nth_element(values.begin(), at, values.end());
     return *at;
 }
@@ -75,19 +75,21 @@ io::Image TopView::draw(bool removed) const {
     const int shrink = std::max(1, (std::max(x1 - x0, y1 - y0) + kLongSide - 1) / kLongSide);
 
     io::Image image{(x1 - x0) / shrink + 1, (y1 - y0) / shrink + 1, {}};
-    image.pixels.assign(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height),
-                        kBackground);
+    image.pixels.assign(
+        static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height),
+        kBackground);
     for (const auto& [key, column] : columns_) {
         const Cell cell = unpack(key);
         if (cell.x() < x0 || cell.x() > x1 || cell.y() < y0 || cell.y() > y1) continue;
         const int x = (cell.x() - x0) / shrink, y = image.height - 1 - (cell.y() - y0) / shrink;
-        io::Color& pixel = image.pixels[static_cast<std::size_t>(y) *
-                                            static_cast<std::size_t>(image.width) +
-                                        static_cast<std::size_t>(x)];
+        io::Color& pixel =
+            image.pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+                         static_cast<std::size_t>(x)];
         if (removed && column.removed > 0) {
             pixel = kRemoved;
         } else if (column.kept > 0 && pixel != kRemoved) {
-            pixel = height_color(std::clamp((column.highest_kept - low) / (high - low), 0.0F, 1.0F));
+            pixel =
+                height_color(std::clamp((column.highest_kept - low) / (high - low), 0.0F, 1.0F));
         }
     }
     return enlarged(image, std::max(1, kLongSide / std::max(image.width, image.height)));

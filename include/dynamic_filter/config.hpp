@@ -66,50 +66,64 @@ template <class C, class F>
 void visit(C& c, F&& f) {
     f(Setting{"method", "", "Table II", "dynamic_filter, or the removert baseline"}, c.method);
     f(Setting{"submap.keyframes", "1", "n", "keyframes per submap", 1, 100000}, c.submap.keyframes);
-    f(Setting{"submap.keyframe_interval", "s", "III-B", "a scan this long after the last keyframe becomes one",
-              0, 3600},
+    f(Setting{"submap.keyframe_interval", "s", "III-B",
+              "a scan this long after the last keyframe becomes one", 0, 3600},
       c.submap.keyframe_interval);
     f(Setting{"submap.keyframe_distance", "m", "III-B", "... or this far from it", 0.01, 1000},
       c.submap.keyframe_distance);
     auto& front = c.front_end;
     f(Setting{"front_end.enabled", "", "Table III", "off: back-end only"}, front.enabled);
-    f(Setting{"front_end.image_step_deg", "deg", "res", "least pixel of the scans' range images", 0.05, 30},
+    f(Setting{"front_end.image_step_deg", "deg", "res", "least pixel of the scans' range images",
+              0.05, 30},
       front.image_step_deg);
-    f(Setting{"front_end.image_step_beams", "1", "res", "... and in spacings of the sensor's beams", 0, 20},
+    f(Setting{"front_end.image_step_beams", "1", "res", "... and in spacings of the sensor's beams",
+              0, 20},
       front.image_step_beams);
-    f(Setting{"front_end.tau", "m", "III-B1", "a point this much nearer than the scan's range is dynamic", 0, 10},
+    f(Setting{"front_end.tau", "m", "III-B1",
+              "a point this much nearer than the scan's range is dynamic", 0, 10},
       front.tau);
     f(Setting{"front_end.tau_per_metre", "1", "III-B1", "... plus this share of its range", 0, 1},
       front.tau_per_metre);
-    f(Setting{"front_end.reverting", "", "III-B2", "map, visibility (Removert's) or none"}, front.reverting);
-    f(Setting{"front_end.revert_radius", "m", "r", "reverting looks for static neighbours within", 0.05, 10},
+    f(Setting{"front_end.reverting", "", "III-B2", "map, visibility (Removert's) or none"},
+      front.reverting);
+    f(Setting{"front_end.revert_radius", "m", "r", "reverting looks for static neighbours within",
+              0.05, 10},
       front.revert_radius);
     f(Setting{"front_end.revert_neighbors", "1", "k", "... and takes the nearest of them", 3, 100},
       front.revert_neighbors);
-    f(Setting{"front_end.revert_dist_max", "1", "dist_max", "largest change of the normal that reverts", 0, 2},
+    f(Setting{"front_end.revert_dist_max", "1", "dist_max",
+              "largest change of the normal that reverts", 0, 2},
       front.revert_dist_max);
-    f(Setting{"front_end.revert_image_scale", "1", "III-B2", "pixel growth of visibility reverting", 1, 20},
+    f(Setting{"front_end.revert_image_scale", "1", "III-B2", "pixel growth of visibility reverting",
+              1, 20},
       front.revert_image_scale);
     auto& back = c.back_end;
     f(Setting{"back_end.enabled", "", "Table III", "off: front-end only"}, back.enabled);
-    f(Setting{"back_end.search_radius", "m", "r", "submaps whose pose is this near are consulted", 0, 1e6},
+    f(Setting{"back_end.search_radius", "m", "r", "submaps whose pose is this near are consulted",
+              0, 1e6},
       back.search_radius);
-    f(Setting{"back_end.max_submaps", "1", "B", "... at most so many, the nearest", 1, 64}, back.max_submaps);
+    f(Setting{"back_end.max_submaps", "1", "B", "... at most so many, the nearest", 1, 64},
+      back.max_submaps);
     f(Setting{"back_end.voxel_size", "m", "III-C1", "edge of a voxel", 0.02, 5}, back.voxel_size);
-    f(Setting{"back_end.visibility_check", "", "Table III", "off: every nearby submap counts as having looked"},
+    f(Setting{"back_end.visibility_check", "", "Table III",
+              "off: every nearby submap counts as having looked"},
       back.visibility_check);
     f(Setting{"back_end.incident_correction", "", "Table III", "off: no pseudo-occupied points"},
       back.incident_correction);
-    f(Setting{"back_end.incident_threshold_deg", "deg", "lambda_thres", "beams more slanted than this are pseudo-occupied",
-              0, 90},
+    f(Setting{"back_end.incident_threshold_deg", "deg", "lambda_thres",
+              "beams more slanted than this are pseudo-occupied", 0, 90},
       back.incident_threshold_deg);
-    f(Setting{"back_end.image_step_deg", "deg", "res", "least pixel of the submaps' images", 0.05, 30},
+    f(Setting{"back_end.image_step_deg", "deg", "res", "least pixel of the submaps' images", 0.05,
+              30},
       back.image_step_deg);
-    f(Setting{"back_end.image_step_beams", "1", "res", "... and in spacings of the sensor's beams", 0, 20},
+    f(Setting{"back_end.image_step_beams", "1", "res", "... and in spacings of the sensor's beams",
+              0, 20},
       back.image_step_beams);
-    f(Setting{"back_end.depth_channel", "m", "depth", "length of a depth channel; 0 compares ranges", 0, 10},
+    f(Setting{"back_end.depth_channel", "m", "depth",
+              "length of a depth channel; 0 compares ranges", 0, 10},
       back.depth_channel);
-    f(Setting{"back_end.occupancy_threshold", "1", "III-C1", "voxels at or above it are static", 0, 1},
+    f(Setting{"back_end.occupancy_threshold", "1", "III-C1", "voxels at or above it are static", 0,
+              1},
       back.occupancy_threshold);
     f(Setting{"output.keep_unknown", "", "", "points without a verdict go into the static map"},
       c.output.keep_unknown);
@@ -118,8 +132,8 @@ void visit(C& c, F&& f) {
 /// The settings of a preset: "default" or "paper". Throws ConfigError naming the choices.
 Config preset(std::string_view name);
 
-/// Sets one field from text, as `--set key=value` does. Throws ConfigError: an unknown key names the
-/// nearest one, a bad value says what was expected. Bounds are checked by violations().
+/// Sets one field from text, as `--set key=value` does. Throws ConfigError: an unknown key names
+/// the nearest one, a bad value says what was expected. Bounds are checked by violations().
 void set(Config& config, std::string_view key, std::string_view value);
 
 /// The value of a field as set() reads it.

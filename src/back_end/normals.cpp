@@ -14,7 +14,8 @@ namespace dynamic_filter {
 
 namespace {
 
-/// A submap's points by voxel, voxels in ascending order of their keys: along z they are neighbours.
+/// A submap's points by voxel, voxels in ascending order of their keys: along z they are
+/// neighbours.
 struct VoxelTable {
     std::vector<VoxelKey> keys;
     std::vector<Moments> moments;
@@ -66,10 +67,13 @@ public:
     }
 
 private:
-    /// Key of the voxel one below (z) in column c. Keys are offset, so sums of fields stay positive.
+    /// Key of the voxel one below (z) in column c. Keys are offset, so sums of fields stay
+    /// positive.
     static VoxelKey below(VoxelKey key, std::size_t c) {
-        const auto dx = static_cast<std::int64_t>(c / 3) - 1, dy = static_cast<std::int64_t>(c % 3) - 1;
-        return key + static_cast<VoxelKey>(dx * (std::int64_t{1} << 42) + dy * (std::int64_t{1} << 21) - 1);
+        const auto dx = static_cast<std::int64_t>(c / 3) - 1,
+                   dy = static_cast<std::int64_t>(c % 3) - 1;
+        return key + static_cast<VoxelKey>(dx * (std::int64_t{1} << 42) +
+                                           dy * (std::int64_t{1} << 21) - 1);
     }
     const VoxelTable& table_;
     std::array<std::vector<VoxelKey>::const_iterator, 9> cursors_{};
@@ -89,7 +93,8 @@ Points estimate_normals(std::span<const Point> points, float voxel_size) {
     });
     Points normals(points.size(), Point::Zero());
     for (std::size_t i = 0; i < points.size(); ++i) {
-        if (table.voxel_of_point[i] != UINT32_MAX) normals[i] = normal_of_voxel[table.voxel_of_point[i]];
+        if (table.voxel_of_point[i] != UINT32_MAX)
+            normals[i] = normal_of_voxel[table.voxel_of_point[i]];
     }
     return normals;
 }

@@ -67,8 +67,8 @@ LocalMap occupancy(Ownership ownership, std::span<const VisibilityBoundary> boun
                 checked |= reaching(boundaries, static_cast<std::size_t>(pixel),
                                     depth_channel(seen.range[i - begin], depth));
             }
-            probability[i] =
-                static_cast<float>(std::popcount(owners)) / static_cast<float>(std::popcount(checked));
+            probability[i] = static_cast<float>(std::popcount(owners)) /
+                             static_cast<float>(std::popcount(checked));
         }
     });
     return {std::move(ownership.voxels), std::move(probability)};

@@ -23,8 +23,8 @@ std::vector<float> pseudo_occupied_bound(const BufferedSubmap& submap, const Pro
     for (std::size_t i = 0; i < seen.pixel.size(); ++i) {
         if (seen.pixel[i] < 0) continue;
         float& nearest = bound[static_cast<std::size_t>(seen.pixel[i])];
-        if (seen.range[i] < nearest && is_grazing(submap.submap.points[i], submap.normals[i],
-                                                  viewpoint, cos_threshold)) {
+        if (seen.range[i] < nearest &&
+            is_grazing(submap.submap.points[i], submap.normals[i], viewpoint, cos_threshold)) {
             nearest = seen.range[i];
         }
     }

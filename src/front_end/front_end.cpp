@@ -89,9 +89,8 @@ FrontEndResult FrontEnd::process(const Window& window, StageTimes& times) {
     } else {
         labels = all_still(window);
     }
-    Submap submap = timed(times, "submap", [&] {
-        return assemble(window, labels, config_.back_end.voxel_size);
-    });
+    Submap submap = timed(times, "submap",
+                          [&] { return assemble(window, labels, config_.back_end.voxel_size); });
     return {std::move(submap), std::move(labels)};
 }
 

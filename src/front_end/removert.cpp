@@ -14,11 +14,12 @@ constexpr float kNone = std::numeric_limits<float>::infinity();
 
 /// The first point of every cell, and for every point of the window its cell.
 struct ThinMap {
-    Points points;                                      ///< map frame
+    Points points;                                     ///< map frame
     std::vector<std::vector<std::uint32_t>> of_point;  ///< by scan and point; UINT32_MAX: none
 };
 
-ThinMap thin(const Window& window, const std::vector<Labels>& labels, Label kept, float voxel_size) {
+ThinMap thin(const Window& window, const std::vector<Labels>& labels, Label kept,
+             float voxel_size) {
     ThinMap map;
     VoxelIndex cells;
     Points points;
@@ -68,8 +69,9 @@ std::vector<char> seen_through(const Window& window, const Points& map,
     std::vector<std::vector<std::uint32_t>> found(images.size());
     parallel_for(images.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
-            found[k] = seen_through(map, candidate, window.scans[window.keyframes[k]].T_world_sensor,
-                                    images[k], margin);
+            found[k] =
+                seen_through(map, candidate, window.scans[window.keyframes[k]].T_world_sensor,
+                             images[k], margin);
         }
     });
     std::vector<char> marked(map.size(), 0);
@@ -84,7 +86,8 @@ void apply(const ThinMap& map, const std::vector<char>& removed, std::vector<Lab
     for (std::size_t s = 0; s < labels.size(); ++s) {
         for (std::size_t i = 0; i < labels[s].size(); ++i) {
             const std::uint32_t cell = map.of_point[s][i];
-            if (cell != UINT32_MAX) labels[s][i] = removed[cell] != 0 ? Label::dynamic : Label::still;
+            if (cell != UINT32_MAX)
+                labels[s][i] = removed[cell] != 0 ? Label::dynamic : Label::still;
         }
     }
 }
@@ -94,7 +97,8 @@ void apply(const ThinMap& map, const std::vector<char>& removed, std::vector<Lab
 std::vector<Labels> removert(const Window& window, std::span<const KeyframeImages> fine,
                              const KeyframeImages& coarse, const RemovalMargin& margin,
                              float voxel_size) {
-    std::vector<Labels> labels = remove_by_visibility(window, {}, {});  // all measured points: still
+    std::vector<Labels> labels =
+        remove_by_visibility(window, {}, {});  // all measured points: still
     const ThinMap map = thin(window, labels, Label::still, voxel_size);
     std::vector<char> kept(map.points.size(), 1), removed(map.points.size(), 0);
     for (const KeyframeImages& images : fine) {

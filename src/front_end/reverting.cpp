@@ -42,7 +42,8 @@ void revert_by_map(const Window& window, const NeighborGrid& static_map,
         for (std::size_t s = begin; s < end; ++s) {
             to_map(window.scans[s], points);
             for (std::size_t i = 0; i < points.size(); ++i) {
-                if (labels[s][i] == Label::dynamic && fits(points[i], static_map, config, neighbors)) {
+                if (labels[s][i] == Label::dynamic &&
+                    fits(points[i], static_map, config, neighbors)) {
                     labels[s][i] = Label::still;
                 }
             }

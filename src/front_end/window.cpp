@@ -10,7 +10,8 @@ bool WindowCutter::is_keyframe(const Scan& scan) const {
     const Scan& last = window_.scans[window_.keyframes.back()];
     const double moved =
         (scan.T_world_sensor.translation() - last.T_world_sensor.translation()).norm();
-    return scan.stamp - last.stamp >= config_.keyframe_interval || moved >= config_.keyframe_distance;
+    return scan.stamp - last.stamp >= config_.keyframe_interval ||
+           moved >= config_.keyframe_distance;
 }
 
 std::optional<Window> WindowCutter::push(Scan scan) {

@@ -29,8 +29,8 @@ NeighborGrid::NeighborGrid(std::span<const Point> points, float radius)
     for (std::size_t i = 0; i < points_.size(); ++i) {
         const auto cell = cell_of(points_[i], inverse_cell_);
         if (!cell) continue;
-        const auto [it, fresh] = cells_.try_emplace(
-            pack(*cell), Slice{static_cast<std::uint32_t>(counts.size()), 0});
+        const auto [it, fresh] =
+            cells_.try_emplace(pack(*cell), Slice{static_cast<std::uint32_t>(counts.size()), 0});
         if (fresh) counts.push_back(0);
         cell_of_point[i] = it->second.begin;
         ++counts[it->second.begin];
@@ -94,7 +94,8 @@ bool NeighborGrid::any_within(const Point& query, float distance) const {
             for (int x = low->x(); x <= high->x(); ++x) {
                 const Slice s = slice({x, y, z});
                 for (std::uint32_t i = s.begin; i < s.end; ++i) {
-                    if ((sorted_[i].point - query).squaredNorm() <= distance * distance) return true;
+                    if ((sorted_[i].point - query).squaredNorm() <= distance * distance)
+                        return true;
                 }
             }
         }

@@ -35,7 +35,8 @@ void project(const ProjectArgs& args) {
     const float m10 = m[4], m11 = m[5], m12 = m[6], m13 = m[7];
     const float m20 = m[8], m21 = m[9], m22 = m[10], m23 = m[11];
     const auto columns = static_cast<float>(args.columns), rows = static_cast<float>(args.rows);
-    const float per_azimuth = args.inverse_azimuth_step, per_elevation = args.inverse_elevation_step;
+    const float per_azimuth = args.inverse_azimuth_step,
+                per_elevation = args.inverse_elevation_step;
     const float elevation_min = args.elevation_min;
     const std::int32_t stride = args.columns;
     std::int32_t* const __restrict pixel = args.pixel;

@@ -87,8 +87,7 @@ void project(std::span<const Point> points, const Eigen::Isometry3f& T_image_poi
 RangeImage nearest_range_image(std::span<const Point> points, const ImageGrid& grid) {
     Projection projection;
     project(points, Eigen::Isometry3f::Identity(), grid, projection);
-    RangeImage image{grid,
-                     std::vector<float>(grid.size(), std::numeric_limits<float>::infinity())};
+    RangeImage image{grid, std::vector<float>(grid.size(), std::numeric_limits<float>::infinity())};
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (projection.pixel[i] < 0) continue;
         float& nearest = image.range[static_cast<std::size_t>(projection.pixel[i])];

@@ -42,9 +42,8 @@ std::vector<Verdict> DynamicFilter::push(Scan scan) {
 std::vector<Verdict> DynamicFilter::process(const Window& window) {
     auto [submap, labels] =
         timed(times_, "front_end", [&] { return front_end_.process(window, times_); });
-    timed(times_, "back_end", [&] {
-        back_end_.insert(std::move(submap), *front_end_.beams(), times_);
-    });
+    timed(times_, "back_end",
+          [&] { back_end_.insert(std::move(submap), *front_end_.beams(), times_); });
     std::vector<Verdict> instant;
     for (std::size_t s = 0; s < window.scans.size(); ++s) {
         instant.push_back({window.scans[s].index, std::move(labels[s]), {}});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The command as a user types it: exit codes, what a run leaves behind, and what it says of bad input.
+// The command as a user types it: exit codes, what a run leaves behind, and what it says of bad
+// input.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -25,8 +26,8 @@ const fs::path& recording() {
     static const fs::path path = folder / "recording";
     if (!fs::exists(path)) {
         const std::string make = std::string(COMMAND) +
-                                 " simulate crowd --frames 24 --pedestrians 30 -o " + path.string() +
-                                 " >/dev/null 2>&1";
+                                 " simulate crowd --frames 24 --pedestrians 30 -o " +
+                                 path.string() + " >/dev/null 2>&1";
         EXPECT_EQ(std::system(make.c_str()), 0);
     }
     return path;
@@ -36,14 +37,15 @@ class Command : public testing::Test {
 protected:
     /// Runs the command in the test's folder; its output goes to said().
     int run(const std::string& arguments) {
-        const std::string line = "cd " + folder_.path().string() + " && " + COMMAND + " " + arguments +
-                                 " >out.txt 2>&1";
+        const std::string line =
+            "cd " + folder_.path().string() + " && " + COMMAND + " " + arguments + " >out.txt 2>&1";
         const int status = std::system(line.c_str());
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     }
     std::string said() { return slurp(folder_ / "out.txt"); }
     void expect_said(const std::string& text) {
-        EXPECT_NE(said().find(text), std::string::npos) << "expected: " << text << "\nsaid: " << said();
+        EXPECT_NE(said().find(text), std::string::npos)
+            << "expected: " << text << "\nsaid: " << said();
     }
     /// A copy of the recording that a test may spoil.
     fs::path copy() {
@@ -84,13 +86,15 @@ TEST_F(Command, RunLeavesWhatTheContractSays) {
         EXPECT_GT(metrics["voxel"][reading]["f1"], 0.5) << reading;
         EXPECT_GT(metrics["instant"]["voxel"][reading]["pr"], 0.5) << reading;
     }
-    for (const char* score : {"sa", "da", "aa", "ha", "iou"}) EXPECT_GT(metrics["point"][score], 0.3);
+    for (const char* score : {"sa", "da", "aa", "ha", "iou"})
+        EXPECT_GT(metrics["point"][score], 0.3);
     const auto timing = nlohmann::json::parse(slurp(folder_ / "out/timing.json"));
     EXPECT_GT(timing["scans_per_second"], 0);
     EXPECT_GT(timing["front_end"]["scans_per_second"], 0);
     EXPECT_GT(timing["back_end"]["submaps_per_second"], 0);
     EXPECT_GT(timing["stages"]["front_end"]["p99"], 0);
-    for (const char* key : {"cpu_seconds", "voxels", "peak_rss_bytes", "threads"}) EXPECT_GT(timing[key], 0);
+    for (const char* key : {"cpu_seconds", "voxels", "peak_rss_bytes", "threads"})
+        EXPECT_GT(timing[key], 0);
     EXPECT_TRUE(fs::exists(folder_ / "out/run.log"));
     // The written configuration gives the same run again.
     ASSERT_EQ(run("run " + recording().string() + " -o again --config out/config.toml"), 0);
@@ -114,8 +118,10 @@ TEST_F(Command, SimulatesTheSameBytesForTheSameSeed) {
 TEST_F(Command, EvalOfLabelsAndOfTheMapAgreeWithTheRun) {
     ASSERT_EQ(run("run " + recording().string() + " -o out"), 0);
     const auto metrics = nlohmann::json::parse(slurp(folder_ / "out/metrics.json"));
-    ASSERT_EQ(run("eval --truth " + recording().string() + " --labels out --json l.json"), 0) << said();
-    ASSERT_EQ(run("eval --truth " + recording().string() + " --map out/static_map.pcd --json m.json"), 0);
+    ASSERT_EQ(run("eval --truth " + recording().string() + " --labels out --json l.json"), 0)
+        << said();
+    ASSERT_EQ(
+        run("eval --truth " + recording().string() + " --map out/static_map.pcd --json m.json"), 0);
     const auto labels = nlohmann::json::parse(slurp(folder_ / "l.json"));
     const auto map = nlohmann::json::parse(slurp(folder_ / "m.json"));
     EXPECT_EQ(labels["voxel"], metrics["voxel"]);
@@ -185,7 +191,8 @@ TEST_F(Command, BadScansAreRejectedCountedAndNamed) {
     EXPECT_EQ(metrics["rejected"].size(), 3U);
     for (const char* stem : {"000003", "000005", "000007"}) {
         EXPECT_FALSE(fs::exists(folder_ / "out/labels" / (std::string(stem) + ".label")));
-        EXPECT_NE(slurp(folder_ / "out/run.log").find(std::string("rejected ") + stem), std::string::npos);
+        EXPECT_NE(slurp(folder_ / "out/run.log").find(std::string("rejected ") + stem),
+                  std::string::npos);
     }
     EXPECT_TRUE(fs::exists(folder_ / "out/labels/000004.label"));
 }

@@ -34,7 +34,8 @@ TEST(OutputFolder, WhatIsThereIsKeptUnlessOverwritten) {
     spill(temporary / "static_map.pcd", "old");
     spill(temporary / "thesis.tex", "keep");
     EXPECT_THROW(OutputFolder(temporary.path(), false), ConfigError);
-    EXPECT_THROW(OutputFolder(temporary.path(), false), ConfigError) << "the lock was not given back";
+    EXPECT_THROW(OutputFolder(temporary.path(), false), ConfigError)
+        << "the lock was not given back";
     EXPECT_TRUE(fs::exists(temporary / "static_map.pcd"));
     const OutputFolder folder(temporary.path(), true);
     EXPECT_FALSE(fs::exists(temporary / "static_map.pcd"));

@@ -4,3 +4,7 @@ endforeach()
 df_test(apps/command dynamic_filter_app)
 add_dependencies(apps_command_test dynamicfilter)
 target_compile_definitions(apps_command_test PRIVATE COMMAND="$<TARGET_FILE:dynamicfilter>")
+
+# Every command of the README, as it stands there.
+add_test(NAME apps/readme COMMAND ${CMAKE_CURRENT_LIST_DIR}/readme_test.sh
+         ${PROJECT_SOURCE_DIR} $<TARGET_FILE:dynamicfilter>)

@@ -20,7 +20,8 @@ TEST(TopView, ShowsRemovedPointsInRedBeforeAndNotAfter) {
     Labels labels;
     for (int x = 0; x < 100; ++x) {
         for (int y = 0; y < 50; ++y) {
-            points.emplace_back(0.1F * static_cast<float>(x) + 0.05F, 0.1F * static_cast<float>(y) + 0.05F, 0.0F);
+            points.emplace_back(0.1F * static_cast<float>(x) + 0.05F,
+                                0.1F * static_cast<float>(y) + 0.05F, 0.0F);
             labels.push_back(x == 40 ? Label::dynamic : y == 0 ? Label::unknown : Label::still);
         }
     }

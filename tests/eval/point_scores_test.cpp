@@ -9,7 +9,8 @@ namespace dynamic_filter::eval {
 namespace {
 
 TEST(PointScore, IsWorkedByHand) {
-    const PointScore s = point_score({.still = 200, .dynamic = 50, .covered_still = 180, .covered_dynamic = 10});
+    const PointScore s =
+        point_score({.still = 200, .dynamic = 50, .covered_still = 180, .covered_dynamic = 10});
     EXPECT_DOUBLE_EQ(*s.sa, 0.9);
     EXPECT_DOUBLE_EQ(*s.da, 0.8);
     EXPECT_DOUBLE_EQ(*s.aa, std::sqrt(0.72));
@@ -18,11 +19,13 @@ TEST(PointScore, IsWorkedByHand) {
 }
 
 TEST(PointScore, IsUndefinedWithoutPointsOfAKind) {
-    const PointScore s = point_score({.still = 10, .dynamic = 0, .covered_still = 10, .covered_dynamic = 0});
+    const PointScore s =
+        point_score({.still = 10, .dynamic = 0, .covered_still = 10, .covered_dynamic = 0});
     EXPECT_DOUBLE_EQ(*s.sa, 1.0);
     EXPECT_FALSE(s.da);
     EXPECT_FALSE(s.aa);
-    const PointScore none = point_score({.still = 1, .dynamic = 1, .covered_still = 0, .covered_dynamic = 1});
+    const PointScore none =
+        point_score({.still = 1, .dynamic = 1, .covered_still = 0, .covered_dynamic = 1});
     EXPECT_DOUBLE_EQ(*none.ha, 0.0);
 }
 

@@ -19,8 +19,12 @@ std::vector<LabelledScan> random_scans() {
     for (LabelledScan& scan : scans) {
         for (int i = 0; i < 400; ++i) {
             scan.points.emplace_back(coordinate(), coordinate(), coordinate());
-            scan.truth.push_back(random() % 5 == 0 ? kUnknown : random() % 2 == 0 ? kDynamic : kStill);
-            scan.verdict.push_back(random() % 6 == 0 ? kUnknown : random() % 2 == 0 ? kDynamic : kStill);
+            scan.truth.push_back(random() % 5 == 0   ? kUnknown
+                                 : random() % 2 == 0 ? kDynamic
+                                                     : kStill);
+            scan.verdict.push_back(random() % 6 == 0   ? kUnknown
+                                   : random() % 2 == 0 ? kDynamic
+                                                       : kStill);
         }
     }
     return scans;
@@ -37,7 +41,8 @@ PointScore plain_point_score(const std::vector<LabelledScan>& scans, const Point
         for (std::size_t i = 0; i < scan.points.size(); ++i) {
             if (scan.truth[i] == kUnknown) continue;
             bool covered = false;
-            for (const Point& m : map) covered |= (m - scan.points[i]).squaredNorm() <= 0.05F * 0.05F;
+            for (const Point& m : map)
+                covered |= (m - scan.points[i]).squaredNorm() <= 0.05F * 0.05F;
             const bool dynamic = scan.truth[i] == kDynamic;
             (dynamic ? count.dynamic : count.still) += 1;
             if (covered) (dynamic ? count.covered_dynamic : count.covered_still) += 1;
@@ -50,7 +55,8 @@ Points clean_map(const std::vector<LabelledScan>& scans) {
     Points map;
     for (const LabelledScan& scan : scans) {
         for (std::size_t i = 0; i < scan.points.size(); ++i) {
-            if (scan.truth[i] != kUnknown && scan.verdict[i] != kDynamic) map.push_back(scan.points[i]);
+            if (scan.truth[i] != kUnknown && scan.verdict[i] != kDynamic)
+                map.push_back(scan.points[i]);
         }
     }
     return map;

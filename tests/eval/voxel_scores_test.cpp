@@ -14,7 +14,9 @@ namespace {
 constexpr Label kStill = Label::still, kDynamic = Label::dynamic;
 
 /// Middle of the n-th voxel of 0.2 m along x, and a little off it.
-Point in_voxel(int n, float off = 0.0F) { return {0.2F * static_cast<float>(n) + 0.1F + off, 0.1F, 0.1F}; }
+Point in_voxel(int n, float off = 0.0F) {
+    return {0.2F * static_cast<float>(n) + 0.1F + off, 0.1F, 0.1F};
+}
 
 TEST(VoxelScore, IsWorkedByHand) {
     const VoxelScore s = voxel_score(10, 9, 5, 1);
@@ -64,8 +66,8 @@ TEST(VoxelTally, ErasorReadingNeedsTheSameLabelAtTheNearestSurvivor) {
     VoxelTally tally(0.2);
     tally.add(in_voxel(0), kStill, true);
     tally.add(in_voxel(10), kDynamic, true);
-    tally.add(in_voxel(20), kStill, false);    // no survivor near: lost
-    tally.add(in_voxel(30), kDynamic, false);  // rejected, although ...
+    tally.add(in_voxel(20), kStill, false);         // no survivor near: lost
+    tally.add(in_voxel(30), kDynamic, false);       // rejected, although ...
     tally.add(in_voxel(31, -0.05F), kStill, true);  // ... a static survivor is 0.15 m away
     const auto s = tally.scores().at("erasor");
     EXPECT_DOUBLE_EQ(*s.pr, 2.0 / 3.0);
@@ -138,7 +140,8 @@ TEST(VoxelTally, AgreesWithAPlainCountOnRandomPoints) {
     expect_equal(scores.at("excluded"),
                  plain.score([](const auto& v) { return v.dynamic == 0; },
                              [](const auto& v) { return v.still == 0 || v.dynamic == 0; }));
-    expect_equal(scores.at("static_wins"), plain.score([](const auto& v) { return v.still > 0; }, all));
+    expect_equal(scores.at("static_wins"),
+                 plain.score([](const auto& v) { return v.still > 0; }, all));
     expect_equal(scores.at("majority"),
                  plain.score([](const auto& v) { return v.still >= v.dynamic; }, all));
 }

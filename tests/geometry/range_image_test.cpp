@@ -182,7 +182,8 @@ TEST(HalveRows, HoldsTheNearerOfARowAndTheOneItBorders) {
     const float none = std::numeric_limits<float>::infinity();
     RangeImage image{make_grid(0.1F, 0.05F, -0.2F, 0.2F), {}};
     for (std::size_t i = 0; i < image.grid.size(); ++i) {
-        image.range.push_back(random.below(4) == 0 ? none : static_cast<float>(random.uniform(1, 9)));
+        image.range.push_back(random.below(4) == 0 ? none
+                                                   : static_cast<float>(random.uniform(1, 9)));
     }
     const RangeImage halved = halve_rows(image);
     ASSERT_EQ(halved.grid.rows, 2 * image.grid.rows);

@@ -14,7 +14,8 @@ TEST(Png, ReadsBackEqual) {
     const test::TemporaryFolder folder;
     Image image{7, 5, {}};
     for (int i = 0; i < 35; ++i) {
-        image.pixels.push_back({static_cast<std::uint8_t>(7 * i), static_cast<std::uint8_t>(i), 200});
+        image.pixels.push_back(
+            {static_cast<std::uint8_t>(7 * i), static_cast<std::uint8_t>(i), 200});
     }
     write_png(folder / "a.png", image);
 

@@ -256,7 +256,8 @@ TEST(DynamicFilter, NotesTheTimesOfItsStages) {
     }
 }
 
-// More submaps at exactly the same pose than max_submaps: each is still consulted about its own voxels.
+// More submaps at exactly the same pose than max_submaps: each is still consulted about its own
+// voxels.
 TEST(DynamicFilter, ASensorThatStandsStillForLongKeepsTheWallsItSawLast) {
     auto scans = drive(1, false);
     scans.push_back(scans[0]);

@@ -22,7 +22,7 @@ struct Scores {
 
 /// A scan with ground truth; all parallel. Points of unknown truth are left out of every score.
 struct LabelledScan {
-    Points points;   ///< any one frame for all scans, near enough to its origin for floats
+    Points points;  ///< any one frame for all scans, near enough to its origin for floats
     Labels truth;
     Labels verdict;  ///< empty when a map is scored
 };

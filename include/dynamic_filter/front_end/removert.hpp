@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-/// Removert (Kim & Kim, IROS 2020), written from its description: the opponent of Tables II and III,
-/// and the visibility-based reverting of Figure 3. It looks at a thinned map, and per scan and pixel
-/// only at the map's nearest point: what stands behind that one needs another scan.
+/// Removert (Kim & Kim, IROS 2020), written from its description: the opponent of Tables II and
+/// III, and the visibility-based reverting of Figure 3. It looks at a thinned map, and per scan and
+/// pixel only at the map's nearest point: what stands behind that one needs another scan.
 #pragma once
 
 #include <span>
@@ -22,7 +22,8 @@ std::vector<Labels> removert(const Window& window, std::span<const KeyframeImage
                              const KeyframeImages& coarse, const RemovalMargin& margin,
                              float voxel_size);
 
-/// The second half of it, for points that another removal made dynamic: turns some of them to still.
+/// The second half of it, for points that another removal made dynamic: turns some of them to
+/// still.
 void revert_by_visibility(const Window& window, const KeyframeImages& coarse,
                           const RemovalMargin& margin, float voxel_size,
                           std::vector<Labels>& labels);

@@ -21,9 +21,9 @@ struct RemovalMargin {
 std::vector<RangeImage> keyframe_images(const Window& window, float azimuth_step,
                                         float elevation_step);
 
-/// Looks at every point of every scan of the window from every keyframe: a keyframe that saw farther
-/// than the point, by more than the margin, proves it dynamic. An empty pixel is no evidence.
-/// Returns per scan and point: dynamic, still, or unknown (not measured).
+/// Looks at every point of every scan of the window from every keyframe: a keyframe that saw
+/// farther than the point, by more than the margin, proves it dynamic. An empty pixel is no
+/// evidence. Returns per scan and point: dynamic, still, or unknown (not measured).
 std::vector<Labels> remove_by_visibility(const Window& window, std::span<const RangeImage> images,
                                          const RemovalMargin& margin);
 

@@ -11,7 +11,8 @@
 namespace dynamic_filter {
 
 /// All scans give points to the submap; its keyframes also observe. Thinning the observers, not the
-/// points, lets a window span the seconds in which people move away (n matters by the time it spans).
+/// points, lets a window span the seconds in which people move away (n matters by the time it
+/// spans).
 struct Window {
     std::vector<Scan> scans;             ///< `T_world_sensor` is relative to the map frame here
     std::vector<std::size_t> keyframes;  ///< indices into scans, ascending; the first is 0

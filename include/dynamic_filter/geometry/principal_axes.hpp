@@ -21,8 +21,9 @@ struct Moments {
     Moments& operator+=(const Moments& other);  ///< needs the same origin
 };
 
-/// Unit eigenvector of the smallest eigenvalue: the normal of the best plane. Its sign is arbitrary.
-/// Empty for fewer than three points, or when they do not span a plane (one spot, one line).
+/// Unit eigenvector of the smallest eigenvalue: the normal of the best plane. Its sign is
+/// arbitrary. Empty for fewer than three points, or when they do not span a plane (one spot, one
+/// line).
 std::optional<Eigen::Vector3d> smallest_axis(const Moments& moments);
 
 }  // namespace dynamic_filter

@@ -50,8 +50,8 @@ RangeImage nearest_range_image(std::span<const Point> points, const ImageGrid& g
 
 /// The image with rows halved, each half holding the nearer range of its row and of the row it
 /// borders: what lies between two beams counts as seen through only if both passed it. Ground at
-/// grazing angles, where the next ring is metres away, is kept by that. A bordering row that returned
-/// nothing does not count; an empty pixel stays empty.
+/// grazing angles, where the next ring is metres away, is kept by that. A bordering row that
+/// returned nothing does not count; an empty pixel stays empty.
 RangeImage halve_rows(const RangeImage& image);
 
 /// How densely and how far the sensor looks, read off its scans rather than off its name.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Voxels as 64-bit keys: 21 bits per axis. Points reach voxels by way of half cells, so +-105 km at
-/// voxels of 0.2 m, from the map frame's origin.
+/// Voxels as 64-bit keys: 21 bits per axis. Points reach voxels by way of half cells, so +-105 km
+/// at voxels of 0.2 m, from the map frame's origin.
 #pragma once
 
 #include <tsl/robin_map.h>
@@ -22,7 +22,9 @@ using Cell = Eigen::Vector3i;
 
 constexpr int kCellLimit = 1 << 20;
 
-inline bool fits(const Cell& c) { return (c.array() >= -kCellLimit && c.array() < kCellLimit).all(); }
+inline bool fits(const Cell& c) {
+    return (c.array() >= -kCellLimit && c.array() < kCellLimit).all();
+}
 
 /// Empty for points that are not finite or too far for a key.
 inline std::optional<Cell> cell_of(const Point& p, float inverse_size) {

@@ -25,14 +25,18 @@ struct Field {
     bool operator==(const Field&) const = default;
 };
 
-/// `data` holds size() records of `point_bytes` bytes, little endian, without padding between fields.
+/// `data` holds size() records of `point_bytes` bytes, little endian, without padding between
+/// fields.
 struct Cloud {
     std::vector<Field> fields;
     std::size_t point_bytes = 0;
     std::vector<std::byte> data;
-    std::optional<Pose> viewpoint;  ///< PCD's VIEWPOINT if the file gave one that is not the identity
+    std::optional<Pose>
+        viewpoint;  ///< PCD's VIEWPOINT if the file gave one that is not the identity
 
-    [[nodiscard]] std::size_t size() const { return point_bytes == 0 ? 0 : data.size() / point_bytes; }
+    [[nodiscard]] std::size_t size() const {
+        return point_bytes == 0 ? 0 : data.size() / point_bytes;
+    }
     [[nodiscard]] const Field* find(const std::string& name) const;  ///< nullptr if absent
 };
 

@@ -26,7 +26,7 @@ public:
     void write(std::span<const std::byte> bytes);  ///< appends, buffered
     void write(std::string_view text);
     void rewrite(std::size_t offset, std::string_view text);  ///< overwrites bytes already written
-    void commit();  ///< flushes, fsyncs, renames
+    void commit();                                            ///< flushes, fsyncs, renames
 
 private:
     void flush();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Pose files. A line that is not a rigid motion is an error that names the line and the likely cause.
+/// Pose files. A line that is not a rigid motion is an error that names the line and the likely
+/// cause.
 #pragma once
 
 #include <filesystem>

@@ -34,8 +34,8 @@ struct Sequence {
     std::vector<Pose> T_world_sensor;  ///< parallel; empty for `benchmark` (poses are in the files)
     std::vector<double> stamps;        ///< parallel [s]; made up at 10 Hz where not measured
     bool measured_stamps = false;
-    bool intensity_is_truth = false;   ///< `benchmark` with ground truth in the intensity
-    std::vector<std::string> notes;    ///< for the user: what was assumed
+    bool intensity_is_truth = false;  ///< `benchmark` with ground truth in the intensity
+    std::vector<std::string> notes;   ///< for the user: what was assumed
 
     [[nodiscard]] std::size_t size() const { return scan_files.size(); }
     [[nodiscard]] bool has_truth() const { return intensity_is_truth || !label_files.empty(); }
@@ -43,8 +43,8 @@ struct Sequence {
 
 /// One scan as read: the record's own fields, and the points in the sensor frame.
 struct Frame {
-    Cloud cloud;   ///< as in the file (`benchmark`: x y z in the world frame)
-    Points points; ///< sensor frame, same order
+    Cloud cloud;    ///< as in the file (`benchmark`: x y z in the world frame)
+    Points points;  ///< sensor frame, same order
     Pose T_world_sensor = Pose::Identity();
     double stamp = 0.0;
     Labels truth;  ///< empty without ground truth; otherwise one per point

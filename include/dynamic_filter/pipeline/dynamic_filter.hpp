@@ -18,12 +18,13 @@ namespace dynamic_filter {
 struct Verdict {
     std::size_t index = 0;  ///< Scan::index
     Labels labels;
-    std::vector<float> probability;  ///< occupancy 0..1 of the point's voxel; empty in instant verdicts
+    std::vector<float>
+        probability;  ///< occupancy 0..1 of the point's voxel; empty in instant verdicts
 };
 
-/// Usage: push() every scan, finish(), then verdict() of any scan. Single caller; verdict() alone is
-/// const and may run in several threads. Same scans and config give the same bits for any number of
-/// threads. Memory: one window of scans and the thinned submaps; scans are not kept.
+/// Usage: push() every scan, finish(), then verdict() of any scan. Single caller; verdict() alone
+/// is const and may run in several threads. Same scans and config give the same bits for any number
+/// of threads. Memory: one window of scans and the thinned submaps; scans are not kept.
 class DynamicFilter {
 public:
     /// Throws ConfigError.
