@@ -27,6 +27,13 @@ public:
     }
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
+    /// Writes a file, with the folders above it.
+    std::filesystem::path put(const std::string& name, const std::string& bytes) const {
+        std::filesystem::create_directories((path_ / name).parent_path());
+        std::ofstream(path_ / name, std::ios::binary) << bytes;
+        return path_ / name;
+    }
+
 private:
     std::filesystem::path path_;
 };
