@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "dynamic_filter/eval/scores.hpp"
 #include "dynamic_filter/sim/simulation.hpp"
 
 namespace dynamic_filter::app {
@@ -41,7 +42,7 @@ struct EvalOptions {
     std::filesystem::path truth;
     std::optional<std::filesystem::path> labels, map, poses, json;
     std::string format;
-    double voxel = 0.2;
+    double voxel = eval::kVoxelSize;
 };
 
 struct SimulateOptions {

@@ -56,13 +56,17 @@ void apply_toml(Config& config, const std::filesystem::path& file) {
 Config load_config(const ConfigOptions& options) {
     Config config = preset(options.preset);
     if (options.file) apply_toml(config, *options.file);
+    std::vector<std::string> errors;
     for (const std::string& assignment : options.assignments) {
-        const auto equals = assignment.find('=');
-        if (equals == std::string::npos) {
-            throw ConfigError(fmt::format("--set {}: expected section.key=value", assignment));
+        try {
+            const auto equals = assignment.find('=');
+            if (equals == std::string::npos) throw ConfigError("expected section.key=value");
+            set(config, assignment.substr(0, equals), assignment.substr(equals + 1));
+        } catch (const ConfigError& error) {
+            errors.push_back(fmt::format("--set {}: {}", assignment, error.what()));
         }
-        set(config, assignment.substr(0, equals), assignment.substr(equals + 1));
     }
+    if (!errors.empty()) throw ConfigError(fmt::format("{}", fmt::join(errors, "\n  ")));
     validate(config);
     return config;
 }

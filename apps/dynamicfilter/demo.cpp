@@ -32,10 +32,13 @@ void print_table(const eval::VoxelScore& ours) {
 }  // namespace
 
 int demo(const DemoOptions& o) {
-    const OutputFolder output(o.output, true);
+    // The folder of an earlier demo is reused; any other that holds something is refused.
     const auto recording = o.output / "recording";
-    const OutputFolder recorded(recording, true);
-    const OutputFolder result(o.output / "result", true);
+    const bool again = std::filesystem::exists(o.output / "before.png") &&
+                       std::filesystem::exists(recording / "poses.txt");
+    const OutputFolder output(o.output, Contents::demo, again);
+    const OutputFolder recorded(recording, Contents::recording, again);
+    const OutputFolder result(o.output / "result", Contents::result, again);
     sim::SimulationOptions scene;
     scene.pedestrians = kPedestrians;
     write_simulation(scene, recording);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <atomic>
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
@@ -14,44 +16,39 @@ namespace dynamic_filter::app {
 
 namespace {
 
-eval::Scores score_label_folder(const io::Sequence& sequence, const Eigen::Vector3d& origin,
-                                const std::filesystem::path& folder, double voxel) {
+/// Notes which scans give nothing.
+eval::ScanSource noting(eval::ScanSource source, std::vector<std::atomic<bool>>& left_out) {
+    return [source = std::move(source), &left_out](std::size_t i) {
+        auto scan = source(i);
+        left_out[i] = !scan.has_value();
+        return scan;
+    };
+}
+
+eval::ScanSource with_labels(const io::Sequence& sequence, const Eigen::Vector3d& origin,
+                             const std::filesystem::path& folder) {
     // Given the output folder of a run, its labels are meant.
     const auto labels =
         std::filesystem::is_directory(folder / "labels") ? folder / "labels" : folder;
-    std::size_t missing = 0;
-    for (std::size_t i = 0; i < sequence.size(); ++i) {
-        const auto file = labels / (io::stem(sequence, i) + ".label");
-        if (!std::filesystem::exists(file)) {
-            ++missing;
-            continue;
-        }
-        const std::size_t truth = io::read_frame(sequence, i).truth.size();
-        const std::size_t given = io::read_labels(file).size();
-        if (truth != given) {
-            throw InputError(file, "",
-                             fmt::format("{} labels, but the scan has {} points", given, truth));
-        }
-    }
-    if (missing == sequence.size()) {
-        throw InputError(labels, "",
-                         "holds no label file of any scan in " + sequence.root.string());
-    }
-    if (missing > 0)
-        fmt::print(stderr, "note: {} scans have no label file and are left out\n", missing);
-    const auto labels_of = [&](std::size_t i) -> std::optional<Labels> {
-        const auto file = labels / (io::stem(sequence, i) + ".label");
-        if (!std::filesystem::exists(file)) return std::nullopt;
-        return io::read_labels(file);
-    };
-    return eval::score_labels(sequence.size(), scan_source(sequence, origin, labels_of), voxel);
+    if (!std::filesystem::is_directory(labels)) throw InputError(labels, "", "is not a folder");
+    return scan_source(sequence, origin,
+                       [&sequence, labels](std::size_t i) -> std::optional<Labels> {
+                           const auto file = labels / (io::stem(sequence, i) + ".label");
+                           if (!std::filesystem::exists(file)) return std::nullopt;
+                           return io::read_labels(file);
+                       });
 }
 
-eval::Scores score_map_file(const io::Sequence& sequence, const Eigen::Vector3d& origin,
-                            const std::filesystem::path& file, double voxel) {
-    Points map = io::positions(io::read_cloud(file));
-    for (Point& p : map) p = (p.cast<double>() - origin).cast<float>();
-    return eval::score_map(sequence.size(), scan_source(sequence, origin, {}), map, voxel);
+Points read_map(const std::filesystem::path& file, const Eigen::Vector3d& origin) {
+    const io::Cloud cloud = io::read_cloud(file);
+    Points map(cloud.size());
+    for (const char axis : {'x', 'y', 'z'}) {  // in double: the world may be far from its origin
+        const auto world = io::values(cloud, *cloud.find(std::string(1, axis)));
+        for (std::size_t i = 0; i < map.size(); ++i) {
+            map[i][axis - 'x'] = static_cast<float>(world[i] - origin[axis - 'x']);
+        }
+    }
+    return map;
 }
 
 }  // namespace
@@ -62,11 +59,24 @@ int evaluate(const EvalOptions& o) {
         throw InputError(o.truth, "", "has no ground truth (labels/*.label, or 0/1 intensities)");
     }
     const Eigen::Vector3d origin = scoring_origin(sequence, o.voxel);
-    const eval::Scores scores = o.labels ? score_label_folder(sequence, origin, *o.labels, o.voxel)
-                                         : score_map_file(sequence, origin, *o.map, o.voxel);
+    std::vector<std::atomic<bool>> left_out(sequence.size());
+    const eval::ScanSource source = noting(
+        o.labels ? with_labels(sequence, origin, *o.labels) : scan_source(sequence, origin, {}),
+        left_out);
+    const eval::Scores scores =
+        o.labels ? eval::score_labels(sequence.size(), source, o.voxel)
+                 : eval::score_map(sequence.size(), source, read_map(*o.map, origin), o.voxel);
+    const auto missing = std::count(left_out.begin(), left_out.end(), true);
+    if (missing == static_cast<std::ptrdiff_t>(sequence.size())) {
+        throw InputError(o.labels ? *o.labels : o.truth, "",
+                         "holds no label file of any readable scan in " + o.truth.string());
+    }
     fmt::print("{}", table(scores));
-    if (o.json) io::write_file(*o.json, to_json(scores).dump(2) + "\n");
-    return kDone;
+    if (o.json) io::write_file(*o.json, text_of(to_json(scores)));
+    if (missing == 0) return kDone;
+    fmt::print(stderr, "left out {} of {} scans: unreadable, or without labels\n", missing,
+               sequence.size());
+    return kRejected;
 }
 
 }  // namespace dynamic_filter::app

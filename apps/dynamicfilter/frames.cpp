@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "frames.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "dynamic_filter/error.hpp"
@@ -16,6 +18,16 @@ io::Format format_of(const std::string& name) {
         if (io::to_string(format) == name) return format;
     }
     throw ConfigError("unknown format '" + name + "'; choose kitti, benchmark or folder");
+}
+
+/// A ConfigError, because it is the pair of arguments that is wrong, and must not pass as a scan
+/// that cannot be read.
+void refuse_other_count(const io::Sequence& sequence, std::size_t i, std::size_t labels,
+                        std::size_t points) {
+    if (labels == points) return;
+    throw ConfigError(
+        fmt::format("scan {}: {} labels, but {} points; are they of another recording?",
+                    io::stem(sequence, i), labels, points));
 }
 
 }  // namespace
@@ -86,6 +98,7 @@ eval::ScanSource scan_source(const io::Sequence& sequence, const Eigen::Vector3d
             if (labels_of) {
                 auto labels = labels_of(i);
                 if (!labels) return std::nullopt;
+                refuse_other_count(sequence, i, labels->size(), scan.truth.size());
                 scan.verdict = std::move(*labels);
             }
             for (std::size_t p = 0; p < frame.points.size(); ++p) {  // no measurement, no truth

@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include "commands.hpp"
+#include "dynamic_filter/error.hpp"
 #include "dynamic_filter/io/cloud.hpp"
 #include "dynamic_filter/io/sequence.hpp"
 
@@ -61,6 +62,7 @@ void describe_sequence(const std::filesystem::path& folder) {
 }  // namespace
 
 int info(const std::filesystem::path& file) {
+    if (!std::filesystem::exists(file)) throw InputError(file, "", "does not exist");
     std::filesystem::is_directory(file) ? describe_sequence(file) : describe_cloud(file);
     return kDone;
 }

@@ -27,9 +27,9 @@ void add_run(CLI::App& app, std::function<int()>& chosen) {
     c.add_option("--poses", o->poses, "pose file (default: the one in DATA)");
     c.add_option("--format", o->format, "kitti, benchmark or folder (default: recognised)");
     add_config_options(c, o->config);
-    c.add_option("--first", o->first, "index of the first scan");
-    c.add_option("--last", o->last, "index of the last scan");
-    c.add_option("--stride", o->stride, "use every n-th scan");
+    c.add_option("--first", o->first, "index of the first scan")->check(CLI::NonNegativeNumber);
+    c.add_option("--last", o->last, "index of the last scan")->check(CLI::NonNegativeNumber);
+    c.add_option("--stride", o->stride, "use every n-th scan")->check(CLI::PositiveNumber);
     c.add_option("--threads", o->threads, "0: all cores")->check(CLI::Range(0, 1024));
     c.add_flag("--overwrite", o->overwrite,
                "replace what an earlier run left in the output folder");
@@ -65,7 +65,8 @@ void add_simulate(CLI::App& app, std::function<int()>& chosen) {
     c.add_option("--seed", s.seed, "same seed, same bytes")->capture_default_str();
     c.add_option("--sensor", s.sensor, fmt::format("{}", fmt::join(sim::sensor_names(), ", ")))
         ->capture_default_str();
-    c.add_option("--frames", s.frames, "number of scans (default: the whole scene)");
+    c.add_option("--frames", s.frames, "number of scans (default: the whole scene)")
+        ->check(CLI::PositiveNumber);
     c.add_option("--rate", s.rate_hz, "scans per second (default: the scene's own)")
         ->check(CLI::Range(0.0, 100.0));
     c.add_option("--pose-noise", s.pose_noise_m, "standard deviation of each axis [m]")
@@ -111,7 +112,12 @@ int main(int argc, char** argv) {
     add_others(app, chosen);
     try {
         app.parse(argc, argv);
-        return chosen();
+        const int code = chosen();
+        // A result that could not be printed (a full disk, say) is not a result.
+        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+            throw OutputError("standard output", "cannot be written");
+        }
+        return code;
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? kDone : kUsage;
     } catch (const ConfigError& error) {

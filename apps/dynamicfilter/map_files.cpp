@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "map_files.hpp"
 
-#include <array>
 #include <cstring>
 
 namespace dynamic_filter::app {
@@ -14,21 +13,41 @@ void store(std::byte* at, double value) {
     std::memcpy(at, &narrowed, sizeof narrowed);
 }
 
+bool is_coordinate(const io::Field& field) {
+    return field.name == "x" || field.name == "y" || field.name == "z";
+}
+
+/// The frame's fields; float coordinates become double where the world's origin is so far away that
+/// a float would be off by a millimetre or more.
+io::Cloud layout_of(const io::Frame& frame, bool in_world) {
+    constexpr double kFar = 1e4;  // [m]
+    const bool far = !in_world && frame.T_world_sensor.translation().norm() > kFar;
+    io::Cloud layout;
+    for (const io::Field& field : frame.cloud.fields) {
+        const bool widen = far && is_coordinate(field);
+        io::add_field(layout, field.name, widen ? io::FieldType::f64 : field.type, field.count);
+    }
+    return layout;
+}
+
 }  // namespace
 
-std::vector<std::byte> world_records(const io::Frame& frame) {
-    std::vector<std::byte> records = frame.cloud.data;
-    constexpr std::array kAxes{"x", "y", "z"};
-    std::array<const io::Field*, 3> fields{};
-    for (std::size_t axis = 0; axis < 3; ++axis) fields[axis] = frame.cloud.find(kAxes[axis]);
+std::vector<std::byte> world_records(const io::Frame& frame, const io::Cloud& layout) {
+    const io::Cloud& cloud = frame.cloud;
+    std::vector<std::byte> records(frame.points.size() * layout.point_bytes);
     for (std::size_t i = 0; i < frame.points.size(); ++i) {
         const Eigen::Vector3d world = frame.T_world_sensor * frame.points[i].cast<double>();
-        std::byte* const record = records.data() + i * frame.cloud.point_bytes;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const double value = world[static_cast<Eigen::Index>(axis)];
-            std::byte* const at = record + fields[axis]->offset;
-            fields[axis]->type == io::FieldType::f64 ? store<double>(at, value)
-                                                     : store<float>(at, value);
+        const std::byte* const from = cloud.data.data() + i * cloud.point_bytes;
+        std::byte* const to = records.data() + i * layout.point_bytes;
+        for (std::size_t f = 0; f < layout.fields.size(); ++f) {
+            const io::Field &in = cloud.fields[f], &out = layout.fields[f];
+            if (!is_coordinate(out)) {
+                std::memcpy(to + out.offset, from + in.offset, out.count * io::size_of(out.type));
+                continue;
+            }
+            const double value = world[out.name[0] - 'x'];
+            out.type == io::FieldType::f64 ? store<double>(to + out.offset, value)
+                                           : store<float>(to + out.offset, value);
         }
     }
     return records;
@@ -36,16 +55,16 @@ std::vector<std::byte> world_records(const io::Frame& frame) {
 
 void MapFiles::append(const io::Frame& frame, const Labels& labels) {
     if (!still_) {
-        still_.emplace(folder_ / "static_map.pcd", frame.cloud.fields, frame.cloud.point_bytes);
-        dynamic_.emplace(folder_ / "dynamic_points.pcd", frame.cloud.fields,
-                         frame.cloud.point_bytes);
+        layout_ = layout_of(frame, in_world_);
+        still_.emplace(folder_ / "static_map.pcd", layout_.fields, layout_.point_bytes);
+        dynamic_.emplace(folder_ / "dynamic_points.pcd", layout_.fields, layout_.point_bytes);
     }
-    const std::size_t bytes = frame.cloud.point_bytes;
-    const std::vector<std::byte> records = world_records(frame);
+    const std::size_t bytes = layout_.point_bytes;
+    const auto records = in_world_ ? frame.cloud.data : world_records(frame, layout_);
     std::vector<std::byte> still, dynamic;
     still.reserve(records.size());
     for (std::size_t i = 0; i < labels.size(); ++i) {
-        if (!frame.points[i].allFinite()) continue;  // labelled unknown; nothing a map can show
+        if (!is_measured(frame.points[i])) continue;
         const auto* const record = records.data() + i * bytes;
         if (labels[i] == Label::dynamic) {
             dynamic.insert(dynamic.end(), record, record + bytes);

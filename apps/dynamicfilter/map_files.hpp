@@ -8,23 +8,27 @@
 
 namespace dynamic_filter::app {
 
-/// static_map.pcd and dynamic_points.pcd: the original records, x y z in the world frame.
-/// The fields are those of the first frame. Single caller.
+/// static_map.pcd and dynamic_points.pcd: the original records, x y z in the world frame. The
+/// fields are those of the first frame; far from the world's origin, where a float is coarse, x y z
+/// become float64. What is no measurement (not finite, at the sensor) is no point of a map. Single
+/// caller.
 class MapFiles {
 public:
-    MapFiles(std::filesystem::path folder, bool keep_unknown)
-        : folder_(std::move(folder)), keep_unknown_(keep_unknown) {}
+    /// `in_world`: the records hold world coordinates already and are passed on as they are.
+    MapFiles(std::filesystem::path folder, bool keep_unknown, bool in_world)
+        : folder_(std::move(folder)), keep_unknown_(keep_unknown), in_world_(in_world) {}
 
     void append(const io::Frame& frame, const Labels& labels);
     void commit();
 
 private:
     std::filesystem::path folder_;
-    bool keep_unknown_;
+    bool keep_unknown_, in_world_;
+    io::Cloud layout_;  ///< fields of the maps, no records
     std::optional<io::PcdWriter> still_, dynamic_;
 };
 
-/// The frame's records with x y z in the world frame.
-std::vector<std::byte> world_records(const io::Frame& frame);
+/// The frame's records in the given layout (same fields, x y z perhaps wider), x y z in the world.
+std::vector<std::byte> world_records(const io::Frame& frame, const io::Cloud& layout);
 
 }  // namespace dynamic_filter::app

@@ -5,12 +5,15 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
+#include <functional>
+#include <utility>
+#include <vector>
 
 #include "dynamic_filter/error.hpp"
 
@@ -22,24 +25,58 @@ namespace {
 
 constexpr const char* kLock = ".lock";
 
-/// What run, simulate and demo write: all that --overwrite may remove.
-constexpr std::array kOwnFiles{"static_map.pcd", "dynamic_points.pcd", "metrics.json",
-                               "timing.json",    "config.toml",        "run.log",
-                               "poses.txt",      "times.txt"};
-constexpr std::array kOwnFolders{"labels", "velodyne"};
-constexpr std::array kOwnSuffixes{".label", ".bin"};
+struct Names {
+    std::vector<const char*> files;
+    std::vector<std::pair<const char*, const char*>> folders;  ///< name, suffix of the files in it
+};
 
-void remove_earlier_output(const fs::path& path) {
-    for (const char* name : kOwnFiles) fs::remove(path / name);
-    for (const char* name : kOwnFolders) {
+Names written_by(Contents contents) {
+    switch (contents) {
+        case Contents::result:
+            return {{"static_map.pcd", "dynamic_points.pcd", "metrics.json", "timing.json",
+                     "config.toml", "run.log"},
+                    {{"labels", ".label"}}};
+        case Contents::recording:
+            return {{"poses.txt", "times.txt"}, {{"labels", ".label"}, {"velodyne", ".bin"}}};
+        case Contents::demo:
+            break;  // its recording and its result are folders with contents of their own
+    }
+    return {{"before.png", "after.png"}, {}};
+}
+
+/// Left by a process that was killed while it wrote.
+bool is_stale(const fs::path& file) {
+    const std::string name = file.filename();
+    return name.front() == '.' && name.find(".tmp.") != std::string::npos;
+}
+
+void remove_files(const fs::path& folder, const std::function<bool(const fs::path&)>& which) {
+    std::vector<fs::path> doomed;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        if (which(entry.path())) doomed.push_back(entry.path());
+    }
+    for (const fs::path& file : doomed) fs::remove(file);
+}
+
+void remove_earlier_output(const fs::path& path, Contents contents) {
+    const Names names = written_by(contents);
+    for (const char* name : names.files) fs::remove(path / name);
+    remove_files(path, is_stale);
+    for (const auto& [name, suffix] : names.folders) {
         if (!fs::is_directory(path / name)) continue;
-        for (const auto& entry : fs::directory_iterator(path / name)) {
-            for (const char* suffix : kOwnSuffixes) {
-                if (entry.path().extension() == suffix) fs::remove(entry.path());
-            }
-        }
+        remove_files(path / name, [&, s = suffix](const fs::path& file) {
+            return file.extension() == s || is_stale(file);
+        });
         if (fs::is_empty(path / name)) fs::remove(path / name);
     }
+}
+
+/// Whether the descriptor is still the file of that name: another process may have removed it.
+bool is_current(int descriptor, const fs::path& file) {
+    struct stat held {
+    }, named{};
+    return fstat(descriptor, &held) == 0 && stat(file.c_str(), &named) == 0 &&
+           held.st_ino == named.st_ino && held.st_dev == named.st_dev;
 }
 
 bool holds_something(const fs::path& path) {
@@ -52,12 +89,15 @@ bool holds_something(const fs::path& path) {
 }  // namespace
 
 OutputFolder::Lock::Lock(const fs::path& folder) : file(folder / kLock) {
-    descriptor = open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
-    if (descriptor < 0) throw OutputError(file, std::strerror(errno));
-    if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
-        close(descriptor);
-        throw ConfigError(folder.string() + ": another run is writing here; choose another -o");
-    }
+    do {
+        if (descriptor >= 0) close(descriptor);
+        descriptor = open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
+        if (descriptor < 0) throw OutputError(file, std::strerror(errno));
+        if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
+            close(descriptor);
+            throw ConfigError(folder.string() + ": another run is writing here; choose another -o");
+        }
+    } while (!is_current(descriptor, file));
 }
 
 OutputFolder::Lock::~Lock() {
@@ -66,7 +106,9 @@ OutputFolder::Lock::~Lock() {
     close(descriptor);
 }
 
-OutputFolder::OutputFolder(fs::path path, bool overwrite) : path_(std::move(path)) {
+OutputFolder::OutputFolder(fs::path path, Contents contents, bool overwrite)
+    : path_(std::move(path)) {
+    if (path_.empty()) throw ConfigError("the output folder has no name; give one with -o");
     try {
         if (fs::exists(path_) && !fs::is_directory(path_)) {
             throw ConfigError(path_.string() + ": the output must be a folder, and this is a file");
@@ -78,7 +120,7 @@ OutputFolder::OutputFolder(fs::path path, bool overwrite) : path_(std::move(path
                 throw ConfigError(path_.string() +
                                   ": the folder is not empty; choose another -o, or --overwrite");
             }
-            remove_earlier_output(path_);
+            remove_earlier_output(path_, contents);
         }
     } catch (const fs::filesystem_error& error) {
         throw OutputError(path_, error.code().message());
@@ -94,6 +136,13 @@ fs::path OutputFolder::subfolder(const char* name) const {
     return path_ / name;
 }
 
+void refuse_same_folder(const fs::path& input, const fs::path& output) {
+    std::error_code ignored;
+    if (fs::equivalent(input, output, ignored)) {
+        throw ConfigError(output.string() + ": holds the recording itself; choose another -o");
+    }
+}
+
 fs::path default_output() {
     const auto stamp = fmt::format("{:%Y%m%dT%H%M%SZ}", fmt::gmtime(std::time(nullptr)));
     fs::path path = fs::path("results") / stamp;
@@ -102,13 +151,13 @@ fs::path default_output() {
     return path;
 }
 
-void link_latest(const fs::path& output) {
+bool link_latest(const fs::path& output) {
     const fs::path link = output.parent_path() / "latest", fresh = output.parent_path() / ".latest";
     std::error_code error;
     fs::remove(fresh, error);
     fs::create_symlink(output.filename(), fresh, error);
     if (!error) fs::rename(fresh, link, error);  // replaces the old link in one step
-    if (error) throw OutputError(link, error.message());
+    return !error;
 }
 
 }  // namespace dynamic_filter::app

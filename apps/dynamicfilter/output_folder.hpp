@@ -6,12 +6,15 @@
 
 namespace dynamic_filter::app {
 
+/// What a command writes into its folder: all that --overwrite may remove.
+enum class Contents { result, recording, demo };
+
 /// A folder that one process fills. Creates it, refuses one that holds something (ConfigError)
-/// unless `overwrite`, which removes what an earlier run left there and nothing else. Locked while
-/// it lives: a second process gets a ConfigError. Throws OutputError if it cannot be made.
+/// unless `overwrite`, which removes what such a command leaves there and nothing else. Locked
+/// while it lives: a second process gets a ConfigError. Throws OutputError if it cannot be made.
 class OutputFolder {
 public:
-    OutputFolder(std::filesystem::path path, bool overwrite);
+    OutputFolder(std::filesystem::path path, Contents contents, bool overwrite);
     OutputFolder(const OutputFolder&) = delete;
     OutputFolder& operator=(const OutputFolder&) = delete;
     ~OutputFolder();
@@ -32,8 +35,13 @@ private:
     std::optional<Lock> lock_;
 };
 
+/// Throws ConfigError if the output folder is the input folder.
+void refuse_same_folder(const std::filesystem::path& input, const std::filesystem::path& output);
+
 /// `results/<UTC stamp>`, not yet existing; `results/latest` will point to it after link_latest().
 std::filesystem::path default_output();
-void link_latest(const std::filesystem::path& output);
+
+/// False if the link could not be made (not every file system has them).
+bool link_latest(const std::filesystem::path& output);
 
 }  // namespace dynamic_filter::app

@@ -59,6 +59,8 @@ void Progress::print(double seconds) const {
 void catch_interrupts() {
     std::signal(SIGINT, note_signal);
     std::signal(SIGTERM, note_signal);
+    std::signal(SIGHUP, note_signal);
+    std::signal(SIGPIPE, SIG_IGN);  // a reader of our output that goes away stops nothing
 }
 
 bool interrupted() { return signal_seen != 0; }

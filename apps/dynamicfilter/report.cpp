@@ -52,6 +52,10 @@ ordered_json to_json(const StageTimes& times) {
     return json;
 }
 
+std::string text_of(const ordered_json& json) {
+    return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
 std::string percent(const std::optional<double>& fraction) {
     return fraction ? fmt::format("{:.2f}", 100.0 * *fraction) : "-";
 }

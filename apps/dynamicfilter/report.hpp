@@ -17,6 +17,9 @@ nlohmann::ordered_json to_json(const eval::Scores& scores);
 /// {stage: {count, mean, p50, p95, p99, max}} in milliseconds.
 nlohmann::ordered_json to_json(const StageTimes& times);
 
+/// Indented; names of files that are not UTF-8 get replacement characters.
+std::string text_of(const nlohmann::ordered_json& json);
+
 /// "95.63", or "-" where undefined.
 std::string percent(const std::optional<double>& fraction);
 std::string three_digits(const std::optional<double>& value);

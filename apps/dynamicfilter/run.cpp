@@ -13,15 +13,23 @@ int run(const RunOptions& o) {
     const Config config = load_config(o.config);
     const io::Sequence sequence = open(o.data, o.format, o.poses, o.first, o.last, o.stride);
     const bool named = o.output.has_value();
-    const OutputFolder output(named ? *o.output : default_output(), o.overwrite);
+    if (named) {
+        refuse_same_folder(o.data, *o.output);
+        refuse_same_folder(sequence.scan_files.front().parent_path(), *o.output);
+    }
+    const OutputFolder output(named ? *o.output : default_output(), Contents::result, o.overwrite);
     for (const std::string& note : sequence.notes) fmt::print(stderr, "note: {}\n", note);
 
     catch_interrupts();
     const RunSummary summary = run_sequence(sequence, config, o.threads, output);
-    if (!named) link_latest(output.path());
 
     for (const std::string& line : summary.rejected) fmt::print(stderr, "rejected {}\n", line);
     fmt::print("{}written  {}\n", to_text(summary), output.path().string());
+    if (!named && !link_latest(output.path())) fmt::print(stderr, "note: no link results/latest\n");
+    if (2 * summary.unknown > summary.points) {
+        fmt::print(stderr,
+                   "note: most points are unknown; are the first poses of another place?\n");
+    }
     if (summary.interrupted) return kInterrupted;
     return summary.rejected.empty() ? kDone : kRejected;
 }

@@ -69,7 +69,7 @@ void filter_scans(Pass& pass) {
         return !(pass.summary.interrupted = interrupted());
     };
     for_each_frame(pass.sequence, all_scans(pass.sequence), {}, use);
-    if (pass.accepted.empty()) {
+    if (pass.accepted.empty() && !pass.summary.interrupted) {
         throw InputError(
             pass.sequence.root, "",
             "no scan is usable; the first was rejected: " + pass.summary.rejected.front());
@@ -90,7 +90,8 @@ void count(RunSummary& summary, const Labels& labels) {
 /// Second pass: final verdicts, label files, maps.
 void write_results(Pass& pass, TopView* view) {
     const auto folder = pass.output.subfolder("labels");
-    MapFiles maps(pass.output.path(), pass.config.output.keep_unknown);
+    MapFiles maps(pass.output.path(), pass.config.output.keep_unknown,
+                  pass.sequence.format == io::Format::benchmark);
     Progress progress("write", pass.accepted.size());
     std::vector<Labels> labels(pass.sequence.size());
     const auto classify = [&](std::size_t i, MaybeFrame& maybe) {
@@ -110,15 +111,14 @@ void write_results(Pass& pass, TopView* view) {
             view->add(shifted_world(*maybe.frame, Eigen::Vector3d::Zero()), labels[i]);
         labels[i] = {};
         progress.advance();
-        // After an interruption what has been filtered is still written; a second one stops it.
-        return true;
+        return true;  // what is filtered is written even after an interruption; a second one kills
     };
     for_each_frame(pass.sequence, pass.accepted, classify, use);
     maps.commit();
 }
 
 void score(Pass& pass) {
-    const double voxel = pass.config.back_end.voxel_size;
+    constexpr double voxel = eval::kVoxelSize;
     const Eigen::Vector3d origin = scoring_origin(pass.sequence, voxel);
     const auto folder = pass.output.path() / "labels";
     const auto final_labels = [&](std::size_t i) -> std::optional<Labels> {
@@ -157,7 +157,7 @@ void write_timing(const Pass& pass, int threads, double cpu_seconds, long peak_r
         {"voxels", s.voxels},
         {"peak_rss_bytes", peak_rss},
         {"threads", threads > 0 ? threads : available_threads()}};
-    io::write_file(pass.output.path() / "timing.json", json.dump(2) + "\n");
+    io::write_file(pass.output.path() / "timing.json", text_of(json));
 }
 
 void write_metrics(const Pass& pass) {
@@ -165,10 +165,11 @@ void write_metrics(const Pass& pass) {
     nlohmann::ordered_json json = nlohmann::ordered_json::object();
     if (s.scores) json = to_json(*s.scores);
     if (s.instant_scores) json["instant"] = to_json(*s.instant_scores);
+    if (s.scores) json["voxel_size"] = eval::kVoxelSize;
     json["scans"] = s.scans;
     json["points"] = {{"static", s.still}, {"dynamic", s.dynamic}, {"unknown", s.unknown}};
     json["rejected"] = s.rejected;
-    io::write_file(pass.output.path() / "metrics.json", json.dump(2) + "\n");
+    io::write_file(pass.output.path() / "metrics.json", text_of(json));
 }
 
 void write_log(const Pass& pass) {
@@ -213,7 +214,8 @@ RunSummary run_sequence(const io::Sequence& sequence, const Config& config, int 
         filter_scans(pass);
         write_results(pass, view);
         measure(pass, start, threads);
-        if (sequence.has_truth()) score(pass);
+        pass.summary.interrupted |= interrupted();
+        if (sequence.has_truth() && !pass.summary.interrupted) score(pass);
         write_metrics(pass);
         write_log(pass);
         summary = std::move(pass.summary);

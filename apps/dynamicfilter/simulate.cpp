@@ -18,7 +18,7 @@ std::size_t write_simulation(const sim::SimulationOptions& options,
     std::vector<double> stamps;
     std::size_t points = 0;
     Progress progress("simulate", simulation.size());
-    for (std::size_t i = 0; i < simulation.size(); ++i) {
+    for (std::size_t i = 0; i < simulation.size() && !interrupted(); ++i) {
         const sim::SimulatedScan scan = simulation.scan(i);
         const std::string stem = fmt::format("{:06}", i);
         io::write_bin(folder / "velodyne" / (stem + ".bin"), scan.points, scan.intensity);
@@ -34,10 +34,11 @@ std::size_t write_simulation(const sim::SimulationOptions& options,
 }
 
 int simulate(const SimulateOptions& o) {
-    const OutputFolder output(o.output, o.overwrite);
+    const OutputFolder output(o.output, Contents::recording, o.overwrite);
+    catch_interrupts();
     const std::size_t points = write_simulation(o.simulation, output.path());
     fmt::print("written  {} ({} points)\n", output.path().string(), points);
-    return kDone;
+    return interrupted() ? kInterrupted : kDone;
 }
 
 }  // namespace dynamic_filter::app

@@ -33,7 +33,7 @@ ImageGrid sphere(const Config::BackEnd& config, const BeamPattern& beams) {
 }  // namespace
 
 void BackEnd::insert(Submap submap, const BeamPattern& beams, StageTimes& times) {
-    if (buffer_.empty()) grid_ = sphere(config_, beams);
+    grid_ = sphere(config_, beams);
     BufferedSubmap buffered{.submap = std::move(submap)};
     timed(times, "voxelization", [&] {
         buffered.voxels =

@@ -17,7 +17,7 @@ std::vector<float> pseudo_occupied_bound(const BufferedSubmap& submap, const Pro
                                          const Point& viewpoint, std::size_t pixels,
                                          const Config::BackEnd& config) {
     std::vector<float> bound(pixels, std::numeric_limits<float>::infinity());
-    if (!config.incident_correction) return bound;
+    if (!config.incident_correction || submap.normals.empty()) return bound;
     const auto cos_threshold =
         static_cast<float>(std::cos(config.incident_threshold_deg * std::numbers::pi / 180.0));
     for (std::size_t i = 0; i < seen.pixel.size(); ++i) {

@@ -36,6 +36,16 @@ Submap assemble(const Window& window, const std::vector<Labels>& labels, double 
 /// Every measured point is still: what a front-end that is switched off says.
 std::vector<Labels> all_still(const Window& window) { return remove_by_visibility(window, {}, {}); }
 
+/// Read off the first few scans that measured anything.
+BeamPattern beams_of(const Window& window) {
+    std::vector<Scan> few;
+    for (const Scan& scan : window.scans) {
+        const bool measured = std::any_of(scan.points.begin(), scan.points.end(), is_measured);
+        if (measured && few.size() < 5) few.push_back(scan);
+    }
+    return estimate_beam_pattern(few);
+}
+
 }  // namespace
 
 float pixel_step(double least_deg, double beams, float beam_spacing) {
@@ -73,8 +83,7 @@ std::vector<Labels> FrontEnd::remove_and_revert(const Window& window) const {
 
 FrontEndResult FrontEnd::process(const Window& window, StageTimes& times) {
     if (!beams_ || beams_->elevation_spacing == 0.0F) {  // first window, or only empty ones so far
-        const auto few = std::min<std::size_t>(window.scans.size(), 5);
-        beams_ = estimate_beam_pattern(std::span(window.scans).first(few));
+        beams_ = beams_of(window);
     }
     std::vector<Labels> labels;
     if (config_.method == Method::removert) {

@@ -3,12 +3,12 @@
 
 namespace dynamic_filter {
 
-void to_map(const Scan& scan, Points& out) {
-    const Eigen::Isometry3f T_map_scan = scan.T_world_sensor.cast<float>();
+void to_map(const Points& points, const Pose& T_map_sensor, Points& out) {
+    const Eigen::Isometry3f T_map_scan = T_map_sensor.cast<float>();
     const Eigen::Matrix3f rotation = T_map_scan.linear();
     const Point translation = T_map_scan.translation();
-    out.resize(scan.points.size());
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] = rotation * scan.points[i] + translation;
+    out.resize(points.size());
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = rotation * points[i] + translation;
 }
 
 void Thinner::add(const Points& points, const Labels& labels, Label kept) {

@@ -129,6 +129,13 @@ std::string read_file(const std::filesystem::path& file) {
 }
 
 AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
+    // A link stays, and what it points to is replaced.
+    std::error_code unresolved;
+    if (std::filesystem::is_symlink(path_, unresolved)) {
+        const auto target = std::filesystem::canonical(path_, unresolved);
+        if (unresolved) throw OutputError(path_, "is a link to nothing; remove it first");
+        path_ = target;
+    }
     refuse_special(path_);
     do {  // a name left by a dead process with our number is skipped
         temporary_ = temporary_name(path_);

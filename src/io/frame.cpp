@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 
@@ -57,6 +58,13 @@ Labels truth_of(const Sequence& sequence, std::size_t i, const Cloud& cloud) {
     return truth;
 }
 
+/// Farther than the Earth is round, a pose is a wrong number or a wrong unit.
+void refuse_absurd(const Pose& T_world_sensor, const std::filesystem::path& file) {
+    constexpr double kEarth = 4e7;  // [m]
+    if (T_world_sensor.translation().cwiseAbs().maxCoeff() <= kEarth) return;
+    throw InputError(file, "", "its pose is more than 40,000 km away; expected metres");
+}
+
 }  // namespace
 
 Labels read_labels(const std::filesystem::path& file) {
@@ -85,12 +93,16 @@ Frame read_frame(const Sequence& sequence, std::size_t i) {
     }
     frame.cloud = read_cloud(file);
     if (frame.cloud.size() == 0) throw InputError(file, "", "has no points");
+    refuse_absurd(frame.T_world_sensor, file);
     if (poses_in_files) {
         frame.T_world_sensor = frame.cloud.viewpoint.value_or(Pose::Identity());
     }
     frame.points = sequence.format == Format::benchmark
                        ? into_sensor(frame.cloud, frame.T_world_sensor)
                        : positions(frame.cloud);
+    if (std::none_of(frame.points.begin(), frame.points.end(), is_measured)) {
+        throw InputError(file, "", "has no finite point away from the sensor");
+    }
     frame.stamp = sequence.stamps[i];
     frame.truth = truth_of(sequence, i, frame.cloud);
     return frame;

@@ -45,7 +45,8 @@ std::vector<double> times_of(const Layout& layout) {
     return times;
 }
 
-/// KITTI's poses are those of the left camera if a calibration comes with them.
+/// KITTI's rows are poses of the left camera if a calibration comes with them; files with stamps
+/// (TUM, CSV) come from elsewhere and hold the LiDAR's.
 void from_camera_poses(Sequence& sequence, const std::filesystem::path& calib) {
     const Pose Tr = read_calib_tr(calib);
     for (Pose& pose : sequence.T_world_sensor) pose = Tr.inverse() * pose * Tr;
@@ -57,10 +58,11 @@ void from_camera_poses(Sequence& sequence, const std::filesystem::path& calib) {
 std::vector<double> assign_poses(Sequence& sequence, const Layout& layout) {
     std::vector<double> times = times_of(layout);
     if (!layout.poses) return times;
-    Match match = match_poses(layout, read_poses(*layout.poses), times);
+    const PoseFile file = read_poses(*layout.poses);
+    Match match = match_poses(layout, file, times);
     sequence.T_world_sensor = std::move(match.poses);
     sequence.notes.push_back(match.note);
-    if (layout.calib) from_camera_poses(sequence, *layout.calib);
+    if (layout.calib && file.stamps.empty()) from_camera_poses(sequence, *layout.calib);
     return match.stamps;
 }
 

@@ -83,10 +83,23 @@ Label DynamicFilter::label_of(const Point& map_point, float& probability) const 
     return probability >= threshold ? Label::still : Label::dynamic;
 }
 
+std::vector<StaticVoxel> DynamicFilter::local_static_map(const Pose& T_world_query) {
+    std::vector<StaticVoxel> result;
+    if (!origin_) return result;
+    const LocalMap local = back_end_.local_map(to_map_frame(T_world_query), times_);
+    const auto size = static_cast<float>(config_.back_end.voxel_size);
+    for (std::size_t i = 0; i < local.voxels.size(); ++i) {
+        if (local.probability[i] < static_cast<float>(config_.back_end.occupancy_threshold))
+            continue;
+        const Point at = center(back_end_.voxels().key(local.voxels[i]), size);
+        result.push_back({*origin_ + at.cast<double>(), local.probability[i]});
+    }
+    return result;
+}
+
 Verdict DynamicFilter::verdict(const Scan& scan) const {
-    Scan local{scan.points, to_map_frame(scan.T_world_sensor), scan.stamp, scan.index};
     Points points;
-    to_map(local, points);
+    to_map(scan.points, to_map_frame(scan.T_world_sensor), points);
     Verdict verdict{scan.index, Labels(points.size(), Label::unknown),
                     std::vector<float>(points.size(), 0.0F)};
     for (std::size_t i = 0; i < points.size(); ++i) {

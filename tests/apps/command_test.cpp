@@ -141,10 +141,34 @@ TEST_F(Command, UsageErrorsExitWithTwo) {
     EXPECT_EQ(run("run " + recording().string() + " --preset best"), 2);
     EXPECT_EQ(run("run " + recording().string() + " --format cloud"), 2);
     EXPECT_EQ(run("run " + recording().string() + " --first 99"), 2);
+    EXPECT_EQ(run("run " + recording().string() + " --stride -1"), 2);
+    EXPECT_EQ(run("simulate crowd --frames 0 -o x"), 2);
     EXPECT_EQ(run("simulate moon -o x"), 2);
     expect_said("crowd");
     EXPECT_FALSE(fs::exists(folder_ / "results"));
 }
+
+TEST_F(Command, NeverWritesOverARecording) {
+    const fs::path data = copy();
+    EXPECT_EQ(run("run data -o data --overwrite"), 2);
+    EXPECT_EQ(run("run data -o data/velodyne --overwrite"), 2);
+    EXPECT_EQ(run("demo -o data"), 2);
+    EXPECT_EQ(run("run data -o out"), 0);
+}
+
+TEST_F(Command, EvalSaysWhatItLeftOut) {
+    ASSERT_EQ(run("run " + recording().string() + " -o out"), 0);
+    const fs::path data = copy();
+    fs::resize_file(data / "velodyne/000004.bin", 1001);
+    EXPECT_EQ(run("eval --truth data --map out/static_map.pcd"), 4);
+    expect_said("left out 1 of 24");
+    EXPECT_EQ(run("eval --truth data --labels data/velodyne"), 3);
+    fs::rename(folder_ / "out/labels/000001.label", folder_ / "out/labels/000002.label");
+    EXPECT_EQ(run("eval --truth " + recording().string() + " --labels out"), 2);
+    expect_said("another recording");
+}
+
+TEST_F(Command, ResultsThatCannotBePrintedAreAnError) { EXPECT_EQ(run("config > /dev/full #"), 1); }
 
 TEST_F(Command, HelpAndVersionExitWithZero) {
     EXPECT_EQ(run("--help"), 0);

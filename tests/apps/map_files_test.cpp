@@ -18,13 +18,13 @@ io::Frame frame_of(io::FieldType type, std::size_t points) {
     for (const char* axis : {"x", "y", "z"}) io::add_field(frame.cloud, axis, type);
     io::add_field(frame.cloud, "ring", io::FieldType::u16);
     for (std::size_t i = 0; i < points; ++i) {
-        const T xyz[3] = {static_cast<T>(i), 0, 0};
+        const T xyz[3] = {static_cast<T>(i + 1), 0, 0};
         const auto ring = static_cast<std::uint16_t>(100 + i);
         const auto* bytes = reinterpret_cast<const std::byte*>(xyz);
         frame.cloud.data.insert(frame.cloud.data.end(), bytes, bytes + sizeof xyz);
         bytes = reinterpret_cast<const std::byte*>(&ring);
         frame.cloud.data.insert(frame.cloud.data.end(), bytes, bytes + sizeof ring);
-        frame.points.emplace_back(static_cast<float>(i), 0.0F, 0.0F);
+        frame.points.emplace_back(static_cast<float>(i + 1), 0.0F, 0.0F);
     }
     frame.T_world_sensor.translation() = Eigen::Vector3d(10, 20, 30);
     frame.T_world_sensor.linear() = Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitZ()).matrix();
@@ -34,7 +34,7 @@ io::Frame frame_of(io::FieldType type, std::size_t points) {
 template <class T>
 void expect_split(io::FieldType type) {
     const test::TemporaryFolder folder;
-    MapFiles maps(folder.path(), true);
+    MapFiles maps(folder.path(), true, false);
     maps.append(frame_of<T>(type, 4), {Label::still, Label::dynamic, Label::unknown, Label::still});
     maps.commit();
     const io::Cloud still = io::read_cloud(folder / "static_map.pcd");
@@ -43,7 +43,7 @@ void expect_split(io::FieldType type) {
     ASSERT_EQ(dynamic.size(), 1U);
     EXPECT_EQ(io::values(still, *still.find("ring")), (std::vector<double>{100, 102, 103}));
     EXPECT_EQ(io::values(dynamic, *dynamic.find("ring")), (std::vector<double>{101}));
-    EXPECT_NEAR((io::positions(still)[2] - Point(10, 23, 30)).norm(), 0, 1e-5);
+    EXPECT_NEAR((io::positions(still)[2] - Point(10, 24, 30)).norm(), 0, 1e-5);
     EXPECT_EQ(still.find("x")->type, type);
 }
 
@@ -54,19 +54,42 @@ TEST(MapFiles, KeepOriginalPointsWithAllFieldsInTheWorldFrame) {
 
 TEST(MapFiles, LeaveOutUnknownIfAskedAndPointsThatAreNotFinite) {
     const test::TemporaryFolder folder;
-    MapFiles maps(folder.path(), false);
+    MapFiles maps(folder.path(), false, false);
     io::Frame frame = frame_of<float>(io::FieldType::f32, 3);
     frame.points[0].x() = std::numeric_limits<float>::quiet_NaN();
-    maps.append(frame, {Label::unknown, Label::unknown, Label::still});
+    maps.append(frame, {Label::still, Label::unknown, Label::still});
+    frame.points[2].setZero();
+    maps.append(frame, {Label::still, Label::unknown, Label::still});
     maps.commit();
     EXPECT_EQ(io::read_cloud(folder / "static_map.pcd").size(), 1U);
     EXPECT_EQ(io::read_cloud(folder / "dynamic_points.pcd").size(), 0U);
 }
 
+TEST(MapFiles, FarFromTheOriginCoordinatesAreDoubles) {
+    const test::TemporaryFolder folder;
+    MapFiles maps(folder.path(), true, false);
+    io::Frame frame = frame_of<float>(io::FieldType::f32, 2);
+    frame.T_world_sensor.translation() = Eigen::Vector3d(5e5, 5e6 + 0.125, 30);
+    maps.append(frame, {Label::still, Label::still});
+    maps.commit();
+    const io::Cloud still = io::read_cloud(folder / "static_map.pcd");
+    EXPECT_NEAR(io::values(still, *still.find("y"))[1], 5e6 + 2.125, 1e-6);
+    EXPECT_EQ(io::values(still, *still.find("ring")), (std::vector<double>{100, 101}));
+}
+
+TEST(MapFiles, RecordsInTheWorldFrameArePassedOnUnchanged) {
+    const test::TemporaryFolder folder;
+    MapFiles maps(folder.path(), true, true);
+    const io::Frame frame = frame_of<float>(io::FieldType::f32, 3);
+    maps.append(frame, Labels(3, Label::still));
+    maps.commit();
+    EXPECT_EQ(io::read_cloud(folder / "static_map.pcd").data, frame.cloud.data);
+}
+
 TEST(MapFiles, LeaveNothingWithoutCommit) {
     const test::TemporaryFolder folder;
     {
-        MapFiles maps(folder.path(), true);
+        MapFiles maps(folder.path(), true, false);
         maps.append(frame_of<float>(io::FieldType::f32, 1), {Label::still});
     }
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));

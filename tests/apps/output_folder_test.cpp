@@ -16,14 +16,14 @@ using test::TemporaryFolder;
 
 TEST(OutputFolder, IsCreatedAndLeavesNoLockBehind) {
     const TemporaryFolder temporary;
-    { const OutputFolder folder(temporary / "a/b", false); }
+    { const OutputFolder folder(temporary / "a/b", Contents::result, false); }
     EXPECT_TRUE(fs::is_empty(temporary / "a/b"));
 }
 
 TEST(OutputFolder, ASecondUserIsRefused) {
     const TemporaryFolder temporary;
-    const OutputFolder first(temporary / "out", false);
-    EXPECT_THROW(OutputFolder(temporary / "out", true), ConfigError);
+    const OutputFolder first(temporary / "out", Contents::result, false);
+    EXPECT_THROW(OutputFolder(temporary / "out", Contents::result, true), ConfigError);
 }
 
 TEST(OutputFolder, WhatIsThereIsKeptUnlessOverwritten) {
@@ -33,29 +33,41 @@ TEST(OutputFolder, WhatIsThereIsKeptUnlessOverwritten) {
     spill(temporary / "labels/mine.txt", "keep");
     spill(temporary / "static_map.pcd", "old");
     spill(temporary / "thesis.tex", "keep");
-    EXPECT_THROW(OutputFolder(temporary.path(), false), ConfigError);
-    EXPECT_THROW(OutputFolder(temporary.path(), false), ConfigError)
+    spill(temporary / "poses.txt", "a recording's");
+    spill(temporary / ".run.log.tmp.1.0", "left by a process that was killed");
+    EXPECT_THROW(OutputFolder(temporary.path(), Contents::result, false), ConfigError);
+    EXPECT_THROW(OutputFolder(temporary.path(), Contents::result, false), ConfigError)
         << "the lock was not given back";
     EXPECT_TRUE(fs::exists(temporary / "static_map.pcd"));
-    const OutputFolder folder(temporary.path(), true);
+    const OutputFolder folder(temporary.path(), Contents::result, true);
     EXPECT_FALSE(fs::exists(temporary / "static_map.pcd"));
     EXPECT_FALSE(fs::exists(temporary / "labels/000000.label"));
     EXPECT_TRUE(fs::exists(temporary / "labels/mine.txt"));
     EXPECT_TRUE(fs::exists(temporary / "thesis.tex"));
+    EXPECT_TRUE(fs::exists(temporary / "poses.txt")) << "a run does not write poses";
+    EXPECT_FALSE(fs::exists(temporary / ".run.log.tmp.1.0"));
 }
 
 TEST(OutputFolder, AFileInItsPlaceIsAClearError) {
     const TemporaryFolder temporary;
     spill(temporary / "out", "a file");
-    EXPECT_THROW(OutputFolder(temporary / "out", true), ConfigError);
-    EXPECT_THROW(OutputFolder(temporary / "out/below", true), OutputError);
+    EXPECT_THROW(OutputFolder(temporary / "out", Contents::result, true), ConfigError);
+    EXPECT_THROW(OutputFolder(temporary / "out/below", Contents::result, true), OutputError);
+}
+
+TEST(RefuseSameFolder, SeesThroughNames) {
+    const TemporaryFolder temporary;
+    fs::create_directories(temporary / "data");
+    fs::create_symlink("data", temporary / "link");
+    EXPECT_THROW(refuse_same_folder(temporary / "data", temporary / "link"), ConfigError);
+    EXPECT_NO_THROW(refuse_same_folder(temporary / "data", temporary / "out"));
 }
 
 TEST(LinkLatest, PointsToTheNewest) {
     const TemporaryFolder temporary;
     for (const char* name : {"one", "two"}) {
         fs::create_directories(temporary / name);
-        link_latest(temporary / name);
+        EXPECT_TRUE(link_latest(temporary / name));
         EXPECT_EQ(fs::read_symlink(temporary / "latest"), name);
     }
 }

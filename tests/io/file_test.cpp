@@ -75,5 +75,16 @@ TEST(File, SaysWhyItCannotWrite) {
     EXPECT_HAS(error_of<OutputError>([] { AtomicFile file("/dev/full"); }), "device");
 }
 
+TEST(AtomicFile, ALinkStaysAndItsTargetIsReplaced) {
+    const TemporaryFolder folder;
+    folder.put("real", "old");
+    std::filesystem::create_symlink("real", folder / "link");
+    write_file(folder / "link", "new");
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+    EXPECT_EQ(slurp(folder / "real"), "new");
+    std::filesystem::create_symlink("nothing", folder / "dangling");
+    EXPECT_THROW(write_file(folder / "dangling", "x"), OutputError);
+}
+
 }  // namespace
 }  // namespace dynamic_filter::io

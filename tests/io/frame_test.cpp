@@ -54,5 +54,15 @@ TEST_F(FrameTest, LabelsAreSemanticKitti) {
     EXPECT_HAS(error_of([&] { read_labels(data.put("a.label", "12345")); }), "byte 4");
 }
 
+TEST_F(FrameTest, AScanWithoutAMeasurementOrWithAnAbsurdPoseIsRefused) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    put_bins("velodyne", 2);
+    data.put("velodyne/000000.bin", floats({nan, 1, 1, 0, 0, 0, 0, 1}));
+    data.put("poses.txt", kitti_rows(1) + "1 0 0 1e20 0 1 0 0 0 0 1 0\n");
+    const Sequence sequence = open();
+    EXPECT_HAS(error_of([&] { (void)read_frame(sequence, 0); }), "no finite point");
+    EXPECT_HAS(error_of([&] { (void)read_frame(sequence, 1); }), "metres");
+}
+
 }  // namespace
 }  // namespace dynamic_filter::io

@@ -41,5 +41,16 @@ TEST(Text, SplitsAndQuotes) {
     EXPECT_FALSE(product(1ULL << 63U, 2));
 }
 
+TEST(Lines, AUtf8MarkIsNoPartOfTheFirstLine) {
+    Lines lines(
+        "\xEF\xBB\xBF"
+        "1 2\n3",
+        "f");
+    ASSERT_TRUE(lines.next());
+    EXPECT_EQ(lines.line(), "1 2");
+    ASSERT_TRUE(lines.next());
+    EXPECT_EQ(lines.line(), "3");
+}
+
 }  // namespace
 }  // namespace dynamic_filter::io

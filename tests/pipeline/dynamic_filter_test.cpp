@@ -272,5 +272,23 @@ TEST(DynamicFilter, ASensorThatStandsStillForLongKeepsTheWallsItSawLast) {
     EXPECT_TRUE(all_are(std::vector{result.final[1]}, Label::still));
 }
 
+TEST(DynamicFilter, GivesTheStaticLocalMapAtAnyPose) {
+    auto scans = drive(6, false);
+    DynamicFilter filter(small_windows());
+    EXPECT_TRUE(filter.local_static_map(Pose::Identity()).empty());
+    for (auto& s : scans) filter.push(s.scan);
+    filter.finish();
+    Pose query = scans[0].scan.T_world_sensor;
+    const auto voxels = filter.local_static_map(query);
+    ASSERT_FALSE(voxels.empty());
+    for (const StaticVoxel& v : voxels) {
+        EXPECT_GT(v.probability, 0.0F);
+        EXPECT_LE(v.probability, 1.0F);
+        EXPECT_LT((v.center - query.translation()).norm(), 100.0);
+    }
+    query.translation().x() += 1e4;
+    EXPECT_TRUE(filter.local_static_map(query).empty());
+}
+
 }  // namespace
 }  // namespace dynamic_filter

@@ -30,6 +30,7 @@ struct LabelledScan {
 /// Gives scan i, or nothing if it was rejected. Called more than once per scan, in parallel.
 using ScanSource = std::function<std::optional<LabelledScan>(std::size_t)>;
 
+constexpr double kVoxelSize = 0.2;       ///< [m] Sec. IV-A
 constexpr double kCoverDistance = 0.05;  ///< [m] DynamicMap_Benchmark's rule
 
 /// Scores verdicts: the clean map is every point not labelled dynamic.

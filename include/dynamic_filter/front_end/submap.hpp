@@ -16,7 +16,8 @@ struct Submap {
 };
 
 /// Points of one scan in the map frame, as every stage computes them (to the last bit).
-void to_map(const Scan& scan, Points& out);
+void to_map(const Points& points, const Pose& T_map_sensor, Points& out);
+inline void to_map(const Scan& scan, Points& out) { to_map(scan.points, scan.T_world_sensor, out); }
 
 /// Collects the first point of every cell of half a voxel; halves nest in voxels, so thinning never
 /// changes which voxels are owned.

@@ -54,7 +54,7 @@ RangeImage nearest_range_image(std::span<const Point> points, const ImageGrid& g
 /// returned nothing does not count; an empty pixel stays empty.
 RangeImage halve_rows(const RangeImage& image);
 
-/// How densely and how far the sensor looks, read off its scans rather than off its name.
+/// How densely the sensor looks, read off its scans rather than off its name.
 struct BeamPattern {
     float azimuth_spacing = 0.0F;    ///< [rad] typical angle between neighbouring beams
     float elevation_spacing = 0.0F;  ///< [rad]

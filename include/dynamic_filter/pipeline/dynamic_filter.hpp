@@ -22,6 +22,12 @@ struct Verdict {
         probability;  ///< occupancy 0..1 of the point's voxel; empty in instant verdicts
 };
 
+/// A voxel of the static local map.
+struct StaticVoxel {
+    Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< [m] world frame
+    float probability = 0.0F;                          ///< n_occ / n_check
+};
+
 /// Usage: push() every scan, finish(), then verdict() of any scan. Single caller; verdict() alone
 /// is const and may run in several threads. Same scans and config give the same bits for any number
 /// of threads. Memory: one window of scans and the thinned submaps; scans are not kept.
@@ -41,6 +47,10 @@ public:
     /// The final verdict on a scan that was pushed, after finish(). Unknown where nothing can be
     /// said: not measured, or beyond the reach of a voxel's key.
     [[nodiscard]] Verdict verdict(const Scan& scan) const;
+
+    /// The static local map at any pose (Sec. III-C), from the submaps closed so far. Empty before
+    /// the first.
+    std::vector<StaticVoxel> local_static_map(const Pose& T_world_query);
 
     [[nodiscard]] const StageTimes& times() const { return times_; }
     [[nodiscard]] const BackEnd& back_end() const { return back_end_; }
