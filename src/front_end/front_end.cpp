@@ -33,9 +33,6 @@ Submap assemble(const Window& window, const std::vector<Labels>& labels, double 
     return {mean_pose(poses), thin_static(window, labels, voxel_size).take()};
 }
 
-/// Every measured point is still: what a front-end that is switched off says.
-std::vector<Labels> all_still(const Window& window) { return remove_by_visibility(window, {}, {}); }
-
 /// Read off the first few scans that measured anything.
 BeamPattern beams_of(const Window& window) {
     std::vector<Scan> few;
@@ -96,7 +93,7 @@ FrontEndResult FrontEnd::process(const Window& window, StageTimes& times) {
         });
         timed(times, "reverting", [&] { revert(window, labels); });
     } else {
-        labels = all_still(window);
+        labels = label_measured(window);
     }
     Submap submap = timed(times, "submap",
                           [&] { return assemble(window, labels, config_.back_end.voxel_size); });

@@ -97,8 +97,7 @@ void apply(const ThinMap& map, const std::vector<char>& removed, std::vector<Lab
 std::vector<Labels> removert(const Window& window, std::span<const KeyframeImages> fine,
                              const KeyframeImages& coarse, const RemovalMargin& margin,
                              float voxel_size) {
-    std::vector<Labels> labels =
-        remove_by_visibility(window, {}, {});  // all measured points: still
+    std::vector<Labels> labels = label_measured(window);
     const ThinMap map = thin(window, labels, Label::still, voxel_size);
     std::vector<char> kept(map.points.size(), 1), removed(map.points.size(), 0);
     for (const KeyframeImages& images : fine) {

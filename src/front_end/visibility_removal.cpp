@@ -38,6 +38,19 @@ std::vector<RangeImage> keyframe_images(const Window& window, float azimuth_step
     return images;
 }
 
+Labels label_measured(const Points& points) {
+    Labels labels;
+    labels.reserve(points.size());
+    for (const Point& p : points) labels.push_back(is_measured(p) ? Label::still : Label::unknown);
+    return labels;
+}
+
+std::vector<Labels> label_measured(const Window& window) {
+    std::vector<Labels> labels;
+    for (const Scan& scan : window.scans) labels.push_back(label_measured(scan.points));
+    return labels;
+}
+
 std::vector<Labels> remove_by_visibility(const Window& window, std::span<const RangeImage> images,
                                          const RemovalMargin& margin) {
     std::vector<Labels> labels(window.scans.size());
@@ -45,10 +58,7 @@ std::vector<Labels> remove_by_visibility(const Window& window, std::span<const R
         Projection seen;
         for (std::size_t s = begin; s < end; ++s) {
             const Scan& scan = window.scans[s];
-            labels[s].reserve(scan.points.size());
-            for (const Point& p : scan.points) {
-                labels[s].push_back(is_measured(p) ? Label::still : Label::unknown);
-            }
+            labels[s] = label_measured(scan.points);
             for (std::size_t k = 0; k < images.size(); ++k) {
                 if (window.keyframes[k] == s) continue;  // its own image holds it
                 const Pose& T_map_keyframe = window.scans[window.keyframes[k]].T_world_sensor;

@@ -11,22 +11,12 @@
 #include "dynamic_filter/front_end/submap.hpp"
 #include "dynamic_filter/parallel.hpp"
 #include "support/random.hpp"
+#include "support/reference_axes.hpp"
 
 namespace dynamic_filter {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-
-Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(const Points& points) {
-    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-    for (const Point& p : points) mean += p.cast<double>() / static_cast<double>(points.size());
-    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-    for (const Point& p : points) {
-        const Eigen::Vector3d d = p.cast<double>() - mean;
-        covariance += d * d.transpose() / static_cast<double>(points.size());
-    }
-    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance);
-}
 
 /// Compares with the definition, point by point; returns how many normals were compared.
 int expect_as_defined(const Points& points, float voxel_size) {
@@ -48,7 +38,7 @@ int expect_as_defined(const Points& points, float voxel_size) {
             known[key] = Point::Zero();
             continue;
         }
-        const auto solver = axes(around);
+        const auto solver = test::reference_axes(around);
         const Eigen::Vector3d v = solver.eigenvalues();
         if (v[1] > 1e-4 * v[2] && v[1] > 1.2 * v[0]) {
             known[key] = solver.eigenvectors().col(0).cast<float>();

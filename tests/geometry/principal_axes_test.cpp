@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "support/random.hpp"
+#include "support/reference_axes.hpp"
 
 namespace dynamic_filter {
 namespace {
@@ -15,18 +16,6 @@ Moments moments_of(const Points& points, const Point& origin = Point::Zero()) {
     Moments m{.origin = origin};
     for (const Point& p : points) m.add(p);
     return m;
-}
-
-/// Eigenvalues and vectors of the covariance, in two passes and by the iterative solver.
-Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> reference(const Points& points) {
-    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-    for (const Point& p : points) mean += p.cast<double>() / static_cast<double>(points.size());
-    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-    for (const Point& p : points) {
-        const Eigen::Vector3d d = p.cast<double>() - mean;
-        covariance += d * d.transpose() / static_cast<double>(points.size());
-    }
-    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance);
 }
 
 Points patch(test::Random& random, const Eigen::Vector3d& normal, const Eigen::Vector3d& at,
@@ -58,7 +47,7 @@ TEST(SmallestAxis, AgreesWithTheIterativeSolver) {
     for (int i = 0; i < 500; ++i) {
         const Points points = patch(random, random.direction(), random.point(20.0).cast<double>(),
                                     0.5, 0.4, 0.1, 3 + static_cast<int>(random.below(20)));
-        const auto solver = reference(points);
+        const auto solver = test::reference_axes(points);
         const auto axis = smallest_axis(moments_of(points));
         ASSERT_TRUE(axis);
         if (solver.eigenvalues()[1] < 1.5 * solver.eigenvalues()[0]) continue;  // no clear axis

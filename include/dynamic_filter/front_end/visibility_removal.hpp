@@ -21,6 +21,10 @@ struct RemovalMargin {
 std::vector<RangeImage> keyframe_images(const Window& window, float azimuth_step,
                                         float elevation_step);
 
+/// Still for every measured point, unknown for the rest: what is known before anything looked.
+Labels label_measured(const Points& points);
+std::vector<Labels> label_measured(const Window& window);
+
 /// Looks at every point of every scan of the window from every keyframe: a keyframe that saw
 /// farther than the point, by more than the margin, proves it dynamic. An empty pixel is no
 /// evidence. Returns per scan and point: dynamic, still, or unknown (not measured).
