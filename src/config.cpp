@@ -17,11 +17,13 @@ namespace {
 
 constexpr std::array<std::string_view, 2> kMethods{"dynamic_filter", "removert"};
 constexpr std::array<std::string_view, 3> kRevertings{"map", "visibility", "none"};
+constexpr std::array<std::string_view, 2> kObservers{"scans", "submaps"};
 constexpr std::array<std::string_view, 2> kSwitch{"false", "true"};
 
 /// The words for a choice, in the order of its enumerators.
 constexpr const auto& words(Method) { return kMethods; }
 constexpr const auto& words(Reverting) { return kRevertings; }
+constexpr const auto& words(Observers) { return kObservers; }
 constexpr const auto& words(bool) { return kSwitch; }
 
 template <class T>
@@ -104,8 +106,15 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 Config preset(std::string_view name) {
-    // Until scans observe, the default preset is the paper's.
-    if (name == "default" || name == "paper") return Config{};
+    if (name == "default") return Config{};
+    if (name == "paper") {
+        Config config;
+        config.submap.keyframe_interval = 0.75;
+        config.submap.keyframe_distance = 1.0;
+        config.back_end.observers = Observers::submaps;
+        config.back_end.occupancy_threshold = 0.35;
+        return config;
+    }
     throw ConfigError("unknown preset " + quoted(name) + "; choose default or paper");
 }
 

@@ -1,9 +1,10 @@
 foreach(unit config parallel
-             geometry/neighbor_grid geometry/pose geometry/principal_axes geometry/project_kernel
+             geometry/beam_image geometry/neighbor_grid geometry/pose geometry/principal_axes geometry/project_kernel
              geometry/range_image geometry/voxel
              front_end/front_end front_end/removert front_end/reverting front_end/submap front_end/visibility_removal
              front_end/window
-             back_end/back_end back_end/normals back_end/occupancy back_end/submap_buffer
+             back_end/back_end back_end/contact back_end/evidence back_end/evidence_map
+             back_end/line_of_sight back_end/normals back_end/occupancy back_end/submap_buffer
              back_end/visibility_check
              pipeline/dynamic_filter pipeline/merge)
   df_test(${unit} dynamic_filter)

@@ -177,7 +177,7 @@ void write_log(const Pass& pass) {
                                   io::to_string(pass.sequence.format), pass.sequence.size());
     for (const std::string& note : pass.sequence.notes) log += "note     " + note + "\n";
     for (const std::string& line : pass.summary.rejected) log += "rejected " + line + "\n";
-    if (const auto& beams = pass.filter.front_end().beams()) {
+    if (const auto& beams = pass.filter.beams()) {
         log += fmt::format("beams    {:.2f} deg along azimuth, {:.2f} deg along elevation\n",
                            beams->azimuth_spacing * 180.0 / M_PI,
                            beams->elevation_spacing * 180.0 / M_PI);
@@ -194,8 +194,8 @@ void measure(Pass& pass, Clock::time_point start, int threads) {
     const auto seconds = [](const timeval& t) {
         return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
     };
-    s.submaps = pass.filter.back_end().buffer().size();
-    s.voxels = pass.filter.back_end().voxels().size();
+    s.submaps = pass.filter.submaps();
+    s.voxels = pass.filter.voxels().size();
     s.front_end_scans_per_second = rate(s.scans, total(pass.filter.times(), "front_end"));
     s.back_end_submaps_per_second = rate(s.submaps, total(pass.filter.times(), "back_end"));
     write_timing(pass, threads, seconds(usage.ru_utime) + seconds(usage.ru_stime),

@@ -10,14 +10,15 @@ namespace dynamic_filter {
 
 enum class Method { dynamic_filter, removert };
 enum class Reverting { map, visibility, none };
+enum class Observers { scans, submaps };
 
 struct Config {
     Method method = Method::dynamic_filter;
 
     struct Submap {
         int keyframes = 20;
-        double keyframe_interval = 0.75;
-        double keyframe_distance = 1.0;
+        double keyframe_interval = 0.25;
+        double keyframe_distance = 0.5;
     } submap;
 
     struct FrontEnd {
@@ -35,6 +36,8 @@ struct Config {
 
     struct BackEnd {
         bool enabled = true;
+        Observers observers = Observers::scans;
+        int max_scans = 400;
         double search_radius = 20.0;
         int max_submaps = 20;
         double voxel_size = 0.2;
@@ -44,7 +47,7 @@ struct Config {
         double image_step_deg = 1.0;
         double image_step_beams = 0.75;
         double depth_channel = 0.2;
-        double occupancy_threshold = 0.35;
+        double occupancy_threshold = 0.5;
     } back_end;
 
     struct Output {
@@ -99,6 +102,11 @@ void visit(C& c, F&& f) {
       front.revert_image_scale);
     auto& back = c.back_end;
     f(Setting{"back_end.enabled", "", "Table III", "off: front-end only"}, back.enabled);
+    f(Setting{"back_end.observers", "", "III-C2", "who looks at the voxels: scans, or submaps"},
+      back.observers);
+    f(Setting{"back_end.max_scans", "1", "", "keyframes that a new voxel can ask (scans observe)",
+              1, 100000},
+      back.max_scans);
     f(Setting{"back_end.search_radius", "m", "r", "submaps whose pose is this near are consulted",
               0, 1e6},
       back.search_radius);

@@ -5,18 +5,16 @@
 
 namespace dynamic_filter {
 
-bool WindowCutter::is_keyframe(const Scan& scan) const {
-    if (window_.keyframes.empty()) return true;
-    const Scan& last = window_.scans[window_.keyframes.back()];
+bool is_keyframe(const Scan& last, const Scan& scan, const Config::Submap& config) {
     const double moved =
         (scan.T_world_sensor.translation() - last.T_world_sensor.translation()).norm();
-    return scan.stamp - last.stamp >= config_.keyframe_interval ||
-           moved >= config_.keyframe_distance;
+    return scan.stamp - last.stamp >= config.keyframe_interval || moved >= config.keyframe_distance;
 }
 
 std::optional<Window> WindowCutter::push(Scan scan) {
     std::optional<Window> closed;
-    const bool keyframe = is_keyframe(scan);
+    const bool keyframe = window_.keyframes.empty() ||
+                          is_keyframe(window_.scans[window_.keyframes.back()], scan, config_);
     if (keyframe && window_.keyframes.size() == static_cast<std::size_t>(config_.keyframes)) {
         closed = flush();
     }

@@ -63,4 +63,26 @@ void project(const ProjectArgs& args) {
     }
 }
 
+void to_spherical(const SphericalArgs& args) {
+    const float* const xyz = args.xyz;
+    const float* const m = args.matrix;
+    const float m00 = m[0], m01 = m[1], m02 = m[2], m03 = m[3];
+    const float m10 = m[4], m11 = m[5], m12 = m[6], m13 = m[7];
+    const float m20 = m[8], m21 = m[9], m22 = m[10], m23 = m[11];
+    float* const __restrict azimuth = args.azimuth;
+    float* const __restrict elevation = args.elevation;
+    float* const __restrict range = args.range;
+
+    for (std::size_t i = 0; i < args.count; ++i) {
+        const float px = xyz[3 * i], py = xyz[3 * i + 1], pz = xyz[3 * i + 2];
+        const float x = m00 * px + m01 * py + m02 * pz + m03;
+        const float y = m10 * px + m11 * py + m12 * pz + m13;
+        const float z = m20 * px + m21 * py + m22 * pz + m23;
+        const float across_sq = x * x + y * y;
+        azimuth[i] = polynomial_atan2(y, x);
+        elevation[i] = polynomial_atan2(z, __builtin_sqrtf(across_sq));
+        range[i] = __builtin_sqrtf(across_sq + z * z);
+    }
+}
+
 }  // namespace dynamic_filter::kernel::DYNAMIC_FILTER_LEVEL

@@ -17,16 +17,26 @@ struct ProjectArgs {
     float* range = nullptr;
 };
 
+struct SphericalArgs {
+    const float* xyz = nullptr;  ///< count * 3
+    std::size_t count = 0;
+    const float* matrix = nullptr;  ///< row-major 3x4
+    float *azimuth = nullptr, *elevation = nullptr, *range = nullptr;
+};
+
 namespace baseline {
 void project(const ProjectArgs& args);
-}
+void to_spherical(const SphericalArgs& args);
+}  // namespace baseline
 #ifdef DYNAMIC_FILTER_X86_LEVELS
 namespace avx2 {
 void project(const ProjectArgs& args);
-}
+void to_spherical(const SphericalArgs& args);
+}  // namespace avx2
 namespace avx512 {
 void project(const ProjectArgs& args);
-}
+void to_spherical(const SphericalArgs& args);
+}  // namespace avx512
 #endif
 
 }  // namespace dynamic_filter::kernel

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "dynamic_filter/geometry/pose.hpp"
+#include "dynamic_filter/parallel.hpp"
 
 namespace dynamic_filter {
 
@@ -24,7 +25,15 @@ Config checked(const Config& config) {
 }  // namespace
 
 DynamicFilter::DynamicFilter(const Config& config)
-    : config_(checked(config)), cutter_(config_.submap), front_end_(config_), back_end_(config_) {}
+    : config_(checked(config)),
+      cutter_(config_.submap),
+      front_end_(config_),
+      back_end_(config_),
+      evidence_(config_) {}
+
+bool DynamicFilter::scans_observe() const {
+    return config_.back_end.enabled && config_.back_end.observers == Observers::scans;
+}
 
 Pose DynamicFilter::to_map_frame(const Pose& T_world_sensor) const {
     Pose shifted = T_world_sensor;
@@ -32,9 +41,19 @@ Pose DynamicFilter::to_map_frame(const Pose& T_world_sensor) const {
     return shifted;
 }
 
+std::size_t DynamicFilter::submaps() const {
+    const auto keyframes = static_cast<std::size_t>(config_.submap.keyframes);
+    return scans_observe() ? (evidence_.observers() + keyframes - 1) / keyframes
+                           : back_end_.buffer().size();
+}
+
 std::vector<Verdict> DynamicFilter::push(Scan scan) {
     if (!origin_) origin_ = nearby_origin(scan.T_world_sensor, config_.back_end.voxel_size);
     scan.T_world_sensor = to_map_frame(scan.T_world_sensor);
+    if (scans_observe()) {
+        evidence_.insert(scan, times_);
+        return {timed(times_, "instant_verdict", [&] { return instant_verdict(scan); })};
+    }
     const auto window = cutter_.push(std::move(scan));
     return window ? process(*window) : std::vector<Verdict>{};
 }
@@ -52,9 +71,38 @@ std::vector<Verdict> DynamicFilter::process(const Window& window) {
 }
 
 std::vector<Verdict> DynamicFilter::finish() {
+    if (scans_observe()) {
+        timed(times_, "merging", [&] { decide_voxels(); });
+        return {};
+    }
     std::vector<Verdict> instant;
     if (const auto window = cutter_.flush()) instant = process(*window);
-    if (!config_.back_end.enabled) return instant;
+    if (config_.back_end.enabled) merge_local_maps();
+    return instant;
+}
+
+void DynamicFilter::decide_voxels() {
+    decided_.resize(evidence_.voxels().size());
+    const auto each_voxel = [&](const auto& decide) {
+        parallel_for(decided_.size(), 1024, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t v = begin; v < end; ++v) decide(static_cast<std::uint32_t>(v));
+        });
+    };
+    each_voxel([&](std::uint32_t v) { decided_[v].probability = evidence_.probability(v); });
+    each_voxel([&](std::uint32_t v) { decided_[v].contact = contact_of(v); });
+}
+
+std::optional<Surface> DynamicFilter::contact_of(std::uint32_t voxel) const {
+    if (label_of(decided_[voxel].probability) != Label::still) return std::nullopt;
+    const auto verdict_of = [&](const Cell& cell) -> std::optional<VoxelVerdict> {
+        const auto v = fits(cell) ? evidence_.voxels().find(pack(cell)) : std::nullopt;
+        if (!v) return std::nullopt;
+        return VoxelVerdict{evidence_.centroid(*v), label_of(decided_[*v].probability)};
+    };
+    return contact_surface(unpack(evidence_.voxels().key(voxel)), verdict_of);
+}
+
+void DynamicFilter::merge_local_maps() {
     for (std::size_t i = 0; i < back_end_.buffer().size(); ++i) {
         timed(times_, "back_end", [&] {
             const LocalMap local = back_end_.local_map_of(i, times_);
@@ -64,14 +112,24 @@ std::vector<Verdict> DynamicFilter::finish() {
             });
         });
     }
-    return instant;
+}
+
+Label DynamicFilter::label_of(std::optional<float> probability) const {
+    if (!probability) return Label::unknown;
+    const auto threshold = static_cast<float>(config_.back_end.occupancy_threshold);
+    return *probability >= threshold ? Label::still : Label::dynamic;
 }
 
 Label DynamicFilter::label_of(const Point& map_point, float& probability) const {
     probability = 0.0F;
     const auto key = voxel_of(map_point, static_cast<float>(config_.back_end.voxel_size));
     if (!key) return Label::unknown;
-    const auto voxel = back_end_.voxels().find(*key);
+    const auto voxel = voxels().find(*key);
+    if (scans_observe()) {
+        if (!voxel || *voxel >= decided_.size()) return Label::unknown;
+        probability = decided_[*voxel].probability.value_or(0.0F);
+        return label_of(decided_[*voxel].probability);
+    }
     if (!voxel) return Label::dynamic;  // no static submap holds it: the front-end removed it all
     if (!config_.back_end.enabled) {
         probability = 1.0F;
@@ -79,20 +137,59 @@ Label DynamicFilter::label_of(const Point& map_point, float& probability) const 
     }
     if (*voxel >= merged_.probability.size()) return Label::unknown;  // before finish()
     probability = merged_.probability[*voxel];
-    const auto threshold = static_cast<float>(config_.back_end.occupancy_threshold);
-    return probability >= threshold ? Label::still : Label::dynamic;
+    return label_of(std::optional(probability));
+}
+
+/// From the evidence so far; the scan is in the map frame and part of it.
+Verdict DynamicFilter::instant_verdict(const Scan& scan) const {
+    Points points;
+    to_map(scan, points);
+    const auto size = static_cast<float>(config_.back_end.voxel_size);
+    Verdict verdict{scan.index, Labels(points.size(), Label::unknown), {}};
+    VoxelIndex own;  // the scan's voxels, each judged once
+    constexpr std::uint32_t kNone = UINT32_MAX;
+    std::vector<std::uint32_t> own_of_point(points.size(), kNone);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (!is_measured(scan.points[i])) continue;
+        if (const auto key = voxel_of(points[i], size)) own_of_point[i] = own.insert(*key);
+    }
+    Labels labels(own.size());
+    parallel_for(own.size(), 256, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t v = begin; v < end; ++v) {
+            const auto voxel = evidence_.voxels().find(own.key(static_cast<std::uint32_t>(v)));
+            labels[v] = voxel ? label_of(evidence_.probability(*voxel)) : Label::unknown;
+        }
+    });
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (own_of_point[i] != kNone) verdict.labels[i] = labels[own_of_point[i]];
+    }
+    return verdict;
 }
 
 std::vector<StaticVoxel> DynamicFilter::local_static_map(const Pose& T_world_query) {
     std::vector<StaticVoxel> result;
     if (!origin_) return result;
-    const LocalMap local = back_end_.local_map(to_map_frame(T_world_query), times_);
     const auto size = static_cast<float>(config_.back_end.voxel_size);
+    const auto add = [&](std::uint32_t voxel, float probability) {
+        const Point at = center(voxels().key(voxel), size);
+        result.push_back({*origin_ + at.cast<double>(), probability});
+    };
+    const Pose T_map_query = to_map_frame(T_world_query);
+    if (scans_observe()) {
+        const Point position = T_map_query.translation().cast<float>();
+        const auto radius = static_cast<float>(config_.back_end.search_radius);
+        for (std::uint32_t v = 0; v < evidence_.voxels().size(); ++v) {
+            if ((evidence_.centroid(v) - position).norm() > radius) continue;
+            const auto probability = evidence_.probability(v);
+            if (label_of(probability) == Label::still) add(v, *probability);
+        }
+        return result;
+    }
+    const LocalMap local = back_end_.local_map(T_map_query, times_);
     for (std::size_t i = 0; i < local.voxels.size(); ++i) {
-        if (local.probability[i] < static_cast<float>(config_.back_end.occupancy_threshold))
-            continue;
-        const Point at = center(back_end_.voxels().key(local.voxels[i]), size);
-        result.push_back({*origin_ + at.cast<double>(), local.probability[i]});
+        if (label_of(std::optional(local.probability[i])) == Label::still) {
+            add(local.voxels[i], local.probability[i]);
+        }
     }
     return result;
 }
@@ -107,7 +204,36 @@ Verdict DynamicFilter::verdict(const Scan& scan) const {
             verdict.labels[i] = label_of(points[i], verdict.probability[i]);
         }
     }
+    if (scans_observe()) judge_contacts(points, verdict.labels);
     return verdict;
+}
+
+/// A static point becomes dynamic if it lies above the static surface of its voxel while, in this
+/// very scan, something dynamic touches the voxel.
+void DynamicFilter::judge_contacts(const Points& points, Labels& labels) const {
+    const auto size = static_cast<float>(config_.back_end.voxel_size);
+    tsl::robin_set<VoxelKey, VoxelHash> moving;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (labels[i] == Label::dynamic) moving.insert(*voxel_of(points[i], size));
+    }
+    const auto touches_moving = [&](const Cell& home) {
+        for (int x = -1; x <= 1; ++x) {
+            for (int y = -1; y <= 1; ++y) {
+                for (int z = -1; z <= 1; ++z) {
+                    const Cell cell = home + Cell(x, y, z);
+                    if (fits(cell) && moving.contains(pack(cell))) return true;
+                }
+            }
+        }
+        return false;
+    };
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (labels[i] != Label::still) continue;
+        const VoxelKey key = *voxel_of(points[i], size);
+        const auto& contact = decided_[*voxels().find(key)].contact;
+        const bool above = contact && contact->height(points[i]) > kContactHeight;
+        if (above && touches_moving(unpack(key))) labels[i] = Label::dynamic;
+    }
 }
 
 }  // namespace dynamic_filter

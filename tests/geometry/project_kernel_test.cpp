@@ -22,14 +22,17 @@ constexpr double kPi = std::numbers::pi;
 struct Level {
     std::string name;
     void (*project)(const kernel::ProjectArgs&);
+    void (*to_spherical)(const kernel::SphericalArgs&);
 };
 
 /// Every level that this machine can run.
 std::vector<Level> levels() {
-    std::vector<Level> all{{"baseline", kernel::baseline::project}};
+    std::vector<Level> all{{"baseline", kernel::baseline::project, kernel::baseline::to_spherical}};
 #ifdef DYNAMIC_FILTER_X86_LEVELS
-    if (__builtin_cpu_supports("avx2")) all.push_back({"avx2", kernel::avx2::project});
-    if (__builtin_cpu_supports("avx512f")) all.push_back({"avx512", kernel::avx512::project});
+    if (__builtin_cpu_supports("avx2"))
+        all.push_back({"avx2", kernel::avx2::project, kernel::avx2::to_spherical});
+    if (__builtin_cpu_supports("avx512f"))
+        all.push_back({"avx512", kernel::avx512::project, kernel::avx512::to_spherical});
 #endif
     return all;
 }
@@ -93,6 +96,34 @@ TEST(ProjectKernel, EveryLevelGivesTheSameBits) {
                           std::bit_cast<std::uint32_t>(expected.range[i]))
                     << level.name << " " << i;
             }
+        }
+    }
+}
+
+TEST(SphericalKernel, EveryLevelGivesTheSameBits) {
+    test::Random random(5);
+    const Points points = awkward_points(random, 5000);
+    const Eigen::Matrix<float, 3, 4, Eigen::RowMajor> matrix =
+        random.pose(5.0, 3.0).matrix().topRows<3>().cast<float>();
+    const auto run_level = [&](const Level& level) {
+        std::vector<float> out(3 * points.size());
+        level.to_spherical({.xyz = points.front().data(),
+                            .count = points.size(),
+                            .matrix = matrix.data(),
+                            .azimuth = out.data(),
+                            .elevation = out.data() + points.size(),
+                            .range = out.data() + 2 * points.size()});
+        return out;
+    };
+    const auto all = levels();
+    const auto expected = run_level(all.front());
+    for (const Level& level : all) {
+        const auto actual = run_level(level);
+        for (std::size_t i = 0; i < expected.size(); ++i) {
+            if (std::isnan(expected[i])) continue;
+            ASSERT_EQ(std::bit_cast<std::uint32_t>(actual[i]),
+                      std::bit_cast<std::uint32_t>(expected[i]))
+                << level.name << " " << i;
         }
     }
 }

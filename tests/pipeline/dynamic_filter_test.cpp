@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <set>
 
@@ -272,9 +273,12 @@ TEST(DynamicFilter, ASensorThatStandsStillForLongKeepsTheWallsItSawLast) {
     EXPECT_TRUE(all_are(std::vector{result.final[1]}, Label::still));
 }
 
-TEST(DynamicFilter, GivesTheStaticLocalMapAtAnyPose) {
-    auto scans = drive(6, false);
-    DynamicFilter filter(small_windows());
+class StaticLocalMap : public testing::TestWithParam<Config> {};
+
+TEST_P(StaticLocalMap, HoldsTheVoxelsAroundAnyPose) {
+    const Eigen::Vector3d far_away(4e5, -2e5, 128.0);
+    auto scans = drive(6, false, far_away);
+    DynamicFilter filter(GetParam());
     EXPECT_TRUE(filter.local_static_map(Pose::Identity()).empty());
     for (auto& s : scans) filter.push(s.scan);
     filter.finish();
@@ -284,10 +288,89 @@ TEST(DynamicFilter, GivesTheStaticLocalMapAtAnyPose) {
     for (const StaticVoxel& v : voxels) {
         EXPECT_GT(v.probability, 0.0F);
         EXPECT_LE(v.probability, 1.0F);
-        EXPECT_LT((v.center - query.translation()).norm(), 100.0);
+        const auto is_near = [&](const Point& p) {
+            return (scans[0].scan.T_world_sensor * p.cast<double>() - v.center).norm() < 1.0;
+        };
+        const Points& points = scans[0].scan.points;
+        EXPECT_TRUE(std::any_of(points.begin(), points.end(), is_near)) << v.center.transpose();
     }
     query.translation().x() += 1e4;
     EXPECT_TRUE(filter.local_static_map(query).empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Observers, StaticLocalMap, testing::Values(small_windows(), Config{}),
+                         [](const auto& test) { return test.index == 0 ? "submaps" : "scans"; });
+
+// Scans observe (the default preset).
+
+TEST(ScansObserve, WallsAreStillAndTheWalkerIsDynamic) {
+    const auto scans = drive(24, true);
+    const Outcome result = run(scans, Config{});
+    EXPECT_GT(share(scans, result.final, Label::still, Label::still), 0.99);
+    EXPECT_GT(share(scans, result.final, Label::dynamic, Label::dynamic), 0.9);
+    ASSERT_EQ(result.instant.size(), scans.size());
+    EXPECT_GT(share(scans, result.instant, Label::dynamic, Label::dynamic), 0.7);
+    EXPECT_LT(share(scans, result.instant, Label::still, Label::dynamic), 0.01);
+}
+
+TEST(ScansObserve, NothingMovesInAnEmptyRoom) {
+    const auto scans = drive(20, false);
+    EXPECT_LT(share(scans, run(scans, Config{}).final, Label::still, Label::dynamic), 0.001);
+}
+
+TEST(ScansObserve, TheFirstScanIsUnknownAtOnceAndKnownInTheEnd) {
+    const auto scans = drive(12, false);
+    const Outcome result = run(scans, Config{});
+    EXPECT_TRUE(all_are(std::vector{result.instant[0]}, Label::unknown));
+    EXPECT_GT(share({scans[0]}, {result.final[0]}, Label::still, Label::still), 0.99);
+}
+
+TEST(ScansObserve, GivesTheSameBitsForAnyNumberOfThreads) {
+    const auto scans = drive(12, true);
+    Outcome one, four;
+    with_threads(1, [&] { one = run(scans, Config{}); });
+    with_threads(4, [&] { four = run(scans, Config{}); });
+    expect_same(one.instant, four.instant);
+    expect_same(one.final, four.final);
+}
+
+TEST(ScansObserve, TheWorldsOriginDoesNotMatter) {
+    const auto near = drive(10, true), far = drive(10, true, {65536.0, -131072.0, 0.0});
+    const Outcome a = run(near, Config{}), b = run(far, Config{});
+    for (std::size_t s = 0; s < near.size(); ++s) EXPECT_EQ(a.final[s].labels, b.final[s].labels);
+}
+
+TEST(ScansObserve, PointsThatAreNoMeasurementsAndUnseenScansAreUnknown) {
+    auto scans = drive(6, false);
+    scans[2].scan.points[5] = {kNan, 1.0F, 1.0F};
+    scans[2].scan.points[6] = Point::Zero();
+    scans[3].scan.points.clear();
+    scans[4].scan.points.assign(3, Point::Zero());
+    const Outcome result = run(scans, Config{});
+    EXPECT_EQ(result.final[2].labels[5], Label::unknown);
+    EXPECT_EQ(result.final[2].labels[6], Label::unknown);
+    EXPECT_TRUE(result.final[3].labels.empty());
+    EXPECT_TRUE(all_are(std::vector{result.final[4], result.instant[4]}, Label::unknown));
+    DynamicFilter never_fed{Config{}};
+    never_fed.finish();
+    EXPECT_EQ(never_fed.voxels().size(), 0U);
+}
+
+TEST(ScansObserve, AFootOnTheGroundIsDynamicAndTheGroundIsNot) {
+    const auto scans = drive(24, true);
+    const Outcome result = run(scans, Config{});
+    int low = 0, found = 0;
+    for (std::size_t s = 0; s < scans.size(); ++s) {
+        for (std::size_t i = 0; i < scans[s].truth.size(); ++i) {
+            const double z =
+                (scans[s].scan.T_world_sensor * scans[s].scan.points[i].cast<double>()).z();
+            if (scans[s].truth[i] != Label::dynamic || z < 0.12 || z > 0.2) continue;
+            ++low;
+            found += result.final[s].labels[i] == Label::dynamic ? 1 : 0;
+        }
+    }
+    ASSERT_GT(low, 10);
+    EXPECT_GE(found, 0.4 * low);  // none without the judgement of contacts
 }
 
 }  // namespace

@@ -18,6 +18,9 @@ struct Window {
     std::vector<std::size_t> keyframes;  ///< indices into scans, ascending; the first is 0
 };
 
+/// True if `scan` comes late enough after the last keyframe, or far enough from it, to be one too.
+bool is_keyframe(const Scan& last, const Scan& scan, const Config::Submap& config);
+
 /// Cuts a stream of scans into disjoint windows of n keyframes, by stamps and poses of the data,
 /// never by the clock. Single caller.
 class WindowCutter {
@@ -30,7 +33,6 @@ public:
     std::optional<Window> flush();
 
 private:
-    [[nodiscard]] bool is_keyframe(const Scan& scan) const;
     Config::Submap config_;
     Window window_;
 };

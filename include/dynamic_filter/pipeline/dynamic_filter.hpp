@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "dynamic_filter/back_end/back_end.hpp"
+#include "dynamic_filter/back_end/contact.hpp"
+#include "dynamic_filter/back_end/evidence_map.hpp"
 #include "dynamic_filter/config.hpp"
 #include "dynamic_filter/front_end/front_end.hpp"
 #include "dynamic_filter/pipeline/merge.hpp"
@@ -36,36 +38,58 @@ public:
     /// Throws ConfigError.
     explicit DynamicFilter(const Config& config);
 
-    /// Takes a scan, points in the sensor frame, stamps in order. When it opens a new window, the
-    /// one before is processed and its scans' instant verdicts are returned; otherwise nothing.
+    /// Takes a scan, points in the sensor frame, stamps in order. Scans observe: returns its
+    /// instant verdict. Submaps observe: when the scan opens a new window, the one before is
+    /// processed and its scans' instant verdicts are returned; otherwise nothing.
     std::vector<Verdict> push(Scan scan);
 
-    /// Processes the last window (its verdicts are returned) and merges the local maps of all
-    /// submap poses. No push() after it.
+    /// Decides every voxel. Submaps observe: processes the last window (its verdicts are returned)
+    /// and merges the local maps of all submap poses. No push() after it.
     std::vector<Verdict> finish();
 
     /// The final verdict on a scan that was pushed, after finish(). Unknown where nothing can be
     /// said: not measured, or beyond the reach of a voxel's key.
     [[nodiscard]] Verdict verdict(const Scan& scan) const;
 
-    /// The static local map at any pose (Sec. III-C), from the submaps closed so far. Empty before
-    /// the first.
+    /// The static local map at any pose (Sec. III-C), from the scans or the closed submaps so far:
+    /// the static voxels within `back_end.search_radius`, or of the submaps within it.
     std::vector<StaticVoxel> local_static_map(const Pose& T_world_query);
 
     [[nodiscard]] const StageTimes& times() const { return times_; }
     [[nodiscard]] const BackEnd& back_end() const { return back_end_; }
-    [[nodiscard]] const FrontEnd& front_end() const { return front_end_; }
+    /// How densely the sensor looks. Empty before it is known.
+    [[nodiscard]] const std::optional<BeamPattern>& beams() const {
+        return scans_observe() ? evidence_.beams() : front_end_.beams();
+    }
+    /// Submaps taken in; where scans observe, as many keyframes as make one count as one.
+    [[nodiscard]] std::size_t submaps() const;
+    [[nodiscard]] const VoxelIndex& voxels() const {
+        return scans_observe() ? evidence_.voxels() : back_end_.voxels();
+    }
 
 private:
     Pose to_map_frame(const Pose& T_world_sensor) const;
-    std::vector<Verdict> process(const Window& window);
+    [[nodiscard]] bool scans_observe() const;
+    [[nodiscard]] std::vector<Verdict> process(const Window& window);
+    [[nodiscard]] Verdict instant_verdict(const Scan& scan) const;
+    void decide_voxels();
+    [[nodiscard]] std::optional<Surface> contact_of(std::uint32_t voxel) const;
+    void judge_contacts(const Points& map_points, Labels& labels) const;
+    void merge_local_maps();
     [[nodiscard]] Label label_of(const Point& map_point, float& probability) const;
+    [[nodiscard]] Label label_of(std::optional<float> probability) const;
 
     Config config_;
     std::optional<Eigen::Vector3d> origin_;  // of the map frame, in the world
     WindowCutter cutter_;
     FrontEnd front_end_;
     BackEnd back_end_;
+    EvidenceMap evidence_;
+    struct Decision {
+        std::optional<float> probability;
+        std::optional<Surface> contact;
+    };
+    std::vector<Decision> decided_;  // by voxel, when scans observe
     MergedMap merged_;
     StageTimes times_;
 };

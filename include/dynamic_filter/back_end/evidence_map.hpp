@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+/// The occupancy grid with scans as observers: incremental, and symmetric in time.
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "dynamic_filter/back_end/evidence.hpp"
+#include "dynamic_filter/config.hpp"
+#include "dynamic_filter/geometry/voxel.hpp"
+#include "dynamic_filter/stage_times.hpp"
+#include "dynamic_filter/types.hpp"
+
+namespace dynamic_filter {
+
+/// A scan that observes.
+struct Observer {
+    BeamImage image;
+    Eigen::Isometry3f T_sensor_map = Eigen::Isometry3f::Identity();
+    Point position = Point::Zero();  ///< of the sensor, in the map
+};
+
+/// Every voxel is asked about once by every observer: a new keyframe looks at the voxels known so
+/// far, a new voxel asks the keyframes kept so far. So nothing is computed twice, and the result is
+/// that of asking all keyframes about all voxels, but for keyframes no longer kept.
+///
+/// A voxel stands for the centroid of its points in the first scan that has any there, so it can be
+/// judged at once, and never moves. Single caller; const members may run in several threads. Poses
+/// and points are in the map frame.
+class EvidenceMap {
+public:
+    explicit EvidenceMap(const Config& config);
+
+    /// Takes a scan whose `T_world_sensor` is relative to the map. Cost: points, plus voxels within
+    /// reach, plus new voxels times keyframes kept.
+    void insert(const Scan& scan, StageTimes& times);
+
+    /// Occupancy 0..1 of a voxel: its own evidence, and that of the voxels within two cells that
+    /// were there when it was there. Empty: unknown.
+    [[nodiscard]] std::optional<float> probability(std::uint32_t voxel) const;
+
+    /// Keyframes that have observed.
+    [[nodiscard]] std::size_t observers() const { return all_observers_; }
+    [[nodiscard]] const VoxelIndex& voxels() const { return voxels_; }
+    [[nodiscard]] const Evidence& evidence(std::uint32_t voxel) const { return evidence_[voxel]; }
+    [[nodiscard]] const Point& centroid(std::uint32_t voxel) const { return centroids_[voxel]; }
+    /// Empty before the first scan with measured points.
+    [[nodiscard]] const std::optional<BeamPattern>& beams() const { return beams_; }
+
+private:
+    void add_points(const Scan& scan);
+    bool add_observer(const Scan& scan);
+    void check_known(std::size_t known);
+    void check_new(std::size_t known);
+    void look_at(std::size_t begin, std::size_t end, const Observer& observer);
+
+    float voxel_size_;
+    Config::Submap keyframes_;
+    std::size_t most_observers_;
+    SightMargins margins_;
+    std::optional<BeamPattern> beams_;
+    std::optional<Scan> last_keyframe_;  // pose and stamp only
+    std::deque<Observer> observers_;
+    std::size_t all_observers_ = 0;
+    std::uint32_t scans_ = 0;
+
+    VoxelIndex voxels_;
+    Points centroids_;  // by voxel, as the evidence is
+    std::vector<Evidence> evidence_;
+    std::vector<Eigen::AlignedBox3f> box_of_chunk_;  // of kChunk voxels that were met together
+};
+
+}  // namespace dynamic_filter

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+/// What one scan says about one place: the visibility check with scans as observers. Nothing is
+/// re-projected: a beam that ended somewhere was free before, seen from its own pose.
+#pragma once
+
+#include <cstdint>
+
+#include "dynamic_filter/geometry/beam_image.hpp"
+
+namespace dynamic_filter {
+
+enum class Sight : std::uint8_t { nothing, occupied, passed };
+
+/// Lengths [m] of the check. They bound what poses and ranges may be wrong by, and what a voxel
+/// blurs; what depends on the sensor comes from the image.
+struct SightMargins {
+    float beside = 0.1F;       ///< beams this near the place must agree before it counts as passed
+    float beyond = 0.2F;       ///< ... and one must have gone this much farther
+    float touch = 0.15F;       ///< a return this near the place occupies it ...
+    float surface = 0.1F;      ///< ... and so does a surface between neighbouring returns
+    float per_metre = 0.005F;  ///< growth of the last two with range: 0.3 deg of pose error
+    float nearest = 0.3F;      ///< no judgement on places nearer to the sensor,
+    float farthest = 80.0F;    ///< or farther from it
+};
+
+/// Judges the place in direction (azimuth, elevation) at `place.range`, in the image's frame.
+///
+/// occupied: a return lies at the place, or the line between the beams below and above it, at
+/// different ranges, runs through it (ground at grazing angles).
+/// passed: of the nearest beams around the place, one in each quadrant, one went beyond it; the
+/// lines between them, up-down and left-right, run behind it by the surface margin, so a surface
+/// seen at any incidence is not passed; none beside it ended before it.
+/// nothing: all else; where no beam returned, nothing is known.
+Sight look(const BeamImage& image, const Beam& place, const SightMargins& margins);
+
+}  // namespace dynamic_filter

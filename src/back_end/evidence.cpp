@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include "dynamic_filter/back_end/evidence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dynamic_filter {
+
+namespace {
+
+void count(std::uint16_t& counter) {
+    if (counter < std::numeric_limits<std::uint16_t>::max()) ++counter;
+}
+
+}  // namespace
+
+void record(Evidence& evidence, Sight sight) {
+    if (sight == Sight::nothing) return;
+    count(sight == Sight::occupied ? evidence.seen : evidence.passed);
+    if (evidence.last != Sight::nothing && evidence.last != sight) count(evidence.switches);
+    evidence.last = sight;
+}
+
+float transience(const Evidence& e) {
+    constexpr float kLimit = 2.0F;   // no voxel is so sure that its neighbours cannot doubt it
+    constexpr float kFew = 5.0F;     // observers
+    constexpr float kOffset = 0.3F;  // so that one observation more or less is not everything
+    const auto at_least_one = [](std::uint16_t n) {
+        return static_cast<float>(std::max<std::uint16_t>(n, 1));
+    };
+    const float runs = std::sqrt(at_least_one(e.switches));
+    const float returns = std::sqrt(at_least_one(e.seen) * at_least_one(e.owned));
+    const float expected = 0.9F * runs * std::sqrt(runs) * std::sqrt(returns);
+    const float odds = std::log((e.passed + kOffset) / (expected + kOffset));
+    const auto observers = static_cast<float>(e.seen + e.passed);
+    return std::clamp(odds, -kLimit, kLimit) * observers / (observers + kFew);
+}
+
+float co_presence(const Evidence& a, const Evidence& b) {
+    const auto [first_in, last_in] =
+        std::pair{std::max(a.first_owner, b.first_owner), std::min(a.last_owner, b.last_owner)};
+    if (last_in < first_in) return 0.0F;
+    const auto together = std::min(a.first_owner, b.first_owner);
+    const auto until = std::max(a.last_owner, b.last_owner);
+    return static_cast<float>(last_in - first_in + 1) / static_cast<float>(until - together + 1);
+}
+
+}  // namespace dynamic_filter

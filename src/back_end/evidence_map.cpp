@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "dynamic_filter/back_end/evidence_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dynamic_filter/front_end/submap.hpp"
+#include "dynamic_filter/front_end/window.hpp"
+#include "dynamic_filter/parallel.hpp"
+
+namespace dynamic_filter {
+
+namespace {
+
+/// Voxels are looked at by so many at a time. Ids go by the order in which voxels were met, so a
+/// chunk is a small region and most of those out of reach are skipped whole.
+constexpr std::size_t kChunk = 256;
+
+Observer make_observer(const Scan& scan, const BeamPattern& beams) {
+    return {BeamImage(scan.points, beams), scan.T_world_sensor.inverse().cast<float>(),
+            scan.T_world_sensor.translation().cast<float>()};
+}
+
+}  // namespace
+
+EvidenceMap::EvidenceMap(const Config& config)
+    : voxel_size_(static_cast<float>(config.back_end.voxel_size)),
+      keyframes_(config.submap),
+      most_observers_(static_cast<std::size_t>(config.back_end.max_scans)) {}
+
+void EvidenceMap::insert(const Scan& scan, StageTimes& times) {
+    if (std::none_of(scan.points.begin(), scan.points.end(), is_measured)) return;
+    const std::size_t known = voxels_.size();
+    const bool observes = timed(times, "front_end", [&] {
+        timed(times, "voxelization", [&] { add_points(scan); });
+        return timed(times, "beam_image", [&] { return add_observer(scan); });
+    });
+    timed(times, "back_end", [&] {
+        if (observes) timed(times, "visibility_check", [&] { check_known(known); });
+        timed(times, "visibility_check_of_new", [&] { check_new(known); });
+    });
+    ++scans_;
+}
+
+bool EvidenceMap::add_observer(const Scan& scan) {
+    if (last_keyframe_ && !is_keyframe(*last_keyframe_, scan, keyframes_)) return false;
+    if (!beams_) beams_ = estimate_beam_pattern({&scan, 1});
+    last_keyframe_ = Scan{{}, scan.T_world_sensor, scan.stamp, scan.index};
+    observers_.push_back(make_observer(scan, *beams_));
+    ++all_observers_;
+    if (observers_.size() > most_observers_) observers_.pop_front();
+    return true;
+}
+
+/// The newest observer looks at the voxels known before it.
+void EvidenceMap::check_known(std::size_t known) {
+    parallel_for((known + kChunk - 1) / kChunk, 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t chunk = begin; chunk < end; ++chunk) {
+            look_at(chunk * kChunk, std::min((chunk + 1) * kChunk, known), observers_.back());
+        }
+    });
+}
+
+/// New voxels ask all observers, oldest first.
+void EvidenceMap::check_new(std::size_t known) {
+    constexpr std::size_t kGrain = 64;
+    parallel_for(evidence_.size() - known, kGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t at = known + begin; at < known + end;) {
+            const std::size_t stop = std::min(known + end, (at / kChunk + 1) * kChunk);
+            for (const Observer& observer : observers_) look_at(at, stop, observer);
+            at = stop;
+        }
+    });
+}
+
+void EvidenceMap::look_at(std::size_t begin, std::size_t end, const Observer& observer) {
+    if (box_of_chunk_[begin / kChunk].exteriorDistance(observer.position) > margins_.farthest) {
+        return;
+    }
+    Directions seen;
+    to_spherical({centroids_.data() + begin, end - begin}, observer.T_sensor_map, seen);
+    for (std::size_t i = 0; i < end - begin; ++i) {
+        const Beam place{seen.azimuth[i], seen.elevation[i], seen.range[i]};
+        record(evidence_[begin + i], look(observer.image, place, margins_));
+    }
+}
+
+void EvidenceMap::add_points(const Scan& scan) {
+    Points points;
+    to_map(scan, points);
+    const std::size_t known = voxels_.size();
+    std::vector<std::uint32_t> counts;  // points of the new voxels
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (!is_measured(scan.points[i])) continue;
+        const auto key = voxel_of(points[i], voxel_size_);
+        if (!key) continue;
+        const std::uint32_t voxel = voxels_.insert(*key);
+        if (voxel == evidence_.size()) {
+            evidence_.push_back({.first_owner = scans_});
+            centroids_.emplace_back(Point::Zero());
+            counts.push_back(0);
+        }
+        if (voxel >= known) {  // sums from the voxel's centre, so that floats lose nothing
+            centroids_[voxel] += points[i] - center(*key, voxel_size_);
+            ++counts[voxel - known];
+        }
+        Evidence& e = evidence_[voxel];
+        if (e.owned == 0 || e.last_owner != scans_) {
+            e.last_owner = scans_;
+            if (e.owned < UINT16_MAX) ++e.owned;
+        }
+    }
+    box_of_chunk_.resize((voxels_.size() + kChunk - 1) / kChunk);
+    for (std::size_t v = known; v < voxels_.size(); ++v) {
+        const auto voxel = static_cast<std::uint32_t>(v);
+        centroids_[v] = center(voxels_.key(voxel), voxel_size_) +
+                        centroids_[v] / static_cast<float>(counts[v - known]);
+        box_of_chunk_[v / kChunk].extend(centroids_[v]);
+    }
+}
+
+std::optional<float> EvidenceMap::probability(std::uint32_t voxel) const {
+    constexpr int kCells = 2;
+    constexpr float kAlone = 0.5F;  // weight of having no neighbour
+    const Evidence& own = evidence_[voxel];
+    if (is_unknown(own)) return std::nullopt;
+    const Cell home = unpack(voxels_.key(voxel));
+    float sum = 0.0F, weights = kAlone;
+    for (int x = -kCells; x <= kCells; ++x) {
+        for (int y = -kCells; y <= kCells; ++y) {
+            for (int z = -kCells; z <= kCells; ++z) {
+                const Cell cell = home + Cell(x, y, z);
+                if (cell == home || !fits(cell)) continue;
+                const auto neighbor = voxels_.find(pack(cell));
+                if (!neighbor) continue;
+                const float weight = co_presence(own, evidence_[*neighbor]);
+                if (weight == 0.0F) continue;
+                sum += weight * std::tanh(transience(evidence_[*neighbor]));
+                weights += weight;
+            }
+        }
+    }
+    return 1.0F / (1.0F + std::exp(transience(own) + sum / weights));
+}
+
+}  // namespace dynamic_filter

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "dynamic_filter/back_end/evidence_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "dynamic_filter/front_end/window.hpp"
+#include "pipeline/room.hpp"
+
+namespace dynamic_filter {
+namespace {
+
+using test::drive;
+
+Config every_scan() {
+    Config config;
+    config.submap.keyframe_interval = 0.0;
+    return config;
+}
+
+EvidenceMap filled(const std::vector<test::RoomScan>& scans, const Config& config) {
+    EvidenceMap map(config);
+    StageTimes times;
+    for (const auto& s : scans) map.insert(s.scan, times);
+    return map;
+}
+
+/// What asking all keyframes about a place, oldest first, gives.
+Evidence brute_force(const std::vector<test::RoomScan>& scans, const Point& place,
+                     const BeamPattern& beams, const Config& config) {
+    Evidence e;
+    const Scan* last = nullptr;
+    for (const auto& s : scans) {
+        if (last != nullptr && !is_keyframe(*last, s.scan, config.submap)) continue;
+        last = &s.scan;
+        Directions seen;
+        to_spherical(std::span(&place, 1), s.scan.T_world_sensor.inverse().cast<float>(), seen);
+        record(e, look(BeamImage(s.scan.points, beams),
+                       {seen.azimuth[0], seen.elevation[0], seen.range[0]}, SightMargins{}));
+    }
+    return e;
+}
+
+TEST(EvidenceMap, EqualsAskingEveryKeyframeAboutEveryVoxel) {
+    const auto scans = drive(9, true);
+    Config some_scans;
+    some_scans.submap.keyframe_interval = 1.0;  // every second scan
+    some_scans.submap.keyframe_distance = 100.0;
+    for (const Config& config : {every_scan(), some_scans}) {
+        const EvidenceMap map = filled(scans, config);
+        ASSERT_GT(map.voxels().size(), 1000U);
+        for (std::uint32_t v = 0; v < map.voxels().size(); v += 7) {
+            const Evidence expected = brute_force(scans, map.centroid(v), *map.beams(), config);
+            EXPECT_EQ(map.evidence(v).seen, expected.seen) << v;
+            EXPECT_EQ(map.evidence(v).passed, expected.passed) << v;
+            EXPECT_EQ(map.evidence(v).switches, expected.switches) << v;
+        }
+    }
+}
+
+TEST(EvidenceMap, AVoxelIsTheCentroidOfItsPointsInTheFirstScanThatHasAny) {
+    const auto scans = drive(2, false);
+    const EvidenceMap map = filled(scans, every_scan());
+    const std::uint32_t voxel = 17;
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    int count = 0;
+    for (const Point& p : scans[0].scan.points) {
+        const Point at = (scans[0].scan.T_world_sensor * p.cast<double>()).cast<float>();
+        if (pack(*cell_of(at, 5.0F)) != map.voxels().key(voxel)) continue;
+        sum += at.cast<double>();
+        ++count;
+    }
+    ASSERT_GT(count, 0);
+    EXPECT_LT((map.centroid(voxel).cast<double>() - sum / count).norm(), 1e-5);
+}
+
+TEST(EvidenceMap, KnowsWhichScansOwnAVoxel) {
+    const auto scans = drive(5, false);
+    const EvidenceMap map = filled({scans[0], scans[0], scans[0]}, every_scan());
+    for (std::uint32_t v = 0; v < map.voxels().size(); ++v) {
+        EXPECT_EQ(map.evidence(v).owned, 3);
+        EXPECT_EQ(map.evidence(v).first_owner, 0U);
+        EXPECT_EQ(map.evidence(v).last_owner, 2U);
+    }
+}
+
+TEST(EvidenceMap, ForgetsOnlyTheKeyframesBeyondItsMemory) {
+    const auto scans = drive(6, true);
+    Config config = every_scan();
+    config.back_end.max_scans = 2;
+    const EvidenceMap map = filled(scans, config);
+    std::size_t asked_few = 0;
+    for (std::uint32_t v = 0; v < map.voxels().size(); ++v) {
+        const Evidence& e = map.evidence(v);
+        const std::size_t scans_after = scans.size() - e.first_owner;
+        EXPECT_LE(static_cast<std::size_t>(e.seen + e.passed), scans_after + 1);
+        asked_few += e.first_owner == 5 ? 1 : 0;
+    }
+    EXPECT_GT(asked_few, 0U);
+    EXPECT_EQ(map.observers(), scans.size());
+}
+
+TEST(EvidenceMap, ProbabilityIsUnknownUntilAnotherKeyframeLooked) {
+    const auto scans = drive(2, false);
+    const EvidenceMap one = filled({scans[0]}, every_scan());
+    for (std::uint32_t v = 0; v < one.voxels().size(); ++v) EXPECT_FALSE(one.probability(v));
+    const EvidenceMap two = filled({scans[0], scans[0]}, every_scan());
+    for (std::uint32_t v = 0; v < two.voxels().size(); ++v) {
+        ASSERT_EQ(two.probability(v).has_value(), !is_unknown(two.evidence(v)));
+        EXPECT_GT(two.probability(v).value_or(1.0F), 0.5F);
+    }
+}
+
+TEST(EvidenceMap, ScansWithoutMeasurementsChangeNothing) {
+    const auto scans = drive(3, false);
+    const test::RoomScan empty;
+    test::RoomScan zeros;
+    zeros.scan.points.assign(5, Point::Zero());
+    const EvidenceMap plain = filled(scans, every_scan());
+    const EvidenceMap mixed = filled({empty, scans[0], zeros, scans[1], scans[2]}, every_scan());
+    ASSERT_EQ(plain.voxels().size(), mixed.voxels().size());
+    for (std::uint32_t v = 0; v < plain.voxels().size(); ++v) {
+        EXPECT_EQ(plain.probability(v), mixed.probability(v));
+    }
+}
+
+}  // namespace
+}  // namespace dynamic_filter

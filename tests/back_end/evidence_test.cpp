@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "dynamic_filter/back_end/evidence.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string_view>
+
+namespace dynamic_filter {
+namespace {
+
+/// 'o' occupied, '-' passed, ' ' nothing.
+Evidence after(std::string_view sights, std::uint16_t owned = 1) {
+    Evidence e;
+    for (const char c : sights) {
+        record(e, c == 'o' ? Sight::occupied : c == '-' ? Sight::passed : Sight::nothing);
+    }
+    e.owned = owned;
+    return e;
+}
+
+TEST(Record, CountsObserversAndChanges) {
+    const Evidence e = after(" oo -- o ---o");
+    EXPECT_EQ(e.seen, 4);
+    EXPECT_EQ(e.passed, 5);
+    EXPECT_EQ(e.switches, 4);
+    EXPECT_EQ(e.last, Sight::occupied);
+}
+
+TEST(Record, CountersStopAtTheirLargestValue) {
+    Evidence e;
+    for (int i = 0; i < 70000; ++i) record(e, i % 2 == 0 ? Sight::occupied : Sight::passed);
+    for (int i = 0; i < 70000; ++i) record(e, i % 2 == 0 ? Sight::occupied : Sight::passed);
+    EXPECT_EQ(e.seen, 65535);
+    EXPECT_EQ(e.passed, 65535);
+    EXPECT_EQ(e.switches, 65535);
+}
+
+TEST(IsUnknown, UntilTwoObserversHaveAnOpinion) {
+    EXPECT_TRUE(is_unknown(after("")));
+    EXPECT_TRUE(is_unknown(after("o  ")));
+    EXPECT_FALSE(is_unknown(after("o -")));
+    EXPECT_FALSE(is_unknown(after("oo")));
+}
+
+TEST(Transience, NeverPassedIsStaticAndTheMoreSoTheMoreLooked) {
+    float last = 0.0F;
+    for (const int n : {1, 3, 10, 100}) {
+        const float odds = transience(after(std::string(static_cast<std::size_t>(n), 'o')));
+        EXPECT_LT(odds, last);
+        last = odds;
+    }
+    EXPECT_GE(last, -2.0F);
+}
+
+TEST(Transience, ReturnedOnceAndPassedEverAfterIsDynamic) {
+    EXPECT_GT(transience(after("o----------")), 0.5F);
+    EXPECT_GT(transience(after("-----o-----")), 0.5F);
+    EXPECT_LE(transience(after("o" + std::string(1000, '-'))), 2.0F);
+}
+
+TEST(Transience, OneLongRunSaysMoreThanTheSameNumberOfShortOnes) {
+    const Evidence left = after("oooooooooooo------------", 12);
+    const Evidence leaf = after("o-o-o-o-o-o-o-o-o-o-o-o-", 12);
+    EXPECT_EQ(left.seen, leaf.seen);
+    EXPECT_EQ(left.passed, leaf.passed);
+    EXPECT_GT(transience(left), 0.0F);  // stood there half of the time, and left
+    EXPECT_LT(transience(leaf), 0.0F);
+}
+
+TEST(Transience, GrowsWithEveryPassAndFallsWithEveryReturn) {
+    for (int n = 1; n < 40; ++n) {
+        const std::string passes(static_cast<std::size_t>(n), '-');
+        EXPECT_LE(transience(after("oooo" + passes)), transience(after("oooo" + passes + "-")));
+        EXPECT_GE(transience(after("oooo" + passes, 1)), transience(after("oooo" + passes, 2)));
+    }
+}
+
+Evidence owned_between(std::uint32_t first, std::uint32_t last) {
+    Evidence e;
+    e.first_owner = first;
+    e.last_owner = last;
+    return e;
+}
+
+TEST(CoPresence, IsTheOverlapOfTheirTimes) {
+    EXPECT_FLOAT_EQ(co_presence(owned_between(3, 7), owned_between(3, 7)), 1.0F);
+    EXPECT_FLOAT_EQ(co_presence(owned_between(0, 9), owned_between(5, 5)), 0.1F);
+    EXPECT_FLOAT_EQ(co_presence(owned_between(5, 5), owned_between(0, 9)), 0.1F);
+    EXPECT_FLOAT_EQ(co_presence(owned_between(0, 3), owned_between(2, 5)), 2.0F / 6.0F);
+    EXPECT_FLOAT_EQ(co_presence(owned_between(0, 3), owned_between(4, 5)), 0.0F);
+    EXPECT_FLOAT_EQ(co_presence(owned_between(9, 9), owned_between(0, 8)), 0.0F);
+}
+
+}  // namespace
+}  // namespace dynamic_filter

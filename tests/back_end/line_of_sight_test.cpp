@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#include "dynamic_filter/back_end/line_of_sight.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <optional>
+
+namespace dynamic_filter {
+namespace {
+
+constexpr double kDeg = std::numbers::pi / 180.0;
+const SightMargins margins;
+
+using Scene = std::function<std::optional<double>(const Eigen::Vector3d& ray)>;  // range
+
+Eigen::Vector3d ray_to(double azimuth, double elevation) {
+    return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
+            std::sin(elevation)};
+}
+
+/// What a sensor sees of the scene with beams every `column` x `ring` degrees.
+BeamImage scan(const Scene& scene, double column = 0.5, double ring = 2.0) {
+    Points points;
+    for (double azimuth = -179.8; azimuth < 180.0; azimuth += column) {
+        for (double elevation = -16.0; elevation <= 16.0; elevation += ring) {
+            const Eigen::Vector3d ray = ray_to(azimuth * kDeg, elevation * kDeg);
+            if (const auto range = scene(ray)) points.push_back((*range * ray).cast<float>());
+        }
+    }
+    return BeamImage(points, {static_cast<float>(column * kDeg), static_cast<float>(ring * kDeg)});
+}
+
+Sight look_at(const BeamImage& image, const Eigen::Vector3d& p) {
+    const Beam place{static_cast<float>(std::atan2(p.y(), p.x())),
+                     static_cast<float>(std::atan2(p.z(), std::hypot(p.x(), p.y()))),
+                     static_cast<float>(p.norm())};
+    return look(image, place, margins);
+}
+
+/// A wall across the x axis.
+Scene wall(double distance) {
+    return [=](const Eigen::Vector3d& ray) -> std::optional<double> {
+        if (ray.x() < 0.1) return std::nullopt;
+        return distance / ray.x();
+    };
+}
+
+/// Flat ground below the sensor, seen to 60 m.
+Scene ground(double height) {
+    return [=](const Eigen::Vector3d& ray) -> std::optional<double> {
+        if (ray.z() > -0.01) return std::nullopt;
+        const double range = height / -ray.z();
+        return range < 60.0 ? std::optional(range) : std::nullopt;
+    };
+}
+
+TEST(Look, BeforeAWallIsPassedOnItIsOccupiedBehindItIsNothing) {
+    const BeamImage image = scan(wall(10.0));
+    for (double y = -5.0; y <= 5.0; y += 0.37) {
+        for (double z = -1.5; z <= 1.5; z += 0.23) {
+            EXPECT_EQ(look_at(image, {6.0, y, 0.6 * z}), Sight::passed) << y << ' ' << z;
+            EXPECT_EQ(look_at(image, {11.0, y, z}), Sight::nothing) << y << ' ' << z;
+            EXPECT_NE(look_at(image, {10.0, y, z}), Sight::passed) << y << ' ' << z;
+        }
+    }
+    EXPECT_EQ(look_at(image, 10.0 / std::cos(4.0 * kDeg) * ray_to(0.2 * kDeg, 4.0 * kDeg)),
+              Sight::occupied);
+}
+
+TEST(Look, WhereNothingReturnedNothingIsKnown) {
+    const BeamImage image = scan(wall(10.0));
+    EXPECT_EQ(look_at(image, {-5.0, 0.0, 0.0}), Sight::nothing);
+    EXPECT_EQ(look_at(image, {1.0, 0.0, 5.0}), Sight::nothing);
+    EXPECT_EQ(look_at(scan([](const auto&) { return std::nullopt; }), {5, 0, 0}), Sight::nothing);
+}
+
+TEST(Look, NoGroundIsEverPassedHoweverGrazing) {
+    for (const double height : {0.8, 1.7}) {
+        const BeamImage image = scan(ground(height));
+        int occupied = 0;
+        for (double x = 2.0; x < 25.0; x += 0.13) {
+            const Sight sight = look_at(image, {x, 0.3 * x, -height});
+            EXPECT_NE(sight, Sight::passed) << x;
+            occupied += sight == Sight::occupied ? 1 : 0;
+        }
+        EXPECT_GT(occupied, 100);  // between the rings too
+    }
+}
+
+TEST(Look, WhatStoodOnTheGroundIsPassedOnceItIsGone) {
+    const BeamImage image = scan(ground(1.7));
+    for (double x = 5.0; x < 15.0; x += 0.31) {
+        EXPECT_EQ(look_at(image, {x, 1.0, -1.4 + 0.01 * x}), Sight::passed) << x;
+    }
+}
+
+TEST(Look, NoWallAlongTheBeamsIsPassed) {
+    // A corridor: walls at y = +-2 and the ends far off.
+    const BeamImage image = scan([](const Eigen::Vector3d& ray) -> std::optional<double> {
+        const double to_side = 2.0 / std::max(std::abs(ray.y()), 1e-9);
+        const double to_end = 50.0 / std::max(std::abs(ray.x()), 1e-9);
+        return std::min(to_side, to_end);
+    });
+    for (double x = 0.5; x < 40.0; x += 0.17) {
+        EXPECT_NE(look_at(image, {x, 2.0, 0.2}), Sight::passed) << x;
+        EXPECT_EQ(look_at(image, {std::min(x, 30.0) + 1.0, 0.0, 0.2}), Sight::passed) << x;
+    }
+}
+
+TEST(Look, APoleThinnerThanTheMarginIsNotPassed) {
+    // 6 cm across, 5 m away, before a wall.
+    const BeamImage image = scan([](const Eigen::Vector3d& ray) -> std::optional<double> {
+        if (ray.x() < 0.1) return std::nullopt;
+        const double y_at_pole = 5.0 * ray.y() / ray.x();
+        return (std::abs(y_at_pole) < 0.03 ? 5.0 : 12.0) / ray.x();
+    });
+    for (double z = -0.6; z <= 0.6; z += 0.05) {
+        EXPECT_NE(look_at(image, {5.0, 0.0, z}), Sight::passed) << z;
+        EXPECT_EQ(look_at(image, {5.0, 0.8, z}), Sight::passed) << z;
+    }
+}
+
+TEST(Look, WrapsAroundTheBack) {
+    const BeamImage image = scan([](const Eigen::Vector3d& ray) -> std::optional<double> {
+        if (ray.x() > -0.1) return std::nullopt;
+        return -10.0 / ray.x();
+    });
+    for (double y = -0.3; y <= 0.3; y += 0.01) {
+        EXPECT_EQ(look_at(image, {-6.0, y, 0.1}), Sight::passed) << y;
+        EXPECT_NE(look_at(image, {-10.0, y, 0.1}), Sight::passed) << y;
+    }
+}
+
+TEST(Look, JudgesOnlyWithinItsRange) {
+    const BeamImage image = scan(wall(100.0));
+    EXPECT_EQ(look_at(image, {70.0, 0.0, 0.0}), Sight::passed);
+    EXPECT_EQ(look_at(image, {85.0, 0.0, 0.0}), Sight::nothing);
+    EXPECT_EQ(look_at(image, {0.2, 0.0, 0.0}), Sight::nothing);
+    EXPECT_EQ(look_at(image, {std::nan(""), 0.0, 0.0}), Sight::nothing);
+}
+
+TEST(Look, AtTheBorderOfTheViewOnlyABeamThatMeetsThePlaceCounts) {
+    const BeamImage image = scan(wall(20.0));  // the highest beam goes up by 16 degrees
+    EXPECT_EQ(look_at(image, 10.0 * ray_to(0.0, 16.2 * kDeg)), Sight::passed);
+    EXPECT_EQ(look_at(image, 10.0 * ray_to(0.0, 17.2 * kDeg)), Sight::nothing);
+}
+
+}  // namespace
+}  // namespace dynamic_filter
