@@ -25,7 +25,7 @@ constexpr std::size_t kKinds = kind_names.size();
 
 struct Arguments {
     sim::SimulationOptions scene;
-    Config config = preset("paper");
+    Config config;
 };
 
 template <class Number>
@@ -39,15 +39,17 @@ Number parse(std::string_view what, std::string_view text) {
 }
 
 Arguments read_arguments(const std::vector<std::string_view>& words) {
-    if (words.size() < 4) {
-        throw ConfigError("usage: error_table SCENE SENSOR PEDESTRIANS SEED [KEY=VALUE ...]");
+    if (words.size() < 5) {
+        throw ConfigError(
+            "usage: error_table PRESET SCENE SENSOR PEDESTRIANS SEED [KEY=VALUE ...]");
     }
     Arguments arguments;
-    arguments.scene.scene = words[0];
-    arguments.scene.sensor = words[1];
-    arguments.scene.pedestrians = parse<int>("PEDESTRIANS", words[2]);
-    arguments.scene.seed = parse<std::uint64_t>("SEED", words[3]);
-    for (std::size_t i = 4; i < words.size(); ++i) {
+    arguments.config = preset(words[0]);
+    arguments.scene.scene = words[1];
+    arguments.scene.sensor = words[2];
+    arguments.scene.pedestrians = parse<int>("PEDESTRIANS", words[3]);
+    arguments.scene.seed = parse<std::uint64_t>("SEED", words[4]);
+    for (std::size_t i = 5; i < words.size(); ++i) {
         const std::size_t equals = words[i].find('=');
         if (equals == std::string_view::npos) {
             throw ConfigError(fmt::format("\"{}\" is not KEY=VALUE", words[i]));

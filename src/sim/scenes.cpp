@@ -6,12 +6,14 @@ namespace dynamic_filter::sim {
 Scene crowd_scene(int pedestrians, std::uint64_t seed);
 Scene street_scene(int pedestrians, std::uint64_t seed);
 Scene square_scene(int pedestrians, std::uint64_t seed);
+Scene hall_scene(int pedestrians, std::uint64_t seed);
 
 const std::vector<SceneEntry>& scene_table() {
     static const std::vector<SceneEntry> table = {
         {.name = "crowd", .pedestrians = 100, .rate_hz = 1.25, .make = crowd_scene},
         {.name = "street", .pedestrians = 30, .rate_hz = 10.0, .make = street_scene},
         {.name = "square", .pedestrians = 60, .rate_hz = 10.0, .make = square_scene},
+        {.name = "hall", .pedestrians = 60, .rate_hz = 10.0, .make = hall_scene},
     };
     return table;
 }

@@ -19,6 +19,7 @@ TEST(Scenes, NamesAreUniqueAndAllCanBeMade) {
     EXPECT_TRUE(names.contains("crowd"));
     EXPECT_TRUE(names.contains("street"));
     EXPECT_TRUE(names.contains("square"));
+    EXPECT_TRUE(names.contains("hall"));
 }
 
 TEST(Scenes, SeedsGiveOtherPeople) {

@@ -96,11 +96,12 @@ TEST(Simulation, EveryKindIsSeenWhereItIs) {
     EXPECT_EQ(seen["crowd"].size(), kind_names.size() - 1);
     EXPECT_EQ(seen["street"].size(), kind_names.size());
     EXPECT_EQ(seen["square"].size(), kind_names.size());
+    EXPECT_EQ(seen["hall"].size(), kind_names.size() - 1);  // no vehicles
 }
 
 TEST(Simulation, GroundIsAtTheGroundAndOthersMostlyAreNot) {
     const std::map<std::string, double> highest = {
-        {"crowd", 0.0}, {"street", 0.15}, {"square", 0.8}};
+        {"crowd", 0.0}, {"street", 0.15}, {"square", 0.8}, {"hall", 4.0}};
     for (const auto& scene : scene_names()) {
         Simulation simulation(short_run(scene));
         const SimulatedScan scan = simulation.scan(0);
@@ -208,7 +209,7 @@ TEST(Simulation, WrongOptionsAreNamed) {
     };
     SimulationOptions options;
     options.scene = "moon";
-    EXPECT_NE(message(options).find("crowd, street, square"), std::string::npos);
+    EXPECT_NE(message(options).find("crowd, street, square, hall"), std::string::npos);
     options = {};
     options.sensor = "eye";
     EXPECT_NE(message(options).find("vlp16"), std::string::npos);

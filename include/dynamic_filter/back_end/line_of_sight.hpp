@@ -18,7 +18,7 @@ struct SightMargins {
     float beyond = 0.2F;       ///< ... and one must have gone this much farther
     float touch = 0.15F;       ///< a return this near the place occupies it ...
     float surface = 0.1F;      ///< ... and so does a surface between neighbouring returns
-    float per_metre = 0.005F;  ///< growth of the last two with range: 0.3 deg of pose error
+    float per_metre = 0.007F;  ///< growth of the last two with range: 0.4 deg of pose error
     float nearest = 0.3F;      ///< no judgement on places nearer to the sensor,
     float farthest = 80.0F;    ///< or farther from it
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Scenes with exact labels: a crowd (Sec. IV-A), a street, a square; rays cast by Embree.
+/// Scenes with exact labels: a crowd (Sec. IV-A), a street, a square, a hall; rays cast by Embree.
 #pragma once
 
 #include <cstddef>
