@@ -14,30 +14,29 @@ constexpr std::size_t kFewest = 6;  // centroids that make a plane
 constexpr float kFlat = 0.025F;     // [m] most that they may be off it, root mean square
 constexpr float kOutlier = 0.05F;   // [m] a centroid this far off it belongs to something else
 
-struct Neighborhood {
-    Points still;                  // centroids
-    Point moving = Point::Zero();  // sum of the centroids of dynamic voxels that touch
-    int moving_count = 0;
-};
-
-Neighborhood look_around(const Cell& voxel, const VerdictOfCell& verdict_of) {
-    Neighborhood around;
-    for (int x = -2; x <= 2; ++x) {
-        for (int y = -2; y <= 2; ++y) {
-            for (int z = -2; z <= 2; ++z) {
-                const Cell step(x, y, z);
-                const auto found = verdict_of(voxel + step);
-                if (!found) continue;
-                if (found->label == Label::still) around.still.push_back(found->centroid);
-                const bool touches = step.cwiseAbs().maxCoeff() <= 1;
-                if (touches && found->label == Label::dynamic) {
-                    around.moving += found->centroid;
-                    ++around.moving_count;
-                }
+/// Calls use(verdict) for every voxel within so many cells.
+template <class Use>
+void each_within(int cells, const Cell& voxel, const VerdictOfCell& verdict_of, const Use& use) {
+    for (int x = -cells; x <= cells; ++x) {
+        for (int y = -cells; y <= cells; ++y) {
+            for (int z = -cells; z <= cells; ++z) {
+                if (const auto found = verdict_of(voxel + Cell(x, y, z))) use(*found);
             }
         }
     }
-    return around;
+}
+
+/// Mean centroid of the dynamic voxels that touch this one.
+std::optional<Point> moving_side(const Cell& voxel, const VerdictOfCell& verdict_of) {
+    Point sum = Point::Zero();
+    int count = 0;
+    each_within(1, voxel, verdict_of, [&](const VoxelVerdict& v) {
+        if (v.label != Label::dynamic) return;
+        sum += v.centroid;
+        ++count;
+    });
+    if (count == 0) return std::nullopt;
+    return Point(sum / static_cast<float>(count));
 }
 
 std::optional<Surface> plane_of(const Points& points) {
@@ -69,12 +68,15 @@ std::optional<Surface> fit(const Points& points) {
 }  // namespace
 
 std::optional<Surface> contact_surface(const Cell& voxel, const VerdictOfCell& verdict_of) {
-    const Neighborhood around = look_around(voxel, verdict_of);
-    if (around.moving_count == 0) return std::nullopt;
-    auto surface = fit(around.still);
+    const auto moving = moving_side(voxel, verdict_of);
+    if (!moving) return std::nullopt;
+    Points still;
+    each_within(2, voxel, verdict_of, [&](const VoxelVerdict& v) {
+        if (v.label == Label::still) still.push_back(v.centroid);
+    });
+    auto surface = fit(still);
     if (!surface) return std::nullopt;
-    const float side = surface->height(around.moving / static_cast<float>(around.moving_count));
-    if (side < 0.0F) *surface = {-surface->normal, -surface->offset};
+    if (surface->height(*moving) < 0.0F) *surface = {-surface->normal, -surface->offset};
     return surface;
 }
 

@@ -120,10 +120,22 @@ void EvidenceMap::add_points(const Scan& scan) {
 }
 
 std::optional<float> EvidenceMap::probability(std::uint32_t voxel) const {
+    if (is_unknown(evidence_[voxel])) return std::nullopt;
+    return 1.0F / (1.0F + std::exp(transience(evidence_[voxel]) + neighbors_vote(voxel)));
+}
+
+Label EvidenceMap::verdict(std::uint32_t voxel, float threshold) const {
+    if (is_unknown(evidence_[voxel])) return Label::unknown;
+    const float limit = std::log(1.0F / threshold - 1.0F);  // log-odds at the threshold
+    const float own = transience(evidence_[voxel]);
+    const bool outvoted = std::abs(own - limit) < 1.0F;  // may be: the vote is less than 1
+    return own + (outvoted ? neighbors_vote(voxel) : 0.0F) > limit ? Label::dynamic : Label::still;
+}
+
+float EvidenceMap::neighbors_vote(std::uint32_t voxel) const {
     constexpr int kCells = 2;
     constexpr float kAlone = 0.5F;  // weight of having no neighbour
     const Evidence& own = evidence_[voxel];
-    if (is_unknown(own)) return std::nullopt;
     const Cell home = unpack(voxels_.key(voxel));
     float sum = 0.0F, weights = kAlone;
     for (int x = -kCells; x <= kCells; ++x) {
@@ -140,7 +152,7 @@ std::optional<float> EvidenceMap::probability(std::uint32_t voxel) const {
             }
         }
     }
-    return 1.0F / (1.0F + std::exp(transience(own) + sum / weights));
+    return sum / weights;
 }
 
 }  // namespace dynamic_filter

@@ -146,6 +146,7 @@ Verdict DynamicFilter::instant_verdict(const Scan& scan) const {
     to_map(scan, points);
     const auto size = static_cast<float>(config_.back_end.voxel_size);
     Verdict verdict{scan.index, Labels(points.size(), Label::unknown), {}};
+    const auto threshold = static_cast<float>(config_.back_end.occupancy_threshold);
     VoxelIndex own;  // the scan's voxels, each judged once
     constexpr std::uint32_t kNone = UINT32_MAX;
     std::vector<std::uint32_t> own_of_point(points.size(), kNone);
@@ -157,7 +158,7 @@ Verdict DynamicFilter::instant_verdict(const Scan& scan) const {
     parallel_for(own.size(), 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v) {
             const auto voxel = evidence_.voxels().find(own.key(static_cast<std::uint32_t>(v)));
-            labels[v] = voxel ? label_of(evidence_.probability(*voxel)) : Label::unknown;
+            labels[v] = voxel ? evidence_.verdict(*voxel, threshold) : Label::unknown;
         }
     });
     for (std::size_t i = 0; i < points.size(); ++i) {

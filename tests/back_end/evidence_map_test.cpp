@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "dynamic_filter/front_end/window.hpp"
 #include "pipeline/room.hpp"
@@ -110,6 +111,23 @@ TEST(EvidenceMap, ProbabilityIsUnknownUntilAnotherKeyframeLooked) {
         ASSERT_EQ(two.probability(v).has_value(), !is_unknown(two.evidence(v)));
         EXPECT_GT(two.probability(v).value_or(1.0F), 0.5F);
     }
+}
+
+TEST(EvidenceMap, TheVerdictIsTheProbabilityAtTheThreshold) {
+    const EvidenceMap map = filled(drive(12, true), every_scan());
+    int compared = 0;
+    for (const float threshold : {0.0F, 0.2F, 0.5F, 0.7F, 1.0F}) {
+        for (std::uint32_t v = 0; v < map.voxels().size(); ++v) {
+            const auto probability = map.probability(v);
+            if (probability && std::abs(*probability - threshold) < 1e-5F) continue;  // rounding
+            const Label expected = !probability                ? Label::unknown
+                                   : *probability >= threshold ? Label::still
+                                                               : Label::dynamic;
+            ASSERT_EQ(map.verdict(v, threshold), expected) << v << ' ' << threshold;
+            ++compared;
+        }
+    }
+    EXPECT_GT(compared, 1000);
 }
 
 TEST(EvidenceMap, ScansWithoutMeasurementsChangeNothing) {

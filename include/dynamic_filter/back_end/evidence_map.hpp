@@ -41,6 +41,10 @@ public:
     /// were there when it was there. Empty: unknown.
     [[nodiscard]] std::optional<float> probability(std::uint32_t voxel) const;
 
+    /// The verdict at that threshold of the probability; cheaper, because most voxels are so sure
+    /// that their neighbours need not be asked.
+    [[nodiscard]] Label verdict(std::uint32_t voxel, float threshold) const;
+
     /// Keyframes that have observed.
     [[nodiscard]] std::size_t observers() const { return all_observers_; }
     [[nodiscard]] const VoxelIndex& voxels() const { return voxels_; }
@@ -54,6 +58,7 @@ private:
     bool add_observer(const Scan& scan);
     void check_known(std::size_t known);
     void check_new(std::size_t known);
+    [[nodiscard]] float neighbors_vote(std::uint32_t voxel) const;  // within +-1
     void look_at(std::size_t begin, std::size_t end, const Observer& observer);
 
     float voxel_size_;
