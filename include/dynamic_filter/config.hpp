@@ -102,13 +102,15 @@ void visit(C& c, F&& f) {
       front.revert_image_scale);
     auto& back = c.back_end;
     f(Setting{"back_end.enabled", "", "Table III", "off: front-end only"}, back.enabled);
-    f(Setting{"back_end.observers", "", "III-C2", "who looks at the voxels: scans, or submaps"},
+    f(Setting{"back_end.observers", "", "III-C2",
+              "scans or submaps; with scans, only voxel_size, max_scans, occupancy_threshold and "
+              "submap.keyframe_* decide"},
       back.observers);
-    f(Setting{"back_end.max_scans", "1", "", "keyframes that a new voxel can ask (scans observe)",
+    f(Setting{"back_end.max_scans", "1", "", "keyframes that a new voxel can ask, if scans observe",
               1, 100000},
       back.max_scans);
-    f(Setting{"back_end.search_radius", "m", "r", "submaps whose pose is this near are consulted",
-              0, 1e6},
+    f(Setting{"back_end.search_radius", "m", "r",
+              "submaps, or voxels of a local map, this near are consulted", 0, 1e6},
       back.search_radius);
     f(Setting{"back_end.max_submaps", "1", "B", "... at most so many, the nearest", 1, 64},
       back.max_submaps);

@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t kFewest = 6;  // centroids that make a plane
 constexpr float kFlat = 0.025F;     // [m] most that they may be off it, root mean square
+constexpr float kLowest = 0.03F;    // [m] that something on the surface rises over it
 constexpr float kOutlier = 0.05F;   // [m] a centroid this far off it belongs to something else
 
 /// Calls use(verdict) for every voxel within so many cells.
@@ -76,7 +77,9 @@ std::optional<Surface> contact_surface(const Cell& voxel, const VerdictOfCell& v
     });
     auto surface = fit(still);
     if (!surface) return std::nullopt;
-    if (surface->height(*moving) < 0.0F) *surface = {-surface->normal, -surface->offset};
+    const float height = surface->height(*moving);
+    if (std::abs(height) < kLowest) return std::nullopt;  // part of the surface, judged wrongly
+    if (height < 0.0F) *surface = {-surface->normal, -surface->offset};
     return surface;
 }
 

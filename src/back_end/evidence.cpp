@@ -38,12 +38,13 @@ float transience(const Evidence& e) {
 }
 
 float co_presence(const Evidence& a, const Evidence& b) {
-    const auto [first_in, last_in] =
-        std::pair{std::max(a.first_owner, b.first_owner), std::min(a.last_owner, b.last_owner)};
-    if (last_in < first_in) return 0.0F;
-    const auto together = std::min(a.first_owner, b.first_owner);
-    const auto until = std::max(a.last_owner, b.last_owner);
-    return static_cast<float>(last_in - first_in + 1) / static_cast<float>(until - together + 1);
+    const std::uint32_t first_both = std::max(a.first_owner, b.first_owner);
+    const std::uint32_t last_both = std::min(a.last_owner, b.last_owner);
+    if (last_both < first_both) return 0.0F;
+    const std::uint32_t first_any = std::min(a.first_owner, b.first_owner);
+    const std::uint32_t last_any = std::max(a.last_owner, b.last_owner);
+    return static_cast<float>(last_both - first_both + 1) /
+           static_cast<float>(last_any - first_any + 1);
 }
 
 }  // namespace dynamic_filter

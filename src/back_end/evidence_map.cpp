@@ -13,7 +13,7 @@ namespace dynamic_filter {
 namespace {
 
 /// Voxels are looked at by so many at a time. Ids go by the order in which voxels were met, so a
-/// chunk is a small region and most of those out of reach are skipped whole.
+/// chunk is a region, and those out of reach are skipped whole.
 constexpr std::size_t kChunk = 256;
 
 Observer make_observer(const Scan& scan, const BeamPattern& beams) {
@@ -21,12 +21,29 @@ Observer make_observer(const Scan& scan, const BeamPattern& beams) {
             scan.T_world_sensor.translation().cast<float>()};
 }
 
+/// A few points say nothing about how densely the sensor looks.
+bool is_reliable(const BeamPattern& beams, const Scan& scan) {
+    constexpr std::size_t kEnough = 1000;
+    return beams.azimuth_spacing > 0.0F && beams.elevation_spacing > 0.0F &&
+           scan.points.size() >= kEnough;
+}
+
+/// A voxel blurs by its size what a place is.
+SightMargins margins_for(float voxel_size) {
+    SightMargins margins;
+    margins.touch = std::max(margins.touch, 0.75F * voxel_size);
+    margins.surface = std::max(margins.surface, 0.5F * voxel_size);
+    margins.beyond = std::max(margins.beyond, voxel_size);
+    return margins;
+}
+
 }  // namespace
 
 EvidenceMap::EvidenceMap(const Config& config)
     : voxel_size_(static_cast<float>(config.back_end.voxel_size)),
       keyframes_(config.submap),
-      most_observers_(static_cast<std::size_t>(config.back_end.max_scans)) {}
+      most_observers_(static_cast<std::size_t>(config.back_end.max_scans)),
+      margins_(margins_for(voxel_size_)) {}
 
 void EvidenceMap::insert(const Scan& scan, StageTimes& times) {
     if (std::none_of(scan.points.begin(), scan.points.end(), is_measured)) return;
@@ -44,9 +61,10 @@ void EvidenceMap::insert(const Scan& scan, StageTimes& times) {
 
 bool EvidenceMap::add_observer(const Scan& scan) {
     if (last_keyframe_ && !is_keyframe(*last_keyframe_, scan, keyframes_)) return false;
-    if (!beams_) beams_ = estimate_beam_pattern({&scan, 1});
+    const BeamPattern beams = beams_ ? *beams_ : estimate_beam_pattern({&scan, 1});
+    if (!beams_ && is_reliable(beams, scan)) beams_ = beams;
     last_keyframe_ = Scan{{}, scan.T_world_sensor, scan.stamp, scan.index};
-    observers_.push_back(make_observer(scan, *beams_));
+    observers_.push_back(make_observer(scan, beams));
     ++all_observers_;
     if (observers_.size() > most_observers_) observers_.pop_front();
     return true;

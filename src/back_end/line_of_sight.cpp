@@ -134,7 +134,8 @@ private:
         return on_surface ? Sight::occupied : Sight::nothing;
     }
 
-    /// Beyond the image's border, or a hole in it, only a beam that all but meets the place counts.
+    /// Above or below the image's border, or a hole in it, only a beam that all but meets the place
+    /// counts.
     [[nodiscard]] bool passes_close(const Near& beam) const {
         return is_beyond(beam) &&
                std::abs(beam.up) <= std::max(0.5F * beside_, 0.3F * grid_.elevation_step);

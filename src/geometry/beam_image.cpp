@@ -25,30 +25,40 @@ constexpr float kLeastStep = 0.1F * std::numbers::pi_v<float> / 180.0F;
 /// For a scan whose spacing could not be read off it.
 constexpr float kUnknownStep = 1.0F * std::numbers::pi_v<float> / 180.0F;
 
+/// No sensor's beams are farther apart; an estimate that says so had too few points.
+constexpr float kMostStep = 3.0F * std::numbers::pi_v<float> / 180.0F;
+constexpr float kFarthest = 655.0F;  // [m] that 16 bits of centimetres can hold
+
 float step_of(float spacing) {
-    return spacing > 0.0F ? std::max(spacing, kLeastStep) : kUnknownStep;
+    return spacing > 0.0F ? std::clamp(spacing, kLeastStep, kMostStep) : kUnknownStep;
+}
+
+/// How much of its span [rad] an angle really covers, by parts of five degrees.
+float covered(const std::vector<float>& angles, const std::vector<float>& ranges) {
+    constexpr int kParts = 72;
+    constexpr float kPart = 2.0F * std::numbers::pi_v<float> / kParts;
+    std::array<bool, kParts> hit{};
+    for (std::size_t i = 0; i < angles.size(); ++i) {
+        if (!(ranges[i] > 0.0F && ranges[i] < kFarthest)) continue;
+        const int part = static_cast<int>((angles[i] + std::numbers::pi_v<float>) / kPart);
+        hit[static_cast<std::size_t>(std::clamp(part, 0, kParts - 1))] = true;
+    }
+    return kPart * static_cast<float>(std::count(hit.begin(), hit.end(), true));
 }
 
 /// Growth of the pixels for a sensor whose beams follow no raster (a rosette): the gaps between
-/// neighbours say little there. One pixel per point in the part of the circle that has any, but
-/// none beyond a degree: places between far beams are not known.
+/// neighbours say little there. One pixel per point in what the scan covers, but none beyond a
+/// degree: places between far beams are not known.
 float coarsening(const Directions& seen, const ImageGrid& grid) {
-    constexpr int kParts = 360;
     constexpr float kRaster = 3.0F;  // pixels per point that missing returns of a raster explain
-    std::array<bool, kParts> covered{};
-    std::size_t points = 0;
-    for (std::size_t i = 0; i < seen.range.size(); ++i) {
-        if (!(seen.range[i] > 0.0F && seen.range[i] < 1e9F)) continue;
-        const float turns = 0.5F + seen.azimuth[i] / (2.0F * std::numbers::pi_v<float>);
-        covered[static_cast<std::size_t>(
-            std::clamp(static_cast<int>(turns * kParts), 0, kParts - 1))] = true;
-        ++points;
-    }
-    const auto parts = static_cast<float>(std::count(covered.begin(), covered.end(), true));
-    const float pixels = static_cast<float>(grid.size()) * parts / kParts;
-    const float per_point = pixels / static_cast<float>(std::max<std::size_t>(points, 1));
+    const auto points = std::count_if(seen.range.begin(), seen.range.end(),
+                                      [](float r) { return r > 0.0F && r < kFarthest; });
+    const float pixels = covered(seen.azimuth, seen.range) * covered(seen.elevation, seen.range) /
+                         (grid.azimuth_step * grid.elevation_step);
+    const float per_point = pixels / std::max(1.0F, static_cast<float>(points));
     if (per_point <= kRaster) return 1.0F;
-    return std::clamp(kUnknownStep / grid.elevation_step, 1.0F, std::sqrt(per_point));
+    const float largest = std::max(grid.azimuth_step, grid.elevation_step);
+    return std::clamp(kUnknownStep / largest, 1.0F, std::sqrt(per_point));
 }
 
 /// Index and 1/256 part of a position in steps.

@@ -52,7 +52,9 @@ std::vector<Verdict> DynamicFilter::push(Scan scan) {
     scan.T_world_sensor = to_map_frame(scan.T_world_sensor);
     if (scans_observe()) {
         evidence_.insert(scan, times_);
-        return {timed(times_, "instant_verdict", [&] { return instant_verdict(scan); })};
+        return {timed(times_, "front_end", [&] {
+            return timed(times_, "instant_verdict", [&] { return instant_verdict(scan); });
+        })};
     }
     const auto window = cutter_.push(std::move(scan));
     return window ? process(*window) : std::vector<Verdict>{};
@@ -72,7 +74,7 @@ std::vector<Verdict> DynamicFilter::process(const Window& window) {
 
 std::vector<Verdict> DynamicFilter::finish() {
     if (scans_observe()) {
-        timed(times_, "merging", [&] { decide_voxels(); });
+        timed(times_, "back_end", [&] { timed(times_, "merging", [&] { decide_voxels(); }); });
         return {};
     }
     std::vector<Verdict> instant;

@@ -81,6 +81,12 @@ TEST(ContactSurface, NeedsAFlatSurface) {
     EXPECT_FALSE(lone.contact(kBelow));
 }
 
+TEST(ContactSurface, IsNotForAPieceOfTheGroundThatWasMisjudged) {
+    World world = patch(0.0F);
+    world.add({0.3F, 0.1F, 0.075F}, Label::dynamic);
+    EXPECT_FALSE(world.contact(kBelow));
+}
+
 TEST(ContactSurface, IgnoresAFewCentroidsThatWereFeetThemselves) {
     World world = patch(0.0F);
     world.add({0.3F, 0.1F, 0.17F}, Label::still);

@@ -76,6 +76,26 @@ TEST(EvidenceMap, AVoxelIsTheCentroidOfItsPointsInTheFirstScanThatHasAny) {
     EXPECT_LT((map.centroid(voxel).cast<double>() - sum / count).norm(), 1e-5);
 }
 
+TEST(EvidenceMap, AFewPointsAtFirstDoNotDecideHowTheSensorLooks) {
+    auto scans = drive(4, false);
+    test::RoomScan few = scans[0];
+    few.scan.points = {{1.0F, 0.0F, 0.0F}, {0.0F, 1.0F, 0.0F}};
+    EXPECT_FALSE(filled({few}, every_scan()).beams());
+    scans.insert(scans.begin(), few);
+    const auto beams = filled(scans, every_scan()).beams();
+    ASSERT_TRUE(beams);
+    EXPECT_NEAR(beams->azimuth_spacing, 1.5 * M_PI / 180.0, 0.002);
+}
+
+TEST(EvidenceMap, LargeVoxelsKeepTheirCorners) {
+    Config config = every_scan();
+    config.back_end.voxel_size = 1.0;
+    const EvidenceMap map = filled(drive(12, false), config);
+    for (std::uint32_t v = 0; v < map.voxels().size(); ++v) {
+        EXPECT_NE(map.verdict(v, 0.5F), Label::dynamic) << map.centroid(v).transpose();
+    }
+}
+
 TEST(EvidenceMap, KnowsWhichScansOwnAVoxel) {
     const auto scans = drive(5, false);
     const EvidenceMap map = filled({scans[0], scans[0], scans[0]}, every_scan());

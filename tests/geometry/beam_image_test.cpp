@@ -103,6 +103,17 @@ TEST(BeamImage, UnknownOrTinySpacingGivesAnImageOfBearableSize) {
     EXPECT_LE(BeamImage(points, spacing(0.001)).grid().columns, 3600);
 }
 
+TEST(BeamImage, AStrayPointDoesNotCoarsenTheImage) {
+    Points points;
+    for (int c = 0; c < 720; ++c) {
+        for (int r = -8; r <= 8; ++r) points.push_back(polar(c * 0.5 + 0.2, r * 0.5, 8.0));
+    }
+    const BeamPattern pattern = spacing(0.5);
+    const int columns = BeamImage(points, pattern).grid().columns;
+    points.push_back(polar(10.0, -88.0, 0.3));
+    EXPECT_EQ(BeamImage(points, pattern).grid().columns, columns);
+}
+
 TEST(BeamImage, BeamsWithoutARasterGetAboutOnePixelEach) {
     test::Random random(3);
     Points points;

@@ -21,7 +21,7 @@ struct Evidence {
 /// Takes in what the next observer saw.
 void record(Evidence& evidence, Sight sight);
 
-/// True if no other observer than the one that first saw the voxel has an opinion on it.
+/// True while fewer than two observers have an opinion on the voxel.
 inline bool is_unknown(const Evidence& e) { return e.seen + e.passed < 2; }
 
 /// Log-odds, within +-2, that the voxel was empty most of the time and only crossed by something.

@@ -50,7 +50,7 @@ public:
     [[nodiscard]] const VoxelIndex& voxels() const { return voxels_; }
     [[nodiscard]] const Evidence& evidence(std::uint32_t voxel) const { return evidence_[voxel]; }
     [[nodiscard]] const Point& centroid(std::uint32_t voxel) const { return centroids_[voxel]; }
-    /// Empty before the first scan with measured points.
+    /// Read off the first scan that has enough points; empty before it.
     [[nodiscard]] const std::optional<BeamPattern>& beams() const { return beams_; }
 
 private:

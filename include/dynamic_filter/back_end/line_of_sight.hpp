@@ -25,12 +25,13 @@ struct SightMargins {
 
 /// Judges the place in direction (azimuth, elevation) at `place.range`, in the image's frame.
 ///
-/// occupied: a return lies at the place, or the line between the beams below and above it, at
-/// different ranges, runs through it (ground at grazing angles).
-/// passed: of the nearest beams around the place, one in each quadrant, one went beyond it; the
-/// lines between them, up-down and left-right, run behind it by the surface margin, so a surface
-/// seen at any incidence is not passed; none beside it ended before it.
-/// nothing: all else; where no beam returned, nothing is known.
+/// occupied: a return lies at the place (within `touch`, and across the beam within `beside` or
+/// half a pixel), or the line between the beams below and above it, at different ranges, runs
+/// through it (ground at grazing angles). passed: of the nearest beams around the place, at most
+/// one in each quadrant and at least two, one went beyond it; above and below the image, or a hole
+/// in it, such a beam all but meets the place; the lines between them, up-down and left-right, run
+/// behind it by the surface margin, so a surface seen at any incidence is not passed; none beside
+/// it ended before it. nothing: all else; where no beam returned, nothing is known.
 Sight look(const BeamImage& image, const Beam& place, const SightMargins& margins);
 
 }  // namespace dynamic_filter

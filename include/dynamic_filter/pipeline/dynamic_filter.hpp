@@ -21,18 +21,21 @@ struct Verdict {
     std::size_t index = 0;  ///< Scan::index
     Labels labels;
     std::vector<float>
-        probability;  ///< occupancy 0..1 of the point's voxel; empty in instant verdicts
+        probability;  ///< occupancy 0..1 of the point's voxel (what stands on a static surface may
+                      ///< be dynamic all the same); empty in instant verdicts
 };
 
 /// A voxel of the static local map.
 struct StaticVoxel {
     Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< [m] world frame
-    float probability = 0.0F;                          ///< n_occ / n_check
+    float probability = 0.0F;                          ///< occupancy 0..1
 };
 
 /// Usage: push() every scan, finish(), then verdict() of any scan. Single caller; verdict() alone
 /// is const and may run in several threads. Same scans and config give the same bits for any number
-/// of threads. Memory: one window of scans and the thinned submaps; scans are not kept.
+/// of threads. Scans are not kept. Memory: scans observe: about 44 bytes a voxel, and four a pixel
+/// of the newest `back_end.max_scans` keyframes; submaps observe: one window of scans and the
+/// thinned submaps.
 class DynamicFilter {
 public:
     /// Throws ConfigError.
