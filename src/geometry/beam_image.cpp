@@ -47,7 +47,7 @@ float covered(const std::vector<float>& angles, const std::vector<float>& ranges
 }
 
 /// Growth of the pixels for a sensor whose beams follow no raster (a rosette): the gaps between
-/// neighbours say little there. One pixel per point in what the scan covers, but none beyond a
+/// neighbours say little there. Three pixels per point in what the scan covers, but none beyond a
 /// degree: places between far beams are not known.
 float coarsening(const Directions& seen, const ImageGrid& grid) {
     constexpr float kRaster = 3.0F;  // pixels per point that missing returns of a raster explain
@@ -58,7 +58,7 @@ float coarsening(const Directions& seen, const ImageGrid& grid) {
     const float per_point = pixels / std::max(1.0F, static_cast<float>(points));
     if (per_point <= kRaster) return 1.0F;
     const float largest = std::max(grid.azimuth_step, grid.elevation_step);
-    return std::clamp(kUnknownStep / largest, 1.0F, std::sqrt(per_point));
+    return std::clamp(kUnknownStep / largest, 1.0F, std::sqrt(per_point / kRaster));
 }
 
 /// Index and 1/256 part of a position in steps.
