@@ -18,13 +18,9 @@ constexpr float kOutlier = 0.05F;   // [m] a centroid this far off it belongs to
 /// Calls use(verdict) for every voxel within so many cells.
 template <class Use>
 void each_within(int cells, const Cell& voxel, const VerdictOfCell& verdict_of, const Use& use) {
-    for (int x = -cells; x <= cells; ++x) {
-        for (int y = -cells; y <= cells; ++y) {
-            for (int z = -cells; z <= cells; ++z) {
-                if (const auto found = verdict_of(voxel + Cell(x, y, z))) use(*found);
-            }
-        }
-    }
+    each_cell_within(cells, voxel, [&](const Cell& cell) {
+        if (const auto found = verdict_of(cell)) use(*found);
+    });
 }
 
 /// Mean centroid of the dynamic voxels that touch this one.

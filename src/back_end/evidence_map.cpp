@@ -154,22 +154,15 @@ float EvidenceMap::neighbors_vote(std::uint32_t voxel) const {
     constexpr int kCells = 2;
     constexpr float kAlone = 0.5F;  // weight of having no neighbour
     const Evidence& own = evidence_[voxel];
-    const Cell home = unpack(voxels_.key(voxel));
     float sum = 0.0F, weights = kAlone;
-    for (int x = -kCells; x <= kCells; ++x) {
-        for (int y = -kCells; y <= kCells; ++y) {
-            for (int z = -kCells; z <= kCells; ++z) {
-                const Cell cell = home + Cell(x, y, z);
-                if (cell == home || !fits(cell)) continue;
-                const auto neighbor = voxels_.find(pack(cell));
-                if (!neighbor) continue;
-                const float weight = co_presence(own, evidence_[*neighbor]);
-                if (weight == 0.0F) continue;
-                sum += weight * std::tanh(transience(evidence_[*neighbor]));
-                weights += weight;
-            }
-        }
-    }
+    each_cell_within(kCells, unpack(voxels_.key(voxel)), [&](const Cell& cell) {
+        const auto neighbor = voxels_.find(pack(cell));
+        if (!neighbor || *neighbor == voxel) return;
+        const float weight = co_presence(own, evidence_[*neighbor]);
+        if (weight == 0.0F) return;
+        sum += weight * std::tanh(transience(evidence_[*neighbor]));
+        weights += weight;
+    });
     return sum / weights;
 }
 

@@ -97,7 +97,7 @@ void DynamicFilter::decide_voxels() {
 std::optional<Surface> DynamicFilter::contact_of(std::uint32_t voxel) const {
     if (label_of(decided_[voxel].probability) != Label::still) return std::nullopt;
     const auto verdict_of = [&](const Cell& cell) -> std::optional<VoxelVerdict> {
-        const auto v = fits(cell) ? evidence_.voxels().find(pack(cell)) : std::nullopt;
+        const auto v = evidence_.voxels().find(pack(cell));
         if (!v) return std::nullopt;
         return VoxelVerdict{evidence_.centroid(*v), label_of(decided_[*v].probability)};
     };
@@ -220,15 +220,10 @@ void DynamicFilter::judge_contacts(const Points& points, Labels& labels) const {
         if (labels[i] == Label::dynamic) moving.insert(*voxel_of(points[i], size));
     }
     const auto touches_moving = [&](const Cell& home) {
-        for (int x = -1; x <= 1; ++x) {
-            for (int y = -1; y <= 1; ++y) {
-                for (int z = -1; z <= 1; ++z) {
-                    const Cell cell = home + Cell(x, y, z);
-                    if (fits(cell) && moving.contains(pack(cell))) return true;
-                }
-            }
-        }
-        return false;
+        bool touches = false;
+        each_cell_within(1, home,
+                         [&](const Cell& cell) { touches |= moving.contains(pack(cell)); });
+        return touches;
     };
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (labels[i] != Label::still) continue;

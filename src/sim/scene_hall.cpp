@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "people.hpp"
-#include "portable.hpp"
 #include "props.hpp"
 #include "random.hpp"
 

@@ -18,7 +18,7 @@ struct Surface {
     [[nodiscard]] float height(const Point& p) const { return normal.dot(p) - offset; }
 };
 
-/// Points of a contact voxel higher than this over its surface are dynamic [m]: twice the range
+/// Points of a contact voxel higher than this over its surface are dynamic [m]: beyond the range
 /// noise of common sensors.
 constexpr float kContactHeight = 0.08F;
 

@@ -4,7 +4,6 @@
 
 #include <deque>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "dynamic_filter/back_end/evidence.hpp"

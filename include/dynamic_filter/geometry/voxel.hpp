@@ -49,6 +49,20 @@ inline Point center(VoxelKey key, float size) {
     return (unpack(key).cast<float>().array() + 0.5F).matrix() * size;
 }
 
+/// Calls use(cell) for every cell with a key in the cube of so many cells around `home`, x slowest,
+/// z fastest; `home` too.
+template <class Use>
+void each_cell_within(int cells, const Cell& home, const Use& use) {
+    for (int x = -cells; x <= cells; ++x) {
+        for (int y = -cells; y <= cells; ++y) {
+            for (int z = -cells; z <= cells; ++z) {
+                const Cell cell = home + Cell(x, y, z);
+                if (fits(cell)) use(cell);
+            }
+        }
+    }
+}
+
 /// Murmur's finaliser: neighbouring keys spread over the whole table.
 struct VoxelHash {
     std::size_t operator()(VoxelKey k) const {
