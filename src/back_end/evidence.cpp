@@ -23,18 +23,18 @@ void record(Evidence& evidence, Sight sight) {
 }
 
 float transience(const Evidence& e) {
-    constexpr float kLimit = 2.0F;   // no voxel is so sure that its neighbours cannot doubt it
-    constexpr float kFew = 5.0F;     // observers
-    constexpr float kOffset = 0.3F;  // so that one observation more or less is not everything
-    const auto at_least_one = [](std::uint16_t n) {
-        return static_cast<float>(std::max<std::uint16_t>(n, 1));
+    constexpr float kFew = 3.0F;     // observers
+    constexpr float kOffset = 2.0F;  // so that one observation more or less is not everything
+    const auto log_of = [](std::uint16_t n) {
+        return std::log(static_cast<float>(std::max<std::uint16_t>(n, 1)));
     };
-    const float runs = std::sqrt(at_least_one(e.switches));
-    const float returns = std::sqrt(at_least_one(e.seen) * at_least_one(e.owned));
-    const float expected = 0.9F * runs * std::sqrt(runs) * std::sqrt(returns);
-    const float odds = std::log((e.passed + kOffset) / (expected + kOffset));
+    const float returns = log_of(e.seen) + 2.0F * log_of(e.owned);
+    const float expected =
+        0.45F * std::exp(0.9F * std::log(1.0F + e.switches) + 0.2F * returns) + kOffset;
+    const float passed = e.passed + kOffset;
     const auto observers = static_cast<float>(e.seen + e.passed);
-    return std::clamp(odds, -kLimit, kLimit) * observers / (observers + kFew);
+    return (passed * passed - expected * expected) / (passed * passed + expected * expected) *
+           observers / (observers + kFew);
 }
 
 float co_presence(const Evidence& a, const Evidence& b) {

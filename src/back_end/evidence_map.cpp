@@ -45,11 +45,14 @@ EvidenceMap::EvidenceMap(const Config& config)
       most_observers_(static_cast<std::size_t>(config.back_end.max_scans)),
       margins_(margins_for(voxel_size_)) {}
 
-void EvidenceMap::insert(const Scan& scan, StageTimes& times) {
-    if (std::none_of(scan.points.begin(), scan.points.end(), is_measured)) return;
+PointVoxels EvidenceMap::insert(const Scan& scan, StageTimes& times) {
+    if (std::none_of(scan.points.begin(), scan.points.end(), is_measured)) {
+        return PointVoxels(scan.points.size(), kNoVoxel);
+    }
     const std::size_t known = voxels_.size();
+    PointVoxels voxels_of_points;
     const bool observes = timed(times, "front_end", [&] {
-        timed(times, "voxelization", [&] { add_points(scan); });
+        timed(times, "voxelization", [&] { voxels_of_points = add_points(scan); });
         return timed(times, "beam_image", [&] { return add_observer(scan); });
     });
     timed(times, "back_end", [&] {
@@ -57,6 +60,7 @@ void EvidenceMap::insert(const Scan& scan, StageTimes& times) {
         timed(times, "visibility_check_of_new", [&] { check_new(known); });
     });
     ++scans_;
+    return voxels_of_points;
 }
 
 bool EvidenceMap::add_observer(const Scan& scan) {
@@ -99,12 +103,16 @@ void EvidenceMap::look_at(std::size_t begin, std::size_t end, const Observer& ob
     to_spherical({centroids_.data() + begin, end - begin}, observer.T_sensor_map, seen);
     for (std::size_t i = 0; i < end - begin; ++i) {
         const Beam place{seen.azimuth[i], seen.elevation[i], seen.range[i]};
-        record(evidence_[begin + i], look(observer.image, place, margins_));
+        const Sight sight = look(observer.image, place, margins_);
+        if (sight == Sight::nothing) continue;
+        record(evidence_[begin + i], sight);
+        transience_[begin + i] = transience(evidence_[begin + i]);
     }
 }
 
-void EvidenceMap::add_points(const Scan& scan) {
+PointVoxels EvidenceMap::add_points(const Scan& scan) {
     Points points;
+    PointVoxels voxels_of_points(scan.points.size(), kNoVoxel);
     to_map(scan, points);
     const std::size_t known = voxels_.size();
     std::vector<std::uint32_t> counts;  // points of the new voxels
@@ -113,8 +121,10 @@ void EvidenceMap::add_points(const Scan& scan) {
         const auto key = voxel_of(points[i], voxel_size_);
         if (!key) continue;
         const std::uint32_t voxel = voxels_.insert(*key);
+        voxels_of_points[i] = voxel;
         if (voxel == evidence_.size()) {
             evidence_.push_back({.first_owner = scans_});
+            transience_.push_back(0.0F);
             centroids_.emplace_back(Point::Zero());
             counts.push_back(0);
         }
@@ -126,6 +136,7 @@ void EvidenceMap::add_points(const Scan& scan) {
         if (e.owned == 0 || e.last_owner != scans_) {
             e.last_owner = scans_;
             if (e.owned < UINT16_MAX) ++e.owned;
+            transience_[voxel] = transience(e);
         }
     }
     box_of_chunk_.resize((voxels_.size() + kChunk - 1) / kChunk);
@@ -135,35 +146,37 @@ void EvidenceMap::add_points(const Scan& scan) {
                         centroids_[v] / static_cast<float>(counts[v - known]);
         box_of_chunk_[v / kChunk].extend(centroids_[v]);
     }
+    return voxels_of_points;
 }
 
+/// The sum of the three opinions lies within +-4, below 0: static. By the simulated and the real
+/// recordings, its log-odds are three to five times as much.
 std::optional<float> EvidenceMap::probability(std::uint32_t voxel) const {
     if (is_unknown(evidence_[voxel])) return std::nullopt;
-    return 1.0F / (1.0F + std::exp(transience(evidence_[voxel]) + neighbors_vote(voxel)));
+    return 1.0F / (1.0F + std::exp(3.0F * (transience_[voxel] + neighbors_vote(voxel))));
 }
 
-Label EvidenceMap::verdict(std::uint32_t voxel, float threshold) const {
-    if (is_unknown(evidence_[voxel])) return Label::unknown;
-    const float limit = std::log(1.0F / threshold - 1.0F);  // log-odds at the threshold
-    const float own = transience(evidence_[voxel]);
-    const bool outvoted = std::abs(own - limit) < 1.0F;  // may be: the vote is less than 1
-    return own + (outvoted ? neighbors_vote(voxel) : 0.0F) > limit ? Label::dynamic : Label::still;
-}
-
+/// Things come and go as a whole, so the voxels that were there together know most of each other.
+/// Surfaces go on and people walk where others did, so the rest of the neighbourhood knows, too.
 float EvidenceMap::neighbors_vote(std::uint32_t voxel) const {
     constexpr int kCells = 2;
-    constexpr float kAlone = 0.5F;  // weight of having no neighbour
+    constexpr float kFar = 0.3F;     // weight of a neighbour that does not touch the voxel
+    constexpr float kAlone = 0.25F;  // weight of having no neighbour
     const Evidence& own = evidence_[voxel];
-    float sum = 0.0F, weights = kAlone;
-    each_cell_within(kCells, unpack(voxels_.key(voxel)), [&](const Cell& cell) {
+    float company = 0.0F, companions = kAlone, around = 0.0F, neighbors = kAlone;
+    const Cell home = unpack(voxels_.key(voxel));
+    each_cell_within(kCells, home, [&](const Cell& cell) {
         const auto neighbor = voxels_.find(pack(cell));
         if (!neighbor || *neighbor == voxel) return;
-        const float weight = co_presence(own, evidence_[*neighbor]);
-        if (weight == 0.0F) return;
-        sum += weight * std::tanh(transience(evidence_[*neighbor]));
-        weights += weight;
+        const float opinion = transience_[*neighbor];
+        const float together = co_presence(own, evidence_[*neighbor]);
+        company += together * opinion;
+        companions += together;
+        const float weight = (cell - home).cwiseAbs().maxCoeff() > 1 ? kFar : 1.0F;
+        around += weight * opinion;
+        neighbors += weight;
     });
-    return sum / weights;
+    return company / companions + 2.0F * around / neighbors;
 }
 
 }  // namespace dynamic_filter

@@ -51,9 +51,10 @@ std::vector<Verdict> DynamicFilter::push(Scan scan) {
     if (!origin_) origin_ = nearby_origin(scan.T_world_sensor, config_.back_end.voxel_size);
     scan.T_world_sensor = to_map_frame(scan.T_world_sensor);
     if (scans_observe()) {
-        evidence_.insert(scan, times_);
+        const PointVoxels voxels = evidence_.insert(scan, times_);
         return {timed(times_, "front_end", [&] {
-            return timed(times_, "instant_verdict", [&] { return instant_verdict(scan); });
+            return timed(times_, "instant_verdict",
+                         [&] { return instant_verdict(scan.index, voxels); });
         })};
     }
     const auto window = cutter_.push(std::move(scan));
@@ -142,29 +143,24 @@ Label DynamicFilter::label_of(const Point& map_point, float& probability) const 
     return label_of(std::optional(probability));
 }
 
-/// From the evidence so far; the scan is in the map frame and part of it.
-Verdict DynamicFilter::instant_verdict(const Scan& scan) const {
-    Points points;
-    to_map(scan, points);
-    const auto size = static_cast<float>(config_.back_end.voxel_size);
-    Verdict verdict{scan.index, Labels(points.size(), Label::unknown), {}};
-    const auto threshold = static_cast<float>(config_.back_end.occupancy_threshold);
-    VoxelIndex own;  // the scan's voxels, each judged once
-    constexpr std::uint32_t kNone = UINT32_MAX;
-    std::vector<std::uint32_t> own_of_point(points.size(), kNone);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        if (!is_measured(scan.points[i])) continue;
-        if (const auto key = voxel_of(points[i], size)) own_of_point[i] = own.insert(*key);
+/// From the evidence so far. Every voxel is judged once, however many points it holds.
+Verdict DynamicFilter::instant_verdict(std::size_t index, const PointVoxels& voxels) const {
+    std::vector<std::uint32_t> own;
+    std::vector<Label> labels(evidence_.voxels().size(), Label::unknown);
+    constexpr auto kMet = Label::still;  // until it is judged
+    for (const std::uint32_t voxel : voxels) {
+        if (voxel == kNoVoxel || labels[voxel] == kMet) continue;
+        labels[voxel] = kMet;
+        own.push_back(voxel);
     }
-    Labels labels(own.size());
     parallel_for(own.size(), 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v) {
-            const auto voxel = evidence_.voxels().find(own.key(static_cast<std::uint32_t>(v)));
-            labels[v] = voxel ? evidence_.verdict(*voxel, threshold) : Label::unknown;
+            labels[own[v]] = label_of(evidence_.probability(own[v]));
         }
     });
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        if (own_of_point[i] != kNone) verdict.labels[i] = labels[own_of_point[i]];
+    Verdict verdict{index, Labels(voxels.size(), Label::unknown), {}};
+    for (std::size_t i = 0; i < voxels.size(); ++i) {
+        if (voxels[i] != kNoVoxel) verdict.labels[i] = labels[voxels[i]];
     }
     return verdict;
 }

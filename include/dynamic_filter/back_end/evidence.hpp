@@ -21,15 +21,16 @@ struct Evidence {
 /// Takes in what the next observer saw.
 void record(Evidence& evidence, Sight sight);
 
-/// True while fewer than two observers have an opinion on the voxel.
-inline bool is_unknown(const Evidence& e) { return e.seen + e.passed < 2; }
+/// True while nobody but the scan that found the voxel has an opinion on it.
+inline bool is_unknown(const Evidence& e) { return e.seen < 2 && e.passed == 0; }
 
-/// Log-odds, within +-2, that the voxel was empty most of the time and only crossed by something.
+/// -1..1: whether the voxel was empty most of the time and only crossed by something; below 0: no.
 /// A porous surface, an edge or a leaf is passed now and then, between returns; where something
 /// came or went, it is passed in few long runs. So n_free is compared with what the number of runs
 /// and the number of returns lead one to expect of a static voxel:
-///     n_free / (0.9 switches^3/4 (n_occ owned)^1/4),
-/// shrunk towards 0 while observers are few. Below 0: static.
+///     expected = 0.45 (1 + switches)^0.9 (n_occ owned^2)^0.2
+///     (f^2 - e^2) / (f^2 + e^2) with f = n_free + 2 and e = expected + 2,
+/// shrunk towards 0 while observers are few.
 float transience(const Evidence& evidence);
 
 /// How much of their time two voxels were there together: the overlap of the spans between their

@@ -21,6 +21,10 @@ struct Observer {
     Point position = Point::Zero();  ///< of the sensor, in the map
 };
 
+/// The voxel of each point of a scan; kNoVoxel for points that were not measured or lie too far out.
+using PointVoxels = std::vector<std::uint32_t>;
+constexpr std::uint32_t kNoVoxel = UINT32_MAX;
+
 /// Every voxel is asked about once by every observer: a new keyframe looks at the voxels known so
 /// far, a new voxel asks the keyframes kept so far. So nothing is computed twice, and the result is
 /// that of asking all keyframes about all voxels, but for keyframes no longer kept.
@@ -34,15 +38,11 @@ public:
 
     /// Takes a scan whose `T_world_sensor` is relative to the map. Cost: points, plus voxels within
     /// reach, plus new voxels times keyframes kept.
-    void insert(const Scan& scan, StageTimes& times);
+    PointVoxels insert(const Scan& scan, StageTimes& times);
 
-    /// Occupancy 0..1 of a voxel: its own evidence, and that of the voxels within two cells that
-    /// were there when it was there. Empty: unknown.
+    /// Occupancy 0..1 of a voxel: its own evidence, and that of the voxels within two cells, those
+    /// above all that were there when it was there. Empty: unknown.
     [[nodiscard]] std::optional<float> probability(std::uint32_t voxel) const;
-
-    /// The verdict at that threshold of the probability; cheaper, because most voxels are so sure
-    /// that their neighbours need not be asked.
-    [[nodiscard]] Label verdict(std::uint32_t voxel, float threshold) const;
 
     /// Keyframes that have observed.
     [[nodiscard]] std::size_t observers() const { return all_observers_; }
@@ -53,11 +53,11 @@ public:
     [[nodiscard]] const std::optional<BeamPattern>& beams() const { return beams_; }
 
 private:
-    void add_points(const Scan& scan);
+    PointVoxels add_points(const Scan& scan);
     bool add_observer(const Scan& scan);
     void check_known(std::size_t known);
     void check_new(std::size_t known);
-    [[nodiscard]] float neighbors_vote(std::uint32_t voxel) const;  // within +-1
+    [[nodiscard]] float neighbors_vote(std::uint32_t voxel) const;  // within +-3
     void look_at(std::size_t begin, std::size_t end, const Observer& observer);
 
     float voxel_size_;
@@ -73,6 +73,7 @@ private:
     VoxelIndex voxels_;
     Points centroids_;  // by voxel, as the evidence is
     std::vector<Evidence> evidence_;
+    std::vector<float> transience_;  // of the evidence; neighbours ask far more often than it changes
     std::vector<Eigen::AlignedBox3f> box_of_chunk_;  // of kChunk voxels that were met together
 };
 

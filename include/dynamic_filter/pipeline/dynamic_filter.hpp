@@ -74,7 +74,7 @@ private:
     Pose to_map_frame(const Pose& T_world_sensor) const;
     [[nodiscard]] bool scans_observe() const;
     [[nodiscard]] std::vector<Verdict> process(const Window& window);
-    [[nodiscard]] Verdict instant_verdict(const Scan& scan) const;
+    [[nodiscard]] Verdict instant_verdict(std::size_t index, const PointVoxels& voxels) const;
     void decide_voxels();
     [[nodiscard]] std::optional<Surface> contact_of(std::uint32_t voxel) const;
     void judge_contacts(const Points& map_points, Labels& labels) const;
