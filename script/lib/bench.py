@@ -17,6 +17,7 @@ class Bench:
     """Where and how much. `work` keeps recordings and the last run's output."""
     work: Path
     quick: bool = False
+    semantickitti: Path | None = None
     command: Path = BUILD / "dynamicfilter"
 
     @property
@@ -51,9 +52,9 @@ def run(bench, recording, settings=(), preset="paper", options=()):
     return {name: json.loads((out / f"{name}.json").read_text()) for name in ("metrics", "timing")}
 
 
-def both(bench, recording):
+def both(bench, recording, options=()):
     """The results of the default preset and of the paper's on one recording."""
-    return run(bench, recording, preset="default"), run(bench, recording)
+    return run(bench, recording, preset="default", options=options), run(bench, recording, options=options)
 
 
 def voxel(result, instant=False, reading="excluded"):
