@@ -105,6 +105,7 @@ int main(int argc, char** argv) {
         const int stride = argc == 3 ? std::atoi(argv[2]) : 1;
         if (stride < 1) throw ConfigError("STRIDE must be a positive number");
         const auto sequence = app::open(argv[1], "", {}, 0, {}, static_cast<std::size_t>(stride));
+        if (!sequence.has_truth()) throw ConfigError("the recording has no ground truth");
         fmt::print("{}", app::text_of(peer(sequence)));
         return 0;
     } catch (const Error& error) {

@@ -4,7 +4,7 @@ import sys
 from contextlib import contextmanager
 from pathlib import Path
 
-from lib.bench import NOISE, percent, run, simulated, table, voxel
+from lib.bench import NOISE, cells, percent, run, simulated, table, voxel
 from lib.mechanisms import MECHANISMS
 from lib.scratch import builds, prepare
 
@@ -41,15 +41,16 @@ def applied(tree, edits):
             (tree / file).write_text(text)
 
 
-def score_cells(bench, name):
-    """F1 and AA by recording. Quick: ten seconds of what has 10 scans a second."""
-    cells = []
+def score_row(bench, name):
+    """F1 / AA by recording; PR and RR go to the log. Quick: ten seconds of what has 10 scans a second."""
+    row = [name]
     for case in RECORDINGS.values():
         options = ("--last", 99) if bench.quick and case[0] != "crowd" else ()
         result = run(bench, simulated(bench, *case), preset="default", options=options)
-        cells.append(f"{voxel(result)[2]:.3f} / {percent(result['metrics']['point']['aa'])}")
-    print(name, *cells, file=sys.stderr, flush=True)
-    return [name, *cells]
+        pr, rr, f1 = cells(voxel(result))
+        print(f"without {name}: PR {pr}, RR {rr}, F1 {f1}", file=sys.stderr, flush=True)
+        row.append(f"{f1} / {percent(result['metrics']['point']['aa'])}")
+    return row
 
 
 def ablation_table(bench, names=tuple(MECHANISMS), scratch=Path("/tmp/dynamic_filter_ablate")):
@@ -58,10 +59,10 @@ def ablation_table(bench, names=tuple(MECHANISMS), scratch=Path("/tmp/dynamic_fi
         edited(tree, MECHANISMS[name])  # all fit, or nothing is run
     copy = dataclasses.replace(bench, command=build / "dynamicfilter")
     rows = []
-    for name, edits in {"(all there)": [], **{n: MECHANISMS[n] for n in names}}.items():
+    for name, edits in {"(nothing)": [], **{n: MECHANISMS[n] for n in names}}.items():
         with applied(tree, edits):
             if not builds(build, "dynamicfilter"):
                 sys.exit(f"script/lib/mechanisms.py: does not compile without {name}")
-            rows.append(score_cells(copy, name))
+            rows.append(score_row(copy, name))
     return ("\n## Default preset, ablation\n\n`script/ablate`: the mechanisms are no settings; each is edited out of a copy of the sources. "
             "F1 / AA [%], seed 1.\n\n" + table(["without", *RECORDINGS], rows))
