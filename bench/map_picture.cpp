@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-/// Maps of a run from above. `errors`: what is kept in grey, static points lost in blue, dynamic
-/// points kept in red. `submaps`: static points in the colour of the submap that decides them,
-/// which is the nearest; with the windows of preset `paper`.
+/// The voxels of a run from above. `errors`: kept ones in grey, static ones lost in blue, dynamic
+/// ones kept in red. `submaps`: kept ones in the colour of the submap that decides them, which is
+/// the nearest; with the windows of preset `paper`.
 #include <fmt/format.h>
 
 #include <algorithm>
