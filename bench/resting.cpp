@@ -13,7 +13,6 @@
 #include <string>
 #include <vector>
 
-#include "dynamic_filter/error.hpp"
 #include "dynamic_filter/geometry/voxel.hpp"
 #include "dynamic_filter/pipeline/dynamic_filter.hpp"
 #include "sim/bodies.hpp"

@@ -66,7 +66,8 @@ def scores_over_time(bench):
 def figures(bench):
     return ("\n## Figures\n\nCrowd of 100, VLP-16, seed 1, from above.\n\n"
             "*Figures 4 and 7, the variants.* Kept voxels in grey (paler: the floor), moving ones that were kept in red, static "
-            "ones that were lost in blue. Without the visibility check every submap near by counts as having looked: nearly all people go, and much of what is static with them.\n" +
+            "ones that were lost in blue. Without the visibility check every submap near by counts as having looked: nearly all "
+            "people go, and much of what is static with them.\n" +
             variant_pictures(bench) +
             "\n*Figure 5, merging (preset paper).* Kept voxels in the colour of the submap that decides them, which is the nearest.\n\n" +
             submap_picture(bench) +

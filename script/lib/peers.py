@@ -36,6 +36,6 @@ def peers_table(bench):
     return text + (
         "`build/release/octomap_peer RECORDING STRIDE`: Debian's OctoMap, `insertPointCloud` with the default sensor model, voxels of 0.2 m, "
         "no limit of range; a point is static if its voxel is occupied in the final tree, dynamic if free, unknown if not there. Seed 1. "
-        "Speeds are wall scans per second: OctoMap's with reading, ours with reading, filtering on two cores and writing; CPU times are OctoMap's insertion, "
-        "and our whole run.\n\n" +
+        "Scans per wall second: OctoMap's reading and insertion; our reading, filtering (on two cores) and writing. CPU times: "
+        "OctoMap's insertion, our whole run.\n\n" +
         table(["recording", "method", "PR [%]", "RR [%]", "F1", "AA [%]", "moving IoU [%]", "CPU [s]", "[scans/s]"], rows))

@@ -51,6 +51,7 @@ def table_one(bench, windows=None):
             print(f"SKIPPED: sequence {sequence} of SemanticKITTI is not in {root}", file=sys.stderr)
             rows.append([sequence, "Skipped: not there", *["-"] * 6])
     return text + (
-        "`script/reproduce --semantickitti PATH`: the windows of ERASOR, one scan of two (sequence 01: all), poses of the data set. PR, RR and F1 by ERASOR's rule "
-        "(`erasor` in `metrics.json`); behind them F1 with mixed voxels left out, AA and moving IoU. Points without a label, the car's own among them, are left out.\n\n" +
+        "`script/reproduce --semantickitti PATH`: the windows of ERASOR, one scan of two (sequence 01: all), poses of the data set. "
+        "PR, RR and F1 by ERASOR's rule (`erasor` in `metrics.json`); behind them F1 with mixed voxels left out, AA and moving IoU. "
+        "Points without a label, the car's own among them, are left out.\n\n" +
         table(["sequence", "method", "PR [%]", "RR [%]", "F1", "F1, mixed left out", "AA [%]", "moving IoU [%]"], rows + mean_rows(rows)))
