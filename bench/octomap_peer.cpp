@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+/// OctoMap (Hornung et al., Autonomous Robots 2013) on a recording: its default sensor model,
+/// voxels of 0.2 m, no limit of range. A point is static if its voxel is occupied in the final
+/// tree. Prints scores and the time of insertion as JSON.
+#include <fmt/format.h>
+#include <octomap/octomap.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <ctime>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "dynamic_filter/error.hpp"
+#include "frames.hpp"
+#include "report.hpp"
+
+namespace {
+
+using namespace dynamic_filter;
+
+struct Seconds {
+    double wall = 0.0, cpu = 0.0;
+};
+
+/// Adds the time since its birth.
+class Stopwatch {
+public:
+    explicit Stopwatch(Seconds& sum) : sum_(sum) {}
+    ~Stopwatch() {
+        sum_.wall += std::chrono::duration<double>(Clock::now() - wall_).count();
+        sum_.cpu += static_cast<double>(std::clock() - cpu_) / CLOCKS_PER_SEC;
+    }
+    Stopwatch(const Stopwatch&) = delete;
+    Stopwatch& operator=(const Stopwatch&) = delete;
+
+private:
+    using Clock = std::chrono::steady_clock;
+    Seconds& sum_;
+    Clock::time_point wall_ = Clock::now();
+    std::clock_t cpu_ = std::clock();
+};
+
+octomap::point3d to_octomap(const Point& p) { return {p.x(), p.y(), p.z()}; }
+
+/// The frame of the scores: a whole number of voxels from the world's, so the voxels are the same.
+void insert(octomap::OcTree& tree, const io::Frame& frame, const Eigen::Vector3d& origin,
+            Seconds& insertion) {
+    const Points points = app::shifted_world(frame, origin);
+    octomap::Pointcloud cloud;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (is_measured(frame.points[i])) cloud.push_back(to_octomap(points[i]));
+    }
+    const Eigen::Vector3d sensor = frame.T_world_sensor.translation() - origin;
+    const Stopwatch stopwatch(insertion);
+    tree.insertPointCloud(cloud, to_octomap(sensor.cast<float>()));
+}
+
+Labels labels_of(const octomap::OcTree& tree, const io::Frame& frame,
+                 const Eigen::Vector3d& origin) {
+    Labels labels;
+    for (const Point& p : app::shifted_world(frame, origin)) {
+        const auto* const node = tree.search(to_octomap(p));
+        labels.push_back(node == nullptr             ? Label::unknown
+                         : tree.isNodeOccupied(node) ? Label::still
+                                                     : Label::dynamic);
+    }
+    return labels;
+}
+
+nlohmann::ordered_json peer(const io::Sequence& sequence) {
+    const Eigen::Vector3d origin = app::scoring_origin(sequence, eval::kVoxelSize);
+    octomap::OcTree tree(eval::kVoxelSize);
+    Seconds insertion, all;
+    for (std::size_t i = 0; i < sequence.size(); ++i) {
+        const Stopwatch stopwatch(all);
+        insert(tree, io::read_frame(sequence, i), origin, insertion);
+    }
+    const auto scores =
+        eval::score_labels(sequence.size(),
+                           app::scan_source(sequence, origin,
+                                            [&](std::size_t i) {
+                                                return std::optional(labels_of(
+                                                    tree, io::read_frame(sequence, i), origin));
+                                            }),
+                           eval::kVoxelSize);
+    auto json = app::to_json(scores);
+    const auto scans = static_cast<double>(sequence.size());
+    json["scans"] = sequence.size();
+    json["cpu_seconds"] = insertion.cpu;
+    json["scans_per_second"] = scans / insertion.wall;
+    json["scans_per_second_with_reading"] = scans / all.wall;
+    return json;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc < 2 || argc > 3) {
+        fmt::print(stderr, "usage: octomap_peer RECORDING [STRIDE]\n");
+        return 2;
+    }
+    try {
+        const int stride = argc == 3 ? std::atoi(argv[2]) : 1;
+        if (stride < 1) throw ConfigError("STRIDE must be a positive number");
+        const auto sequence = app::open(argv[1], "", {}, 0, {}, static_cast<std::size_t>(stride));
+        if (!sequence.has_truth()) throw ConfigError("the recording has no ground truth");
+        fmt::print("{}", app::text_of(peer(sequence)));
+        return 0;
+    } catch (const Error& error) {
+        fmt::print(stderr, "octomap_peer: {}\n", error.what());
+        return 2;
+    }
+}

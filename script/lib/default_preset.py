@@ -1,0 +1,98 @@
+"""The default preset on simulated and real recordings, and its speed."""
+import os
+import shutil
+import statistics
+import sys
+from pathlib import Path
+
+from lib.bench import (BUILD, NOISE, both, call, cells, mean, memory_cell, percent, point_cells, run, simulated, spread,
+                               table, voxel)
+
+HEAD = ["PR [%]", "RR [%]", "F1", "instant F1", "AA [%]", "moving IoU [%]", "memory [MB]", "F1 with preset paper"]
+
+
+def row(bench, scene, sensor, *options):
+    """Both presets over all seeds."""
+    pairs = []
+    for seed in bench.seeds:
+        recording = simulated(bench, scene, sensor, seed, *options)
+        pairs.append(both(bench, recording))
+        shutil.rmtree(recording)
+    default = [d for d, _ in pairs]
+    pr, rr, f1 = cells(mean([voxel(r) for r in default]))
+    return [pr, rr, f1 + (spread([voxel(r)[2] for r in default]) if f1 != "-" else ""),
+            cells(mean([voxel(r, True) for r in default]))[2], *point_cells(default), memory_cell(default),
+            cells(mean([voxel(p) for _, p in pairs]))[2]]
+
+
+def scenes(bench, cases):
+    """One row a case: scene, sensor, people or None."""
+    rows = [[scene, sensor, people or "-", *row(bench, scene, sensor, *(["--pedestrians", people] if people else []))]
+            for scene, sensor, people in cases]
+    return table(["scene", "sensor", "people", *HEAD], rows)
+
+
+def default_table(bench):
+    cases = [("crowd", sensor, people) for sensor in ("vlp16", "os64") for people in (50, 100, 150)]
+    cases += [("street", "os64", None), ("square", "os64", None)]
+    return ("\n## Default preset: scans observe\n\n"
+            f"Mean of seeds {bench.seeds}, F1 with its standard deviation.\n\n" + scenes(bench, cases))
+
+
+def hall_table(bench):
+    return "\nA hall on two levels:\n\n" + scenes(bench, [("hall", "os64", None)])
+
+
+def scene_table(bench):
+    cases = [("crowd", "vlp16", *NOISE), ("square", "os64", *NOISE), ("crowd", "vlp16", "--pedestrians", 0),
+             ("crowd", "solid"), ("square", "solid"), ("street", "hdl64"), ("square", "vlp16"), ("crowd", "hdl32"),
+             ("crowd", "os128"), ("crowd", "vlp16", "--rate", 5)]
+    rows = [[scene, sensor, " ".join(map(str, options)), *row(bench, scene, sensor, *options)]
+            for scene, sensor, *options in cases]
+    return ("\n## Other sensors, noise, and nothing moving\n\n"
+            f"Same settings throughout, mean of seeds {bench.seeds}.\n\n" + table(["scene", "sensor", "options", *HEAD], rows))
+
+
+def speed_table(bench):
+    """Median of three runs each. Run it on an idle machine."""
+    rows = []
+    for scene, sensor in (("crowd", "vlp16"), ("street", "os64")):
+        recording = simulated(bench, scene, sensor, 1)
+        for preset in ("default", "paper"):
+            timing = [run(bench, recording, preset=preset)["timing"] for _ in range(1 if bench.quick else 3)]
+            rates = ([t["front_end"]["scans_per_second"] for t in timing],
+                     [t["back_end"]["submaps_per_second"] for t in timing], [t["scans_per_second"] for t in timing])
+            rows.append([scene, sensor, preset, *(f"{statistics.median(rate):.1f}" for rate in rates)])
+        shutil.rmtree(recording)
+    return ("\n## Speed\n\nTwo cores; median of three runs. Items per busy wall second of the stage, and scans per second of the whole run "
+            "with reading and writing. Default preset: the front-end is voxels, images and instant verdicts, the back-end "
+            "the visibility checks and the final verdicts of voxels; a submap is 20 keyframes.\n\n" +
+            table(["scene", "sensor", "preset", "front-end [scans/s]", "back-end [submaps/s]", "run [scans/s]"], rows))
+
+
+def error_tables(_):
+    text = "\n## Errors by class\n\nSeed 1; voxels that hold one kind only.\n"
+    for case in (("default", "crowd", "vlp16", 100, 1), ("paper", "crowd", "vlp16", 100, 1),
+                 ("default", "street", "os64", 30, 1), ("default", "square", "os64", 60, 1)):
+        print("errors", *case, file=sys.stderr, flush=True)
+        words = " ".join(map(str, case))
+        text += f"\n`build/release/error_table {words}`\n\n{call(BUILD / 'error_table', *case)}"
+    return text
+
+
+def real_table(bench):
+    data = os.environ.get("DYNAMICFILTER_DATA")
+    text = "\n## Real recordings\n\n"
+    if not data:
+        print("SKIPPED: real recordings (set DYNAMICFILTER_DATA)", file=sys.stderr)
+        return text + "Skipped: DYNAMICFILTER_DATA was not set.\n"
+    rows = []
+    for folder in sorted(p for p in Path(data).iterdir() if (p / "labels").is_dir()):
+        for preset, result in zip(("default", "paper"), both(bench, folder)):
+            point = result["metrics"]["point"]
+            rows.append([folder.name, result["metrics"]["scans"], preset, *cells(voxel(result)),
+                         cells(voxel(result, True))[2], *(percent(point[k]) for k in ("sa", "da", "aa", "iou")),
+                         memory_cell([result])])
+    return text + ("`DYNAMICFILTER_DATA=DIR script/reproduce`; points without ground truth are left out.\n\n" +
+                   table(["recording", "scans", "preset", "PR [%]", "RR [%]", "F1", "instant F1", "SA", "DA", "AA",
+                          "moving IoU", "memory [MB]"], rows))

@@ -1,0 +1,30 @@
+"""What the default preset is made of, each as the edit of the sources that takes it away.
+
+They are no settings on purpose. When the code of one changes, its edit is no longer found and the table says so:
+copy the new text here. An edit is (file, text that occurs there once, what replaces it).
+"""
+SIGHT = "src/back_end/line_of_sight.cpp"
+EVIDENCE = "src/back_end/evidence.cpp"
+MAP = "src/back_end/evidence_map.cpp"
+
+MECHANISMS = {
+    "neighbours' vote": [
+        (MAP, "return sum / weights;", "return 0.0F * sum / weights;")],
+    "runs: plain n_free > n_occ instead": [
+        (EVIDENCE, "0.9F * runs * std::sqrt(runs) * std::sqrt(returns);", "at_least_one(e.seen) + 0.0F * runs * returns;")],
+    "shrinkage while observers are few": [
+        (EVIDENCE, "kFew = 5.0F;", "kFew = 1e-6F;")],
+    "lines left-right": [
+        (SIGHT, "if (left.exists() && right.exists() &&", "if (false && left.exists() && right.exists() &&")],
+    "surface between rings occupies": [
+        (SIGHT, "return on_surface ? Sight::occupied : Sight::nothing;", "return Sight::nothing;")],
+    "margins grow with range": [
+        ("include/dynamic_filter/back_end/line_of_sight.hpp", "per_metre = 0.007F;", "per_metre = 0.0F;")],
+    "coarser pixels for rosettes": [
+        ("src/geometry/beam_image.cpp", "if (per_point <= kRaster) return 1.0F;", "if (per_point > 0.0F) return 1.0F;")],
+    "new voxels ask earlier keyframes": [
+        (MAP, "for (const Observer& observer : observers_) look_at(at, stop, observer);",
+         "look_at(at, stop, observers_.back());")],
+    "contact": [
+        ("src/back_end/contact.cpp", "if (!moving) return std::nullopt;", "if (true) return std::nullopt;")],
+}

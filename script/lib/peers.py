@@ -1,0 +1,41 @@
+"""Other methods on the same recordings."""
+import json
+import sys
+
+from lib.bench import BUILD, call, cells, percent, run, simulated, table, voxel
+
+OCTOMAP = BUILD / "octomap_peer"
+
+
+def octomap(recording, stride=1):
+    print("octomap", recording.name, "stride", stride, file=sys.stderr, flush=True)
+    return json.loads(call(OCTOMAP, recording, stride))
+
+
+def row(name, method, metrics, cpu, rate):
+    point = [percent(metrics["point"][k]) for k in ("aa", "iou")]
+    return [name, method, *cells(voxel({"metrics": metrics})), *point, f"{cpu:.0f}", f"{rate:.1f}"]
+
+
+def peers_table(bench):
+    """OctoMap takes almost a second a dense scan, so both get every second one."""
+    text = "\n## OctoMap on the same recordings\n\n"
+    if not OCTOMAP.exists():
+        print("SKIPPED: OctoMap (install liboctomap-dev)", file=sys.stderr)
+        return text + "Skipped: liboctomap-dev is not installed.\n"
+    rows = []
+    for scene, sensor, stride in (("crowd", "vlp16", 1), ("street", "os64", 2), ("hall", "os64", 2)):
+        stride *= 4 if bench.quick else 1
+        recording = simulated(bench, scene, sensor, 1)
+        name = f"{scene} {sensor}" + (f", one scan of {stride}" if stride > 1 else "")
+        peer = octomap(recording, stride)
+        rows.append(row(name, "OctoMap", peer, peer["cpu_seconds"], peer["scans_per_second_with_reading"]))
+        ours = run(bench, recording, preset="default", options=("--stride", stride))
+        rows.append(row(name, "default preset", ours["metrics"], ours["timing"]["cpu_seconds"],
+                        ours["timing"]["scans_per_second"]))
+    return text + (
+        "`build/release/octomap_peer RECORDING STRIDE`: Debian's OctoMap, `insertPointCloud` with the default sensor model, voxels of 0.2 m, "
+        "no limit of range; a point is static if its voxel is occupied in the final tree, dynamic if free, unknown if not there. Seed 1. "
+        "Scans per wall second: OctoMap's reading and insertion; our reading, filtering (on two cores) and writing. CPU times: "
+        "OctoMap's insertion, our whole run.\n\n" +
+        table(["recording", "method", "PR [%]", "RR [%]", "F1", "AA [%]", "moving IoU [%]", "CPU [s]", "[scans/s]"], rows))
