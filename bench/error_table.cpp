@@ -11,7 +11,7 @@
 
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/eval/voxel_scores.hpp"
-#include "dynamic_filter/geometry/voxel.hpp"
+#include "dynamic_filter/geometry/voxel_index.hpp"
 #include "dynamic_filter/pipeline/dynamic_filter.hpp"
 #include "dynamic_filter/sim/simulation.hpp"
 

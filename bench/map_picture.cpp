@@ -3,6 +3,7 @@
 /// ones kept in red. `submaps`: kept ones in the colour of the submap that decides them, which is
 /// the nearest; with the windows of preset `paper`.
 #include <fmt/format.h>
+#include <tsl/robin_map.h>
 
 #include <algorithm>
 #include <array>

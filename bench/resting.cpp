@@ -4,6 +4,7 @@
 /// other, five come one after the other. Prints Markdown tables: seconds, and the share of the
 /// person's voxels in the map at the end.
 #include <fmt/format.h>
+#include <tsl/robin_set.h>
 
 #include <algorithm>
 #include <array>

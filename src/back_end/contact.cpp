@@ -15,23 +15,15 @@ constexpr float kFlat = 0.025F;     // [m] most that they may be off it, root me
 constexpr float kLowest = 0.03F;    // [m] that something on the surface rises over it
 constexpr float kOutlier = 0.05F;   // [m] a centroid this far off it belongs to something else
 
-/// Calls use(verdict) for every voxel within so many cells.
-template <class Use>
-void each_within(int cells, const Cell& voxel, const VerdictOfCell& verdict_of, const Use& use) {
-    each_cell_within(cells, voxel, [&](const Cell& cell) {
-        if (const auto found = verdict_of(cell)) use(*found);
-    });
-}
-
 /// Mean centroid of the dynamic voxels that touch this one.
-std::optional<Point> moving_side(const Cell& voxel, const VerdictOfCell& verdict_of) {
+std::optional<Point> moving_side(std::span<const VoxelVerdict> around) {
     Point sum = Point::Zero();
     int count = 0;
-    each_within(1, voxel, verdict_of, [&](const VoxelVerdict& v) {
-        if (v.label != Label::dynamic) return;
+    for (const VoxelVerdict& v : around) {
+        if (v.label != Label::dynamic || v.distance > 1) continue;
         sum += v.centroid;
         ++count;
-    });
+    }
     if (count == 0) return std::nullopt;
     return Point(sum / static_cast<float>(count));
 }
@@ -64,13 +56,13 @@ std::optional<Surface> fit(const Points& points) {
 
 }  // namespace
 
-std::optional<Surface> contact_surface(const Cell& voxel, const VerdictOfCell& verdict_of) {
-    const auto moving = moving_side(voxel, verdict_of);
+std::optional<Surface> contact_surface(std::span<const VoxelVerdict> around) {
+    const auto moving = moving_side(around);
     if (!moving) return std::nullopt;
     Points still;
-    each_within(2, voxel, verdict_of, [&](const VoxelVerdict& v) {
+    for (const VoxelVerdict& v : around) {
         if (v.label == Label::still) still.push_back(v.centroid);
-    });
+    }
     auto surface = fit(still);
     if (!surface) return std::nullopt;
     const float height = surface->height(*moving);

@@ -164,15 +164,13 @@ float EvidenceMap::neighbors_vote(std::uint32_t voxel) const {
     constexpr float kAlone = 0.25F;  // weight of having no neighbour
     const Evidence& own = evidence_[voxel];
     float company = 0.0F, companions = kAlone, around = 0.0F, neighbors = kAlone;
-    const Cell home = unpack(voxels_.key(voxel));
-    each_cell_within(kCells, home, [&](const Cell& cell) {
-        const auto neighbor = voxels_.find(pack(cell));
-        if (!neighbor || *neighbor == voxel) return;
-        const float opinion = transience_[*neighbor];
-        const float together = co_presence(own, evidence_[*neighbor]);
+    voxels_.each_within(kCells, voxels_.key(voxel), [&](std::uint32_t neighbor, int distance) {
+        if (neighbor == voxel) return;
+        const float opinion = transience_[neighbor];
+        const float together = co_presence(own, evidence_[neighbor]);
         company += together * opinion;
         companions += together;
-        const float weight = (cell - home).cwiseAbs().maxCoeff() > 1 ? kFar : 1.0F;
+        const float weight = distance > 1 ? kFar : 1.0F;
         around += weight * opinion;
         neighbors += weight;
     });

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "dynamic_filter/eval/scores.hpp"
 
+#include <tsl/robin_set.h>
+
 #include <algorithm>
 #include <vector>
 

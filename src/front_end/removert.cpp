@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "dynamic_filter/front_end/submap.hpp"
+#include "dynamic_filter/geometry/voxel_index.hpp"
 #include "dynamic_filter/parallel.hpp"
 
 namespace dynamic_filter {

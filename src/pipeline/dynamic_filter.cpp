@@ -97,12 +97,19 @@ void DynamicFilter::decide_voxels() {
 
 std::optional<Surface> DynamicFilter::contact_of(std::uint32_t voxel) const {
     if (label_of(decided_[voxel].probability) != Label::still) return std::nullopt;
-    const auto verdict_of = [&](const Cell& cell) -> std::optional<VoxelVerdict> {
-        const auto v = evidence_.voxels().find(pack(cell));
-        if (!v) return std::nullopt;
-        return VoxelVerdict{evidence_.centroid(*v), label_of(decided_[*v].probability)};
+    const auto each_within = [&](int cells, const auto& use) {
+        voxels().each_within(cells, voxels().key(voxel), use);
     };
-    return contact_surface(unpack(evidence_.voxels().key(voxel)), verdict_of);
+    bool touches_dynamic = false;
+    each_within(1, [&](std::uint32_t v, int) {
+        touches_dynamic |= label_of(decided_[v].probability) == Label::dynamic;
+    });
+    if (!touches_dynamic) return std::nullopt;
+    std::vector<VoxelVerdict> around;
+    each_within(2, [&](std::uint32_t v, int distance) {
+        around.push_back({evidence_.centroid(v), label_of(decided_[v].probability), distance});
+    });
+    return contact_surface(around);
 }
 
 void DynamicFilter::merge_local_maps() {
@@ -123,16 +130,10 @@ Label DynamicFilter::label_of(std::optional<float> probability) const {
     return *probability >= threshold ? Label::still : Label::dynamic;
 }
 
-Label DynamicFilter::label_of(const Point& map_point, float& probability) const {
-    probability = 0.0F;
+Label DynamicFilter::label_by_submaps(const Point& map_point, float& probability) const {
     const auto key = voxel_of(map_point, static_cast<float>(config_.back_end.voxel_size));
     if (!key) return Label::unknown;
     const auto voxel = voxels().find(*key);
-    if (scans_observe()) {
-        if (!voxel || *voxel >= decided_.size()) return Label::unknown;
-        probability = decided_[*voxel].probability.value_or(0.0F);
-        return label_of(decided_[*voxel].probability);
-    }
     if (!voxel) return Label::dynamic;  // no static submap holds it: the front-end removed it all
     if (!config_.back_end.enabled) {
         probability = 1.0F;
@@ -198,35 +199,51 @@ Verdict DynamicFilter::verdict(const Scan& scan) const {
     to_map(scan.points, to_map_frame(scan.T_world_sensor), points);
     Verdict verdict{scan.index, Labels(points.size(), Label::unknown),
                     std::vector<float>(points.size(), 0.0F)};
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        if (is_measured(scan.points[i])) {
-            verdict.labels[i] = label_of(points[i], verdict.probability[i]);
-        }
+    if (scans_observe()) {
+        judge_by_scans(scan.points, points, verdict);
+        return verdict;
     }
-    if (scans_observe()) judge_contacts(points, verdict.labels);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (!is_measured(scan.points[i])) continue;
+        verdict.labels[i] = label_by_submaps(points[i], verdict.probability[i]);
+    }
     return verdict;
+}
+
+void DynamicFilter::judge_by_scans(const Points& sensor_points, const Points& map_points,
+                                   Verdict& verdict) const {
+    const auto size = static_cast<float>(config_.back_end.voxel_size);
+    VoxelFinder find(voxels());
+    PointVoxels voxels(map_points.size(), kNoVoxel);
+    for (std::size_t i = 0; i < map_points.size(); ++i) {
+        if (!is_measured(sensor_points[i])) continue;
+        const auto key = voxel_of(map_points[i], size);
+        const std::uint32_t voxel = key ? find(*key) : kNoVoxel;
+        if (voxel >= decided_.size()) continue;  // not there, or before finish()
+        voxels[i] = voxel;
+        verdict.labels[i] = label_of(decided_[voxel].probability);
+        verdict.probability[i] = decided_[voxel].probability.value_or(0.0F);
+    }
+    judge_contacts(map_points, voxels, verdict.labels);
 }
 
 /// A static point becomes dynamic if it lies above the static surface of its voxel while, in this
 /// very scan, something dynamic touches the voxel.
-void DynamicFilter::judge_contacts(const Points& points, Labels& labels) const {
-    const auto size = static_cast<float>(config_.back_end.voxel_size);
-    tsl::robin_set<VoxelKey, VoxelHash> moving;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        if (labels[i] == Label::dynamic) moving.insert(*voxel_of(points[i], size));
-    }
-    const auto touches_moving = [&](const Cell& home) {
-        bool touches = false;
-        each_cell_within(1, home,
-                         [&](const Cell& cell) { touches |= moving.contains(pack(cell)); });
-        return touches;
-    };
-    for (std::size_t i = 0; i < points.size(); ++i) {
+void DynamicFilter::judge_contacts(const Points& map_points, const PointVoxels& voxels,
+                                   Labels& labels) const {
+    std::vector<bool> moving(decided_.size());  // dynamic voxels with a point in this scan
+    std::vector<std::size_t> above;
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        if (labels[i] == Label::dynamic) moving[voxels[i]] = true;
         if (labels[i] != Label::still) continue;
-        const VoxelKey key = *voxel_of(points[i], size);
-        const auto& contact = decided_[*voxels().find(key)].contact;
-        const bool above = contact && contact->height(points[i]) > kContactHeight;
-        if (above && touches_moving(unpack(key))) labels[i] = Label::dynamic;
+        const auto& contact = decided_[voxels[i]].contact;
+        if (contact && contact->height(map_points[i]) > kContactHeight) above.push_back(i);
+    }
+    for (const std::size_t i : above) {
+        bool touches = false;
+        evidence_.voxels().each_within(1, evidence_.voxels().key(voxels[i]),
+                                       [&](std::uint32_t v, int) { touches |= moving[v]; });
+        if (touches) labels[i] = Label::dynamic;
     }
 }
 

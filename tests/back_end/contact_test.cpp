@@ -18,12 +18,15 @@ struct World {
 
     void add(const Point& p, Label label) { voxels[pack(*cell_of(p, 1.0F / kSize))] = {p, label}; }
     [[nodiscard]] std::optional<Surface> contact(const Point& p) const {
-        return contact_surface(*cell_of(p, 1.0F / kSize),
-                               [&](const Cell& cell) -> std::optional<VoxelVerdict> {
-                                   const auto it = voxels.find(pack(cell));
-                                   if (it == voxels.end()) return std::nullopt;
-                                   return it->second;
-                               });
+        const Cell home = *cell_of(p, 1.0F / kSize);
+        std::vector<VoxelVerdict> around;
+        for (const auto& [key, verdict] : voxels) {
+            const int distance = (unpack(key) - home).cwiseAbs().maxCoeff();
+            if (distance > 2) continue;
+            around.push_back(verdict);
+            around.back().distance = distance;
+        }
+        return contact_surface(around);
     }
 };
 

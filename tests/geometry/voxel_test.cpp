@@ -109,23 +109,5 @@ TEST(Voxel, TheHashSpreadsNeighboursOverSmallTables) {
     EXPECT_LT(*std::max_element(load.begin(), load.end()), 3 * 32);
 }
 
-TEST(VoxelIndex, NumbersVoxelsInTheOrderTheyAreMet) {
-    test::Random random(4);
-    VoxelIndex index;
-    std::vector<VoxelKey> met;
-    for (int i = 0; i < 5000; ++i) {
-        const VoxelKey key =
-            pack(Cell(static_cast<int>(random.below(10)), -3, static_cast<int>(random.below(50))));
-        const auto known = std::find(met.begin(), met.end(), key);
-        EXPECT_EQ(index.find(key).has_value(), known != met.end());
-        const auto expected = static_cast<std::uint32_t>(known - met.begin());
-        if (known == met.end()) met.push_back(key);
-        ASSERT_EQ(index.insert(key), expected);
-        ASSERT_EQ(index.find(key), expected);
-        ASSERT_EQ(index.key(expected), key);
-        ASSERT_EQ(index.size(), met.size());
-    }
-}
-
 }  // namespace
 }  // namespace dynamic_filter

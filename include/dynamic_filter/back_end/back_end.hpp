@@ -9,7 +9,7 @@
 #include "dynamic_filter/config.hpp"
 #include "dynamic_filter/front_end/submap.hpp"
 #include "dynamic_filter/geometry/range_image.hpp"
-#include "dynamic_filter/geometry/voxel.hpp"
+#include "dynamic_filter/geometry/voxel_index.hpp"
 #include "dynamic_filter/stage_times.hpp"
 
 namespace dynamic_filter {

@@ -3,8 +3,8 @@
 /// the static surface instead.
 #pragma once
 
-#include <functional>
 #include <optional>
+#include <span>
 
 #include "dynamic_filter/geometry/voxel.hpp"
 #include "dynamic_filter/types.hpp"
@@ -22,15 +22,15 @@ struct Surface {
 /// noise of common sensors.
 constexpr float kContactHeight = 0.08F;
 
-/// A neighbouring voxel: its centroid and verdict; empty where there is none.
+/// A voxel within two cells of the one in question, or that one itself.
 struct VoxelVerdict {
     Point centroid = Point::Zero();
     Label label = Label::unknown;
+    int distance = 0;  ///< in cells, along the farthest axis
 };
-using VerdictOfCell = std::function<std::optional<VoxelVerdict>(const Cell&)>;
 
 /// The surface in a static voxel that touches a dynamic one: the plane of the static centroids
-/// within two cells. Empty if nothing dynamic touches the voxel, or they are no plane.
-std::optional<Surface> contact_surface(const Cell& voxel, const VerdictOfCell& verdict_of);
+/// among `around`. Empty if nothing dynamic touches the voxel, or they are no plane.
+std::optional<Surface> contact_surface(std::span<const VoxelVerdict> around);
 
 }  // namespace dynamic_filter

@@ -8,7 +8,7 @@
 
 #include "dynamic_filter/back_end/evidence.hpp"
 #include "dynamic_filter/config.hpp"
-#include "dynamic_filter/geometry/voxel.hpp"
+#include "dynamic_filter/geometry/voxel_index.hpp"
 #include "dynamic_filter/stage_times.hpp"
 #include "dynamic_filter/types.hpp"
 
@@ -23,7 +23,6 @@ struct Observer {
 
 /// The voxel of each point of a scan; kNoVoxel for points that were not measured or lie too far out.
 using PointVoxels = std::vector<std::uint32_t>;
-constexpr std::uint32_t kNoVoxel = UINT32_MAX;
 
 /// Every voxel is asked about once by every observer: a new keyframe looks at the voxels known so
 /// far, a new voxel asks the keyframes kept so far. So nothing is computed twice, and the result is

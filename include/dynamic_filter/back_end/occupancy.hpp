@@ -8,7 +8,7 @@
 
 #include "dynamic_filter/back_end/submap_buffer.hpp"
 #include "dynamic_filter/back_end/visibility_check.hpp"
-#include "dynamic_filter/geometry/voxel.hpp"
+#include "dynamic_filter/geometry/voxel_index.hpp"
 
 namespace dynamic_filter {
 

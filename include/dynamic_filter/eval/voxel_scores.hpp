@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "dynamic_filter/geometry/voxel.hpp"
+#include "dynamic_filter/geometry/voxel_index.hpp"
 #include "dynamic_filter/types.hpp"
 
 namespace dynamic_filter::eval {

@@ -2,6 +2,8 @@
 /// A static submap (Sec. III-B).
 #pragma once
 
+#include <tsl/robin_set.h>
+
 #include <vector>
 
 #include "dynamic_filter/front_end/window.hpp"

@@ -2,6 +2,8 @@
 /// Neighbours within a fixed radius, by a hash grid whose cells are as wide as the radius.
 #pragma once
 
+#include <tsl/robin_map.h>
+
 #include <cstdint>
 #include <span>
 #include <vector>

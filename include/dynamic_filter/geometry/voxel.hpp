@@ -3,13 +3,9 @@
 /// at voxels of 0.2 m, from the map frame's origin.
 #pragma once
 
-#include <tsl/robin_map.h>
-#include <tsl/robin_set.h>
-
 #include <cmath>
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "dynamic_filter/types.hpp"
 
@@ -49,20 +45,6 @@ inline Point center(VoxelKey key, float size) {
     return (unpack(key).cast<float>().array() + 0.5F).matrix() * size;
 }
 
-/// Calls use(cell) for every cell with a key in the cube of so many cells around `home`, x slowest,
-/// z fastest; `home` too.
-template <class Use>
-void each_cell_within(int cells, const Cell& home, const Use& use) {
-    for (int x = -cells; x <= cells; ++x) {
-        for (int y = -cells; y <= cells; ++y) {
-            for (int z = -cells; z <= cells; ++z) {
-                const Cell cell = home + Cell(x, y, z);
-                if (fits(cell)) use(cell);
-            }
-        }
-    }
-}
-
 /// Murmur's finaliser: neighbouring keys spread over the whole table.
 struct VoxelHash {
     std::size_t operator()(VoxelKey k) const {
@@ -72,26 +54,6 @@ struct VoxelHash {
         k *= 0xc4ceb9fe1a85ec53ULL;
         return static_cast<std::size_t>(k ^ (k >> 33));
     }
-};
-
-/// Numbers voxels in the order in which they are first met: dense ids for plain arrays.
-class VoxelIndex {
-public:
-    std::uint32_t insert(VoxelKey key) {
-        const auto [it, fresh] = ids_.try_emplace(key, static_cast<std::uint32_t>(keys_.size()));
-        if (fresh) keys_.push_back(key);
-        return it->second;
-    }
-    [[nodiscard]] std::optional<std::uint32_t> find(VoxelKey key) const {
-        const auto it = ids_.find(key);
-        return it == ids_.end() ? std::nullopt : std::optional(it->second);
-    }
-    [[nodiscard]] VoxelKey key(std::uint32_t id) const { return keys_[id]; }
-    [[nodiscard]] std::size_t size() const { return keys_.size(); }
-
-private:
-    tsl::robin_map<VoxelKey, std::uint32_t, VoxelHash> ids_;
-    std::vector<VoxelKey> keys_;
 };
 
 }  // namespace dynamic_filter

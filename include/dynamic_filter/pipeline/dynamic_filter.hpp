@@ -77,9 +77,11 @@ private:
     [[nodiscard]] Verdict instant_verdict(std::size_t index, const PointVoxels& voxels) const;
     void decide_voxels();
     [[nodiscard]] std::optional<Surface> contact_of(std::uint32_t voxel) const;
-    void judge_contacts(const Points& map_points, Labels& labels) const;
+    void judge_by_scans(const Points& sensor_points, const Points& map_points,
+                        Verdict& verdict) const;
+    void judge_contacts(const Points& map_points, const PointVoxels& voxels, Labels& labels) const;
     void merge_local_maps();
-    [[nodiscard]] Label label_of(const Point& map_point, float& probability) const;
+    [[nodiscard]] Label label_by_submaps(const Point& map_point, float& probability) const;
     [[nodiscard]] Label label_of(std::optional<float> probability) const;
 
     Config config_;

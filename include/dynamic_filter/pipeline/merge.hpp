@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "dynamic_filter/back_end/occupancy.hpp"
-#include "dynamic_filter/geometry/voxel.hpp"
+#include "dynamic_filter/geometry/voxel_index.hpp"
 
 namespace dynamic_filter {
 

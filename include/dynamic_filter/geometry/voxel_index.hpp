@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+/// Numbers for voxels, and the voxels around a voxel.
+#pragma once
+
+#include <tsl/robin_map.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "dynamic_filter/geometry/voxel.hpp"
+
+namespace dynamic_filter {
+
+constexpr std::uint32_t kNoVoxel = UINT32_MAX;
+
+/// Numbers voxels in the order in which they are first met: dense ids for plain arrays. Inside,
+/// voxels live in blocks of 4 x 4 x 4: what is near is near in memory, and one look into the hash
+/// table serves a whole block. Const members may run in several threads.
+class VoxelIndex {
+public:
+    std::uint32_t insert(VoxelKey key);
+
+    [[nodiscard]] std::optional<std::uint32_t> find(VoxelKey key) const {
+        const Block* block = find_block(block_of(key));
+        if (block == nullptr || (block->present >> place_of(key) & 1U) == 0) return std::nullopt;
+        return block->ids[place_of(key)];
+    }
+    [[nodiscard]] VoxelKey key(std::uint32_t id) const { return keys_[id]; }
+    [[nodiscard]] std::size_t size() const { return keys_.size(); }
+
+    /// Calls use(id, distance) for every voxel in the cube of so many cells around `home`, itself
+    /// too, in an order that does not depend on the ids. Distance in cells, that of the farthest
+    /// axis.
+    template <class Use>
+    void each_within(int cells, VoxelKey home, const Use& use) const;
+
+private:
+    friend class VoxelFinder;
+    struct Block {
+        std::uint64_t present = 0;  // bit 16 x + 4 y + z
+        std::array<std::uint32_t, 64> ids{};
+    };
+    static constexpr VoxelKey kInBlock = VoxelKey{3} << 42 | VoxelKey{3} << 21 | 3;
+
+    static VoxelKey block_of(VoxelKey key) { return key & ~kInBlock; }
+    static std::uint32_t place_of(VoxelKey key) {
+        return static_cast<std::uint32_t>((key >> 38 & 48) | (key >> 19 & 12) | (key & 3));
+    }
+    [[nodiscard]] const Block* find_block(VoxelKey block) const {
+        const auto it = number_of_block_.find(block);
+        return it == number_of_block_.end() ? nullptr : &blocks_[it->second];
+    }
+    /// Places of a block whose coordinate on the axis lies in [low, high]; bits of axis 0 are 16
+    /// apart, of axis 1 four, of axis 2 one.
+    static std::uint64_t slab(int axis, int low, int high);
+
+    tsl::robin_map<VoxelKey, std::uint32_t, VoxelHash> number_of_block_;
+    std::vector<Block> blocks_;
+    std::vector<VoxelKey> keys_;
+    VoxelKey last_block_ = ~VoxelKey{0};  // of insert(): the next point is mostly in the same
+    std::uint32_t last_number_ = 0;
+};
+
+/// Finds one voxel after another; quick while they share a block. For one thread; the index must
+/// outlive it and not grow meanwhile.
+class VoxelFinder {
+public:
+    explicit VoxelFinder(const VoxelIndex& index) : index_(index) {}
+
+    /// kNoVoxel: not there.
+    std::uint32_t operator()(VoxelKey key) {
+        if (const VoxelKey block = VoxelIndex::block_of(key); block != last_) {
+            last_ = block;
+            found_ = index_.find_block(block);
+        }
+        const std::uint32_t place = VoxelIndex::place_of(key);
+        const bool present = found_ != nullptr && (found_->present >> place & 1U) != 0;
+        return present ? found_->ids[place] : kNoVoxel;
+    }
+
+private:
+    const VoxelIndex& index_;
+    VoxelKey last_ = ~VoxelKey{0};
+    const VoxelIndex::Block* found_ = nullptr;
+};
+
+inline std::uint64_t VoxelIndex::slab(int axis, int low, int high) {
+    constexpr std::array<std::uint64_t, 3> kOne = {0xFFFF, 0x000F'000F'000F'000F,
+                                                   0x1111'1111'1111'1111};
+    const int apart = 16 >> 2 * axis;
+    std::uint64_t places = 0;
+    for (int at = low; at <= high; ++at) {
+        places |= kOne[static_cast<std::size_t>(axis)] << apart * at;
+    }
+    return places;
+}
+
+template <class Use>
+void VoxelIndex::each_within(int cells, VoxelKey home, const Use& use) const {
+    struct Part {
+        int block;
+        std::uint64_t places;
+    };
+    constexpr int kCells = 2 * kCellLimit;  // along an axis
+    const Cell center = (unpack(home).array() + kCellLimit).matrix();
+    std::array<std::array<Part, 4>, 3> parts{};
+    std::array<std::size_t, 3> count{};
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto a = static_cast<std::size_t>(axis);
+        const int low = std::max(center[axis] - cells, 0);
+        const int high = std::min(center[axis] + cells, kCells - 1);
+        for (int block = low >> 2; block <= high >> 2; ++block) {
+            parts[a][count[a]++] = {
+                block, slab(axis, std::max(low - 4 * block, 0), std::min(high - 4 * block, 3))};
+        }
+    }
+    for (std::size_t x = 0; x < count[0]; ++x) {
+        for (std::size_t y = 0; y < count[1]; ++y) {
+            for (std::size_t z = 0; z < count[2]; ++z) {
+                const Cell corner(4 * parts[0][x].block, 4 * parts[1][y].block,
+                                  4 * parts[2][z].block);
+                const Block* block = find_block(pack((corner.array() - kCellLimit).matrix()));
+                if (block == nullptr) continue;
+                std::uint64_t places =
+                    block->present & parts[0][x].places & parts[1][y].places & parts[2][z].places;
+                for (; places != 0; places &= places - 1) {
+                    const int place = std::countr_zero(places);
+                    const Cell cell = corner + Cell(place >> 4, place >> 2 & 3, place & 3);
+                    use(block->ids[static_cast<std::size_t>(place)],
+                        (cell - center).cwiseAbs().maxCoeff());
+                }
+            }
+        }
+    }
+}
+
+}  // namespace dynamic_filter
