@@ -8,20 +8,21 @@ EVIDENCE = "src/back_end/evidence.cpp"
 MAP = "src/back_end/evidence_map.cpp"
 
 MECHANISMS = {
-    "neighbours' vote": [
-        (MAP, "return sum / weights;", "return 0.0F * sum / weights;")],
+    "company's vote": [
+        (MAP, "return company / companions +", "return 0.0F * company / companions +")],
+    "neighbourhood's vote": [
+        (MAP, "2.0F * around / neighbors;", "0.0F * around / neighbors;")],
     "runs: plain n_free > n_occ instead": [
-        (EVIDENCE, "0.9F * runs * std::sqrt(runs) * std::sqrt(returns);", "at_least_one(e.seen) + 0.0F * runs * returns;")],
+        (EVIDENCE, "0.45F * std::exp(0.9F * std::log(1.0F + e.switches) + 0.2F * returns) + kOffset;",
+         "0.0F * returns + e.seen + kOffset;")],
     "shrinkage while observers are few": [
-        (EVIDENCE, "kFew = 5.0F;", "kFew = 1e-6F;")],
+        (EVIDENCE, "kFew = 3.0F;", "kFew = 1e-6F;")],
     "lines left-right": [
         (SIGHT, "if (left.exists() && right.exists() &&", "if (false && left.exists() && right.exists() &&")],
     "surface between rings occupies": [
         (SIGHT, "return on_surface ? Sight::occupied : Sight::nothing;", "return Sight::nothing;")],
     "margins grow with range": [
         ("include/dynamic_filter/back_end/line_of_sight.hpp", "per_metre = 0.007F;", "per_metre = 0.0F;")],
-    "coarser pixels for rosettes": [
-        ("src/geometry/beam_image.cpp", "if (per_point <= kRaster) return 1.0F;", "if (per_point > 0.0F) return 1.0F;")],
     "new voxels ask earlier keyframes": [
         (MAP, "for (const Observer& observer : observers_) look_at(at, stop, observer);",
          "look_at(at, stop, observers_.back());")],

@@ -2,7 +2,6 @@
 #include "dynamic_filter/geometry/beam_image.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -27,38 +26,9 @@ constexpr float kUnknownStep = 1.0F * std::numbers::pi_v<float> / 180.0F;
 
 /// No sensor's beams are farther apart; an estimate that says so had too few points.
 constexpr float kMostStep = 3.0F * std::numbers::pi_v<float> / 180.0F;
-constexpr float kFarthest = 655.0F;  // [m] that 16 bits of centimetres can hold
 
 float step_of(float spacing) {
     return spacing > 0.0F ? std::clamp(spacing, kLeastStep, kMostStep) : kUnknownStep;
-}
-
-/// How much of its span [rad] an angle really covers, by parts of five degrees.
-float covered(const std::vector<float>& angles, const std::vector<float>& ranges) {
-    constexpr int kParts = 72;
-    constexpr float kPart = 2.0F * std::numbers::pi_v<float> / kParts;
-    std::array<bool, kParts> hit{};
-    for (std::size_t i = 0; i < angles.size(); ++i) {
-        if (!(ranges[i] > 0.0F && ranges[i] < kFarthest)) continue;
-        const int part = static_cast<int>((angles[i] + std::numbers::pi_v<float>) / kPart);
-        hit[static_cast<std::size_t>(std::clamp(part, 0, kParts - 1))] = true;
-    }
-    return kPart * static_cast<float>(std::count(hit.begin(), hit.end(), true));
-}
-
-/// Growth of the pixels for a sensor whose beams follow no raster (a rosette): the gaps between
-/// neighbours say little there. Three pixels per point in what the scan covers, but none beyond a
-/// degree: places between far beams are not known.
-float coarsening(const Directions& seen, const ImageGrid& grid) {
-    constexpr float kRaster = 3.0F;  // pixels per point that missing returns of a raster explain
-    const auto points = std::count_if(seen.range.begin(), seen.range.end(),
-                                      [](float r) { return r > 0.0F && r < kFarthest; });
-    const float pixels = covered(seen.azimuth, seen.range) * covered(seen.elevation, seen.range) /
-                         (grid.azimuth_step * grid.elevation_step);
-    const float per_point = pixels / std::max(1.0F, static_cast<float>(points));
-    if (per_point <= kRaster) return 1.0F;
-    const float largest = std::max(grid.azimuth_step, grid.elevation_step);
-    return std::clamp(kUnknownStep / largest, 1.0F, std::sqrt(per_point / kRaster));
 }
 
 /// Index and 1/256 part of a position in steps.
@@ -91,24 +61,53 @@ void to_spherical(std::span<const Point> points, const Eigen::Isometry3f& T_imag
 
 BeamImage::BeamImage(std::span<const Point> points, const BeamPattern& spacing) {
     const ElevationRange span = elevation_range(points);
-    const float across = step_of(spacing.azimuth_spacing), up = step_of(spacing.elevation_spacing);
-    grid_ = make_grid(across, up, span.min, span.max);
+    grid_ = make_grid(step_of(spacing.azimuth_spacing), step_of(spacing.elevation_spacing),
+                      span.min, span.max);
     Directions seen;
     to_spherical(points, Eigen::Isometry3f::Identity(), seen);
-    if (const float growth = coarsening(seen, grid_); growth > 1.0F) {
-        grid_ = make_grid(growth * across, growth * up, span.min, span.max);
-    }
-    pixels_.resize(grid_.size());
+    const auto column_of = [&](std::size_t i) {
+        return split((seen.azimuth[i] + kPi) / grid_.azimuth_step, grid_.columns);
+    };
+    const auto range_of = [&](std::size_t i) { return std::round(100.0F * seen.range[i]); };
+    const auto fits = [](float range_cm) { return range_cm >= 1.0F && range_cm <= 65535.0F; };
+    std::vector<bool> hit(static_cast<std::size_t>(grid_.columns));
     for (std::size_t i = 0; i < points.size(); ++i) {
-        const float range_cm = std::round(100.0F * seen.range[i]);
-        if (!(range_cm >= 1.0F && range_cm <= 65535.0F)) continue;  // NaN too
+        if (fits(range_of(i))) hit[static_cast<std::size_t>(column_of(i).index)] = true;
+    }
+    find_view(hit);
+    pixels_.resize(static_cast<std::size_t>(grid_.rows) *
+                   static_cast<std::size_t>(stored_columns_));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const float range_cm = range_of(i);
+        if (!fits(range_cm)) continue;  // NaN too
         const Position row =
             split((seen.elevation[i] - grid_.elevation_min) / grid_.elevation_step, grid_.rows);
-        const Position column = split((seen.azimuth[i] + kPi) / grid_.azimuth_step, grid_.columns);
+        const Position column = column_of(i);
         Pixel& p = pixels_[pixel(row.index, column.index)];
         if (p.range_cm != 0 && static_cast<float>(p.range_cm) <= range_cm) continue;
         p = {static_cast<std::uint16_t>(range_cm), column.part, row.part};
     }
+}
+
+void BeamImage::find_view(const std::vector<bool>& hit) {
+    const int columns = grid_.columns;
+    const auto first_hit = std::find(hit.begin(), hit.end(), true);
+    if (first_hit == hit.end()) return;
+    const auto start = static_cast<int>(first_hit - hit.begin());
+    int gap = 0, widest = 0;
+    for (int i = 1; i <= columns; ++i) {  // once around, back to a column that was hit
+        const int column = (start + i) % columns;
+        if (!hit[static_cast<std::size_t>(column)]) {
+            ++gap;
+            continue;
+        }
+        if (gap > widest || i == 1) {
+            widest = gap;
+            first_column_ = column;
+        }
+        gap = 0;
+    }
+    stored_columns_ = columns - widest;
 }
 
 }  // namespace dynamic_filter

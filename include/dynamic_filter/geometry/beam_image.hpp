@@ -26,9 +26,9 @@ struct Beam {
     float azimuth = 0.0F, elevation = 0.0F, range = 0.0F;
 };
 
-/// One beam per pixel, the nearest; pixels are as wide as the sensor's beams are apart. Immutable
-/// after make_beam_image; thread-safe. Four bytes a pixel: range in steps of 1 cm, direction in
-/// 1/256 of the pixel.
+/// One beam per pixel, the nearest; pixels are as wide as the sensor's beams are apart. Immutable;
+/// thread-safe. Four bytes for each pixel in the field of view: range in steps of 1 cm, direction
+/// in 1/256 of the pixel.
 class BeamImage {
 public:
     BeamImage() = default;
@@ -36,9 +36,10 @@ public:
     BeamImage(std::span<const Point> points, const BeamPattern& spacing);
 
     [[nodiscard]] const ImageGrid& grid() const { return grid_; }
+    [[nodiscard]] std::size_t bytes() const { return pixels_.size() * sizeof(Pixel); }
     /// False where nothing returned.
     [[nodiscard]] bool has_beam(int row, int column) const {
-        return pixels_[pixel(row, column)].range_cm != 0;
+        return is_stored(column) && pixels_[pixel(row, column)].range_cm != 0;
     }
     [[nodiscard]] Beam beam(int row, int column) const {
         const Pixel& p = pixels_[pixel(row, column)];
@@ -56,12 +57,21 @@ private:
         std::uint16_t range_cm = 0;  // 0: nothing returned
         std::uint8_t column_part = 0, row_part = 0;
     };
-    [[nodiscard]] std::size_t pixel(int row, int column) const {
-        return static_cast<std::size_t>(row) * static_cast<std::size_t>(grid_.columns) +
-               static_cast<std::size_t>(column);
+    /// Counted from the first column of the field of view.
+    [[nodiscard]] int stored_column(int column) const {
+        return column - first_column_ + (column < first_column_ ? grid_.columns : 0);
     }
+    [[nodiscard]] bool is_stored(int column) const {
+        return stored_column(column) < stored_columns_;
+    }
+    [[nodiscard]] std::size_t pixel(int row, int column) const {
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(stored_columns_) +
+               static_cast<std::size_t>(stored_column(column));
+    }
+    void find_view(const std::vector<bool>& hit);
 
     ImageGrid grid_;
+    int first_column_ = 0, stored_columns_ = 0;  // the view: all but the widest gap
     std::vector<Pixel> pixels_;
 };
 
