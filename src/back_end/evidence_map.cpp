@@ -12,10 +12,6 @@ namespace dynamic_filter {
 
 namespace {
 
-/// Voxels are looked at by so many at a time. Ids go by the order in which voxels were met, so a
-/// chunk is a region, and those out of reach are skipped whole.
-constexpr std::size_t kChunk = 256;
-
 Observer make_observer(const Scan& scan, const BeamPattern& beams) {
     return {BeamImage(scan.points, beams), scan.T_world_sensor.inverse().cast<float>(),
             scan.T_world_sensor.translation().cast<float>()};
@@ -74,39 +70,67 @@ bool EvidenceMap::add_observer(const Scan& scan) {
     return true;
 }
 
+/// Whom to look at in a block, and room to do so.
+struct EvidenceMap::Glance {
+    std::uint32_t first = 0, end = 0;  // voxels
+    std::vector<std::uint32_t> voxels{};
+    Points centroids{};
+    Directions seen{};
+};
+
 /// The newest observer looks at the voxels known before it.
 void EvidenceMap::check_known(std::size_t known) {
-    parallel_for((known + kChunk - 1) / kChunk, 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t chunk = begin; chunk < end; ++chunk) {
-            look_at(chunk * kChunk, std::min((chunk + 1) * kChunk, known), observers_.back());
+    constexpr std::size_t kGrain = 32;  // blocks
+    parallel_for(voxels_.blocks(), kGrain, [&](std::size_t begin, std::size_t end) {
+        Glance glance{.first = 0, .end = static_cast<std::uint32_t>(known)};
+        for (std::size_t block = begin; block < end; ++block) {
+            look_at(static_cast<std::uint32_t>(block), glance, observers_.back());
         }
     });
 }
 
 /// New voxels ask all observers, oldest first.
 void EvidenceMap::check_new(std::size_t known) {
-    constexpr std::size_t kGrain = 64;
-    parallel_for(evidence_.size() - known, kGrain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t at = known + begin; at < known + end;) {
-            const std::size_t stop = std::min(known + end, (at / kChunk + 1) * kChunk);
-            for (const Observer& observer : observers_) look_at(at, stop, observer);
-            at = stop;
+    std::vector<std::uint32_t> blocks;
+    for (std::size_t v = known; v < voxels_.size(); ++v) {
+        const std::uint32_t block = voxels_.block_of_voxel(static_cast<std::uint32_t>(v));
+        if (blocks.empty() || blocks.back() != block) blocks.push_back(block);
+    }
+    std::sort(blocks.begin(), blocks.end());
+    blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+    constexpr std::size_t kGrain = 4;  // blocks
+    parallel_for(blocks.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+        Glance glance{.first = static_cast<std::uint32_t>(known),
+                      .end = static_cast<std::uint32_t>(voxels_.size())};
+        for (std::size_t b = begin; b < end; ++b) {
+            for (const Observer& observer : observers_) look_at(blocks[b], glance, observer);
         }
     });
 }
 
-void EvidenceMap::look_at(std::size_t begin, std::size_t end, const Observer& observer) {
-    if (box_of_chunk_[begin / kChunk].exteriorDistance(observer.position) > margins_.farthest) {
+void EvidenceMap::look_at(std::uint32_t block, Glance& glance, const Observer& observer) {
+    const Point center = (voxels_.corner(block).cast<float>().array() + 2.0F) * voxel_size_;
+    const float radius = 3.5F * voxel_size_;  // of the sphere around a block, and a little
+    to_spherical({&center, 1}, observer.T_sensor_map, glance.seen);
+    if (!may_see(observer.image,
+                 {glance.seen.azimuth[0], glance.seen.elevation[0], glance.seen.range[0]}, radius,
+                 margins_)) {
         return;
     }
-    Directions seen;
-    to_spherical({centroids_.data() + begin, end - begin}, observer.T_sensor_map, seen);
-    for (std::size_t i = 0; i < end - begin; ++i) {
-        const Beam place{seen.azimuth[i], seen.elevation[i], seen.range[i]};
+    glance.voxels.clear();
+    glance.centroids.clear();
+    voxels_.each_in_block(block, [&](std::uint32_t v) {
+        if (v < glance.first || v >= glance.end) return;
+        glance.voxels.push_back(v);
+        glance.centroids.push_back(centroids_[v]);
+    });
+    to_spherical(glance.centroids, observer.T_sensor_map, glance.seen);
+    for (std::size_t i = 0; i < glance.voxels.size(); ++i) {
+        const Beam place{glance.seen.azimuth[i], glance.seen.elevation[i], glance.seen.range[i]};
         const Sight sight = look(observer.image, place, margins_);
         if (sight == Sight::nothing) continue;
-        record(evidence_[begin + i], sight);
-        transience_[begin + i] = transience(evidence_[begin + i]);
+        record(evidence_[glance.voxels[i]], sight);
+        transience_[glance.voxels[i]] = transience(evidence_[glance.voxels[i]]);
     }
 }
 
@@ -139,12 +163,10 @@ PointVoxels EvidenceMap::add_points(const Scan& scan) {
             transience_[voxel] = transience(e);
         }
     }
-    box_of_chunk_.resize((voxels_.size() + kChunk - 1) / kChunk);
     for (std::size_t v = known; v < voxels_.size(); ++v) {
         const auto voxel = static_cast<std::uint32_t>(v);
         centroids_[v] = center(voxels_.key(voxel), voxel_size_) +
                         centroids_[v] / static_cast<float>(counts[v - known]);
-        box_of_chunk_[v / kChunk].extend(centroids_[v]);
     }
     return voxels_of_points;
 }

@@ -157,4 +157,26 @@ Sight look(const BeamImage& image, const Beam& place, const SightMargins& margin
     return Look(image, place, margins).judge();
 }
 
+bool may_see(const BeamImage& image, const Beam& center, float radius,
+             const SightMargins& margins) {
+    const float nearest = center.range - radius;
+    if (nearest > margins.farthest || center.range + radius < margins.nearest) return false;
+    const ImageGrid& grid = image.grid();
+    const float slant = std::abs(center.elevation) + 0.5F;     // [rad] of what lies within `radius`
+    if (nearest < 2.0F * radius || slant > 1.3F) return true;  // the bounds below need it far off
+    const float angle = 1.1F * radius / center.range;          // at least asin of it
+    const float beside = margins.beside / nearest;
+    const float rows = (angle + beside) / grid.elevation_step + 1.1F;
+    const float columns = (angle + beside) / std::cos(slant) / grid.azimuth_step + 1.1F;
+    const float row = (center.elevation - grid.elevation_min) / grid.elevation_step;
+    const float column = (center.azimuth + kPi) / grid.azimuth_step;
+    const auto floor_of = [](float x) { return static_cast<int>(std::floor(x)); };
+    const int first_row = std::max(0, floor_of(row - rows));
+    const int last_row = std::min(grid.rows - 1, floor_of(row + rows));
+    if (first_row > last_row) return false;
+    const float farthest =
+        image.farthest(first_row, last_row, floor_of(column - columns), floor_of(column + columns));
+    return farthest > nearest - margins.touch - margins.per_metre * nearest;
+}
+
 }  // namespace dynamic_filter

@@ -77,6 +77,8 @@ BeamImage::BeamImage(std::span<const Point> points, const BeamPattern& spacing) 
     find_view(hit);
     pixels_.resize(static_cast<std::size_t>(grid_.rows) *
                    static_cast<std::size_t>(stored_columns_));
+    farthest_cm_.resize(static_cast<std::size_t>(grid_.rows / kTile + 1) *
+                        static_cast<std::size_t>(tile_columns()));
     for (std::size_t i = 0; i < points.size(); ++i) {
         const float range_cm = range_of(i);
         if (!fits(range_cm)) continue;  // NaN too
@@ -86,7 +88,30 @@ BeamImage::BeamImage(std::span<const Point> points, const BeamPattern& spacing) 
         Pixel& p = pixels_[pixel(row.index, column.index)];
         if (p.range_cm != 0 && static_cast<float>(p.range_cm) <= range_cm) continue;
         p = {static_cast<std::uint16_t>(range_cm), column.part, row.part};
+        std::uint16_t& farthest = farthest_cm_[static_cast<std::size_t>(
+            row.index / kTile * tile_columns() + column.index / kTile)];
+        farthest = std::max(farthest, p.range_cm);
     }
+}
+
+float BeamImage::farthest(int first_row, int last_row, int first_column, int last_column) const {
+    std::uint16_t farthest = 0;
+    const auto look = [&](int first, int last) {
+        for (int r = first_row / kTile; r <= last_row / kTile; ++r) {
+            const auto row = farthest_cm_.begin() + r * tile_columns();
+            farthest = std::max(farthest, *std::max_element(row + first / kTile,
+                                                            row + last / kTile + 1));
+        }
+    };
+    const int columns = grid_.columns;
+    if (last_column - first_column >= columns) {
+        look(0, columns - 1);
+    } else {
+        look(std::max(first_column, 0), std::min(last_column, columns - 1));
+        if (first_column < 0) look(first_column + columns, columns - 1);
+        if (last_column >= columns) look(0, last_column - columns);
+    }
+    return 0.01F * farthest;
 }
 
 void BeamImage::find_view(const std::vector<bool>& hit) {

@@ -7,7 +7,7 @@ std::uint32_t VoxelIndex::insert(VoxelKey key) {
     if (const VoxelKey block = block_of(key); block != last_block_) {
         const auto [it, fresh] =
             number_of_block_.try_emplace(block, static_cast<std::uint32_t>(blocks_.size()));
-        if (fresh) blocks_.emplace_back();
+        if (fresh) blocks_.push_back({.corner = block});
         last_block_ = block;
         last_number_ = it->second;
     }

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <optional>
 
+#include "support/random.hpp"
+
 namespace dynamic_filter {
 namespace {
 
@@ -33,11 +35,14 @@ BeamImage scan(const Scene& scene, double column = 0.5, double ring = 2.0) {
     return BeamImage(points, {static_cast<float>(column * kDeg), static_cast<float>(ring * kDeg)});
 }
 
+Beam place_of(const Eigen::Vector3d& p) {
+    return {static_cast<float>(std::atan2(p.y(), p.x())),
+            static_cast<float>(std::atan2(p.z(), std::hypot(p.x(), p.y()))),
+            static_cast<float>(p.norm())};
+}
+
 Sight look_at(const BeamImage& image, const Eigen::Vector3d& p) {
-    const Beam place{static_cast<float>(std::atan2(p.y(), p.x())),
-                     static_cast<float>(std::atan2(p.z(), std::hypot(p.x(), p.y()))),
-                     static_cast<float>(p.norm())};
-    return look(image, place, margins);
+    return look(image, place_of(p), margins);
 }
 
 /// A wall across the x axis.
@@ -146,6 +151,31 @@ TEST(Look, AtTheBorderOfTheViewOnlyABeamThatMeetsThePlaceCounts) {
     const BeamImage image = scan(wall(20.0));  // the highest beam goes up by 16 degrees
     EXPECT_EQ(look_at(image, 10.0 * ray_to(0.0, 16.2 * kDeg)), Sight::passed);
     EXPECT_EQ(look_at(image, 10.0 * ray_to(0.0, 17.2 * kDeg)), Sight::nothing);
+}
+
+TEST(MaySee, IsFalseOnlyWhereLookFindsNothing) {
+    test::Random random(8);
+    const auto room = [](const Eigen::Vector3d& ray) -> std::optional<double> {
+        const double wall = 6.0 / std::max(std::abs(ray.x()), std::abs(ray.y()));
+        return ray.y() > 0.5 ? std::nullopt : std::optional(ray.x() > 0.3 ? 3.0 * wall : wall);
+    };
+    int unseen = 0;
+    for (const BeamImage& image : {scan(room), scan(room, 0.2, 0.5), scan(wall(70.0))}) {
+        for (int i = 0; i < 3000; ++i) {
+            const Eigen::Vector3d center(random.uniform(-90, 90), random.uniform(-90, 90),
+                                         random.uniform(-25, 25));
+            const double radius = random.uniform(0.1, 2.0);
+            const Eigen::Vector3d offset =
+                Eigen::Vector3d(random.uniform(-1, 1), random.uniform(-1, 1),
+                                random.uniform(-1, 1)) *
+                (radius / std::sqrt(3.0));
+            if (may_see(image, place_of(center), static_cast<float>(radius), margins)) continue;
+            ++unseen;
+            ASSERT_EQ(look_at(image, center + offset), Sight::nothing) << center.transpose();
+        }
+    }
+    EXPECT_GT(unseen, 2000);
+    EXPECT_TRUE(may_see(scan(room), place_of({-6.0, 0.1, 0.1}), 0.7F, margins));
 }
 
 }  // namespace

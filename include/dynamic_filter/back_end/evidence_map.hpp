@@ -21,7 +21,8 @@ struct Observer {
     Point position = Point::Zero();  ///< of the sensor, in the map
 };
 
-/// The voxel of each point of a scan; kNoVoxel for points that were not measured or lie too far out.
+/// The voxel of each point of a scan; kNoVoxel for points that were not measured or lie too far
+/// out.
 using PointVoxels = std::vector<std::uint32_t>;
 
 /// Every voxel is asked about once by every observer: a new keyframe looks at the voxels known so
@@ -57,7 +58,8 @@ private:
     void check_known(std::size_t known);
     void check_new(std::size_t known);
     [[nodiscard]] float neighbors_vote(std::uint32_t voxel) const;  // within +-3
-    void look_at(std::size_t begin, std::size_t end, const Observer& observer);
+    struct Glance;
+    void look_at(std::uint32_t block, Glance& glance, const Observer& observer);
 
     float voxel_size_;
     Config::Submap keyframes_;
@@ -72,8 +74,8 @@ private:
     VoxelIndex voxels_;
     Points centroids_;  // by voxel, as the evidence is
     std::vector<Evidence> evidence_;
-    std::vector<float> transience_;  // of the evidence; neighbours ask far more often than it changes
-    std::vector<Eigen::AlignedBox3f> box_of_chunk_;  // of kChunk voxels that were met together
+    std::vector<float>
+        transience_;  // of the evidence; neighbours ask far more often than it changes
 };
 
 }  // namespace dynamic_filter

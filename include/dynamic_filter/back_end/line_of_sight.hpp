@@ -34,4 +34,9 @@ struct SightMargins {
 /// it ended before it. nothing: all else; where no beam returned, nothing is known.
 Sight look(const BeamImage& image, const Beam& place, const SightMargins& margins);
 
+/// False if look() finds nothing at any place within `radius` [m] of `center`, because it is too
+/// far or too near, out of view, or all beams around it end before it. Cautious and quick: one
+/// question saves many.
+bool may_see(const BeamImage& image, const Beam& center, float radius, const SightMargins& margins);
+
 }  // namespace dynamic_filter

@@ -36,6 +36,10 @@ public:
     BeamImage(std::span<const Point> points, const BeamPattern& spacing);
 
     [[nodiscard]] const ImageGrid& grid() const { return grid_; }
+    /// At least the farthest range [m] in a window of pixels; 0 where nothing returned. Rows must
+    /// exist, columns may wrap around, no farther than once.
+    [[nodiscard]] float farthest(int first_row, int last_row, int first_column,
+                                 int last_column) const;
     [[nodiscard]] std::size_t bytes() const { return pixels_.size() * sizeof(Pixel); }
     /// False where nothing returned.
     [[nodiscard]] bool has_beam(int row, int column) const {
@@ -70,9 +74,13 @@ private:
     }
     void find_view(const std::vector<bool>& hit);
 
+    static constexpr int kTile = 8;  // pixels, both ways
+    [[nodiscard]] int tile_columns() const { return grid_.columns / kTile + 1; }
+
     ImageGrid grid_;
     int first_column_ = 0, stored_columns_ = 0;  // the view: all but the widest gap
     std::vector<Pixel> pixels_;
+    std::vector<std::uint16_t> farthest_cm_;  // of each tile; tiles cover the whole circle
 };
 
 }  // namespace dynamic_filter

@@ -32,6 +32,21 @@ public:
     [[nodiscard]] VoxelKey key(std::uint32_t id) const { return keys_[id]; }
     [[nodiscard]] std::size_t size() const { return keys_.size(); }
 
+    /// Blocks are numbered in the order in which they are first met, too.
+    [[nodiscard]] std::size_t blocks() const { return blocks_.size(); }
+    [[nodiscard]] std::uint32_t block_of_voxel(std::uint32_t id) const {
+        return number_of_block_.find(block_of(keys_[id]))->second;
+    }
+    /// The first of its 4 x 4 x 4 cells.
+    [[nodiscard]] Cell corner(std::uint32_t block) const { return unpack(blocks_[block].corner); }
+    /// Calls use(id) for every voxel of the block.
+    template <class Use>
+    void each_in_block(std::uint32_t block, const Use& use) const {
+        for (std::uint64_t left = blocks_[block].present; left != 0; left &= left - 1) {
+            use(blocks_[block].ids[static_cast<std::size_t>(std::countr_zero(left))]);
+        }
+    }
+
     /// Calls use(id, distance) for every voxel in the cube of so many cells around `home`, itself
     /// too, in an order that does not depend on the ids. Distance in cells, that of the farthest
     /// axis.
@@ -41,6 +56,7 @@ public:
 private:
     friend class VoxelFinder;
     struct Block {
+        VoxelKey corner = 0;
         std::uint64_t present = 0;  // bit 16 x + 4 y + z
         std::array<std::uint32_t, 64> ids{};
     };
