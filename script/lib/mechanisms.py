@@ -15,8 +15,6 @@ MECHANISMS = {
     "runs: plain n_free > n_occ instead": [
         (EVIDENCE, "0.45F * std::exp(0.9F * std::log(1.0F + e.switches) + 0.2F * returns) + kOffset;",
          "0.0F * returns + e.seen + kOffset;")],
-    "shrinkage while observers are few": [
-        (EVIDENCE, "kFew = 3.0F;", "kFew = 1e-6F;")],
     "lines left-right": [
         (SIGHT, "if (left.exists() && right.exists() &&", "if (false && left.exists() && right.exists() &&")],
     "surface between rings occupies": [

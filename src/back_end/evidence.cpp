@@ -23,7 +23,6 @@ void record(Evidence& evidence, Sight sight) {
 }
 
 float transience(const Evidence& e) {
-    constexpr float kFew = 3.0F;     // observers
     constexpr float kOffset = 2.0F;  // so that one observation more or less is not everything
     const auto log_of = [](std::uint16_t n) {
         return std::log(static_cast<float>(std::max<std::uint16_t>(n, 1)));
@@ -32,9 +31,7 @@ float transience(const Evidence& e) {
     const float expected =
         0.45F * std::exp(0.9F * std::log(1.0F + e.switches) + 0.2F * returns) + kOffset;
     const float passed = e.passed + kOffset;
-    const auto observers = static_cast<float>(e.seen + e.passed);
-    return (passed * passed - expected * expected) / (passed * passed + expected * expected) *
-           observers / (observers + kFew);
+    return (passed * passed - expected * expected) / (passed * passed + expected * expected);
 }
 
 float co_presence(const Evidence& a, const Evidence& b) {

@@ -29,8 +29,7 @@ inline bool is_unknown(const Evidence& e) { return e.seen < 2 && e.passed == 0; 
 /// came or went, it is passed in few long runs. So n_free is compared with what the number of runs
 /// and the number of returns lead one to expect of a static voxel:
 ///     expected = 0.45 (1 + switches)^0.9 (n_occ owned^2)^0.2
-///     (f^2 - e^2) / (f^2 + e^2) with f = n_free + 2 and e = expected + 2,
-/// shrunk towards 0 while observers are few.
+///     (f^2 - e^2) / (f^2 + e^2) with f = n_free + 2 and e = expected + 2.
 float transience(const Evidence& evidence);
 
 /// How much of their time two voxels were there together: the overlap of the spans between their
