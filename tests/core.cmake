@@ -4,14 +4,16 @@ foreach(unit config parallel
              front_end/front_end front_end/removert front_end/reverting front_end/submap front_end/visibility_removal
              front_end/window
              back_end/back_end back_end/contact back_end/evidence back_end/evidence_map
-             back_end/line_of_sight back_end/normals back_end/occupancy back_end/submap_buffer
+             back_end/line_of_sight back_end/sight_kernel back_end/normals back_end/occupancy back_end/submap_buffer
              back_end/visibility_check
              pipeline/dynamic_filter pipeline/merge)
   df_test(${unit} dynamic_filter)
 endforeach()
 
 # The kernels are private to the library, and so is the word on which of them exist.
-target_include_directories(geometry_project_kernel_test PRIVATE ${PROJECT_SOURCE_DIR}/src)
-if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-  target_compile_definitions(geometry_project_kernel_test PRIVATE DYNAMIC_FILTER_X86_LEVELS)
-endif()
+foreach(kernel geometry_project_kernel_test back_end_sight_kernel_test)
+  target_include_directories(${kernel} PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    target_compile_definitions(${kernel} PRIVATE DYNAMIC_FILTER_X86_LEVELS)
+  endif()
+endforeach()

@@ -3,7 +3,7 @@
 They are no settings on purpose. When the code of one changes, its edit is no longer found and the table says so:
 copy the new text here. An edit is (file, text that occurs there once, what replaces it).
 """
-SIGHT = "src/back_end/line_of_sight.cpp"
+SIGHT = "src/back_end/sight_kernel.cpp"
 EVIDENCE = "src/back_end/evidence.cpp"
 MAP = "src/back_end/evidence_map.cpp"
 
@@ -16,14 +16,13 @@ MECHANISMS = {
         (EVIDENCE, "0.45F * std::exp(0.9F * std::log(1.0F + e.switches) + 0.2F * returns) + kOffset;",
          "0.0F * returns + e.seen + kOffset;")],
     "lines left-right": [
-        (SIGHT, "if (left.exists() && right.exists() &&", "if (false && left.exists() && right.exists() &&")],
+        (SIGHT, "all_behind &= ~spans | left_right.before;", "(void)spans, (void)left_right;")],
     "surface between rings occupies": [
-        (SIGHT, "return on_surface ? Sight::occupied : Sight::nothing;", "return Sight::nothing;")],
+        (SIGHT, "touched | (judged & ~all_behind & on_surface);", "touched;")],
     "margins grow with range": [
         ("include/dynamic_filter/back_end/line_of_sight.hpp", "per_metre = 0.007F;", "per_metre = 0.0F;")],
     "new voxels ask earlier keyframes": [
-        (MAP, "for (const Observer& observer : observers_) look_at(at, stop, observer);",
-         "look_at(at, stop, observers_.back());")],
+        (MAP, "for (const Observer& observer : observers_) {", "for (const Observer& observer : {std::cref(observers_.back())}) {")],
     "contact": [
         ("src/back_end/contact.cpp", "if (!moving) return std::nullopt;", "if (true) return std::nullopt;")],
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "dynamic_filter/front_end/submap.hpp"
 #include "dynamic_filter/front_end/window.hpp"
@@ -70,21 +71,25 @@ bool EvidenceMap::add_observer(const Scan& scan) {
     return true;
 }
 
-/// Whom to look at in a block, and room to do so.
+/// Whom to look at, and room to do so.
 struct EvidenceMap::Glance {
     std::uint32_t first = 0, end = 0;  // voxels
+    Points centers{};
     std::vector<std::uint32_t> voxels{};
     Points centroids{};
     Directions seen{};
+    std::vector<Sight> sights{};
 };
 
 /// The newest observer looks at the voxels known before it.
 void EvidenceMap::check_known(std::size_t known) {
-    constexpr std::size_t kGrain = 32;  // blocks
-    parallel_for(voxels_.blocks(), kGrain, [&](std::size_t begin, std::size_t end) {
+    constexpr std::size_t kGrain = 64;  // blocks
+    std::vector<std::uint32_t> blocks(voxels_.blocks());
+    std::iota(blocks.begin(), blocks.end(), 0U);
+    parallel_for(blocks.size(), kGrain, [&](std::size_t begin, std::size_t end) {
         Glance glance{.first = 0, .end = static_cast<std::uint32_t>(known)};
-        for (std::size_t block = begin; block < end; ++block) {
-            look_at(static_cast<std::uint32_t>(block), glance, observers_.back());
+        for (std::size_t at = begin; at < end; at += kGrain) {
+            look_at({&blocks[at], std::min(kGrain, end - at)}, glance, observers_.back());
         }
     });
 }
@@ -98,39 +103,43 @@ void EvidenceMap::check_new(std::size_t known) {
     }
     std::sort(blocks.begin(), blocks.end());
     blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
-    constexpr std::size_t kGrain = 4;  // blocks
+    constexpr std::size_t kGrain = 64;  // blocks
     parallel_for(blocks.size(), kGrain, [&](std::size_t begin, std::size_t end) {
         Glance glance{.first = static_cast<std::uint32_t>(known),
                       .end = static_cast<std::uint32_t>(voxels_.size())};
-        for (std::size_t b = begin; b < end; ++b) {
-            for (const Observer& observer : observers_) look_at(blocks[b], glance, observer);
+        for (const Observer& observer : observers_) {
+            look_at({&blocks[begin], end - begin}, glance, observer);
         }
     });
 }
 
-void EvidenceMap::look_at(std::uint32_t block, Glance& glance, const Observer& observer) {
-    const Point center = (voxels_.corner(block).cast<float>().array() + 2.0F) * voxel_size_;
+void EvidenceMap::look_at(std::span<const std::uint32_t> blocks, Glance& glance,
+                          const Observer& observer) {
     const float radius = 3.5F * voxel_size_;  // of the sphere around a block, and a little
-    to_spherical({&center, 1}, observer.T_sensor_map, glance.seen);
-    if (!may_see(observer.image,
-                 {glance.seen.azimuth[0], glance.seen.elevation[0], glance.seen.range[0]}, radius,
-                 margins_)) {
-        return;
+    glance.centers.clear();
+    for (const std::uint32_t block : blocks) {
+        glance.centers.push_back((voxels_.corner(block).cast<float>().array() + 2.0F) *
+                                 voxel_size_);
     }
+    to_spherical(glance.centers, observer.T_sensor_map, glance.seen);
     glance.voxels.clear();
     glance.centroids.clear();
-    voxels_.each_in_block(block, [&](std::uint32_t v) {
-        if (v < glance.first || v >= glance.end) return;
-        glance.voxels.push_back(v);
-        glance.centroids.push_back(centroids_[v]);
-    });
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+        const Beam center{glance.seen.azimuth[b], glance.seen.elevation[b], glance.seen.range[b]};
+        if (!may_see(observer.image, center, radius, margins_)) continue;
+        voxels_.each_in_block(blocks[b], [&](std::uint32_t v) {
+            if (v < glance.first || v >= glance.end) return;
+            glance.voxels.push_back(v);
+            glance.centroids.push_back(centroids_[v]);
+        });
+    }
     to_spherical(glance.centroids, observer.T_sensor_map, glance.seen);
+    look(observer.image, glance.seen, margins_, glance.sights);
     for (std::size_t i = 0; i < glance.voxels.size(); ++i) {
-        const Beam place{glance.seen.azimuth[i], glance.seen.elevation[i], glance.seen.range[i]};
-        const Sight sight = look(observer.image, place, margins_);
-        if (sight == Sight::nothing) continue;
-        record(evidence_[glance.voxels[i]], sight);
-        transience_[glance.voxels[i]] = transience(evidence_[glance.voxels[i]]);
+        if (glance.sights[i] == Sight::nothing) continue;
+        Evidence& evidence = evidence_[glance.voxels[i]];
+        record(evidence, glance.sights[i]);
+        transience_[glance.voxels[i]] = transience(evidence);
     }
 }
 

@@ -85,12 +85,13 @@ BeamImage::BeamImage(std::span<const Point> points, const BeamPattern& spacing) 
         const Position row =
             split((seen.elevation[i] - grid_.elevation_min) / grid_.elevation_step, grid_.rows);
         const Position column = column_of(i);
-        Pixel& p = pixels_[pixel(row.index, column.index)];
-        if (p.range_cm != 0 && static_cast<float>(p.range_cm) <= range_cm) continue;
-        p = {static_cast<std::uint16_t>(range_cm), column.part, row.part};
+        const auto range = static_cast<std::uint16_t>(range_cm);
+        std::uint32_t& p = pixels_[pixel(row.index, column.index)];
+        if ((p & 0xFFFFU) != 0 && (p & 0xFFFFU) <= range) continue;
+        p = range | std::uint32_t{column.part} << 16 | std::uint32_t{row.part} << 24;
         std::uint16_t& farthest = farthest_cm_[static_cast<std::size_t>(
             row.index / kTile * tile_columns() + column.index / kTile)];
-        farthest = std::max(farthest, p.range_cm);
+        farthest = std::max(farthest, range);
     }
 }
 
@@ -99,8 +100,8 @@ float BeamImage::farthest(int first_row, int last_row, int first_column, int las
     const auto look = [&](int first, int last) {
         for (int r = first_row / kTile; r <= last_row / kTile; ++r) {
             const auto row = farthest_cm_.begin() + r * tile_columns();
-            farthest = std::max(farthest, *std::max_element(row + first / kTile,
-                                                            row + last / kTile + 1));
+            farthest =
+                std::max(farthest, *std::max_element(row + first / kTile, row + last / kTile + 1));
         }
     };
     const int columns = grid_.columns;

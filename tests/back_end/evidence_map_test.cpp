@@ -37,8 +37,9 @@ Evidence brute_force(const std::vector<test::RoomScan>& scans, const Point& plac
         last = &s.scan;
         Directions seen;
         to_spherical(std::span(&place, 1), s.scan.T_world_sensor.inverse().cast<float>(), seen);
-        record(e, look(BeamImage(s.scan.points, beams),
-                       {seen.azimuth[0], seen.elevation[0], seen.range[0]}, SightMargins{}));
+        std::vector<Sight> sights;
+        look(BeamImage(s.scan.points, beams), seen, SightMargins{}, sights);
+        record(e, sights.at(0));
     }
     return e;
 }

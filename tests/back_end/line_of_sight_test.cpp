@@ -42,7 +42,10 @@ Beam place_of(const Eigen::Vector3d& p) {
 }
 
 Sight look_at(const BeamImage& image, const Eigen::Vector3d& p) {
-    return look(image, place_of(p), margins);
+    const Beam place = place_of(p);
+    std::vector<Sight> sights;
+    look(image, {{place.azimuth}, {place.elevation}, {place.range}}, margins, sights);
+    return sights.at(0);
 }
 
 /// A wall across the x axis.

@@ -4,6 +4,7 @@
 
 #include <deque>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "dynamic_filter/back_end/evidence.hpp"
@@ -59,7 +60,7 @@ private:
     void check_new(std::size_t known);
     [[nodiscard]] float neighbors_vote(std::uint32_t voxel) const;  // within +-3
     struct Glance;
-    void look_at(std::uint32_t block, Glance& glance, const Observer& observer);
+    void look_at(std::span<const std::uint32_t> blocks, Glance& glance, const Observer& observer);
 
     float voxel_size_;
     Config::Submap keyframes_;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "dynamic_filter/geometry/beam_image.hpp"
 
@@ -23,7 +24,7 @@ struct SightMargins {
     float farthest = 80.0F;    ///< or farther from it
 };
 
-/// Judges the place in direction (azimuth, elevation) at `place.range`, in the image's frame.
+/// Judges each of the places, in the image's frame; `sights` goes parallel to them. Thread-safe.
 ///
 /// occupied: a return lies at the place (within `touch`, and across the beam within `beside` or
 /// half a pixel), or the line between the beams below and above it, at different ranges, runs
@@ -32,7 +33,8 @@ struct SightMargins {
 /// in it, such a beam all but meets the place; the lines between them, up-down and left-right, run
 /// behind it by the surface margin, so a surface seen at any incidence is not passed; none beside
 /// it ended before it. nothing: all else; where no beam returned, nothing is known.
-Sight look(const BeamImage& image, const Beam& place, const SightMargins& margins);
+void look(const BeamImage& image, const Directions& places, const SightMargins& margins,
+          std::vector<Sight>& sights);
 
 /// False if look() finds nothing at any place within `radius` [m] of `center`, because it is too
 /// far or too near, out of view, or all beams around it end before it. Cautious and quick: one

@@ -40,27 +40,31 @@ public:
     /// exist, columns may wrap around, no farther than once.
     [[nodiscard]] float farthest(int first_row, int last_row, int first_column,
                                  int last_column) const;
-    [[nodiscard]] std::size_t bytes() const { return pixels_.size() * sizeof(Pixel); }
+    [[nodiscard]] std::size_t bytes() const { return pixels_.size() * sizeof(std::uint32_t); }
     /// False where nothing returned.
     [[nodiscard]] bool has_beam(int row, int column) const {
-        return is_stored(column) && pixels_[pixel(row, column)].range_cm != 0;
+        return is_stored(column) && (pixels_[pixel(row, column)] & 0xFFFFU) != 0;
     }
     [[nodiscard]] Beam beam(int row, int column) const {
-        const Pixel& p = pixels_[pixel(row, column)];
+        const std::uint32_t p = pixels_[pixel(row, column)];
         constexpr float kFraction = 1.0F / 256.0F;
-        return {-kPi + (static_cast<float>(column) + (p.column_part + 0.5F) * kFraction) *
-                           grid_.azimuth_step,
-                grid_.elevation_min + (static_cast<float>(row) + (p.row_part + 0.5F) * kFraction) *
-                                          grid_.elevation_step,
-                0.01F * p.range_cm};
+        const auto part = [&](int shift) { return static_cast<float>(p >> shift & 0xFFU) + 0.5F; };
+        return {-kPi + (static_cast<float>(column) + part(16) * kFraction) * grid_.azimuth_step,
+                grid_.elevation_min +
+                    (static_cast<float>(row) + part(24) * kFraction) * grid_.elevation_step,
+                0.01F * static_cast<float>(p & 0xFFFFU)};
     }
+    /// The pixels of the field of view, row by row: range [cm] in the low 16 bits (0: nothing
+    /// returned), then the parts of the column and of the row in 1/256. Columns count from
+    /// `first_column` and wrap around. Valid as long as the image.
+    struct View {
+        const std::uint32_t* pixels;
+        int first_column, stored_columns;
+    };
+    [[nodiscard]] View view() const { return {pixels_.data(), first_column_, stored_columns_}; }
 
 private:
     static constexpr float kPi = 3.14159265358979F;
-    struct Pixel {
-        std::uint16_t range_cm = 0;  // 0: nothing returned
-        std::uint8_t column_part = 0, row_part = 0;
-    };
     /// Counted from the first column of the field of view.
     [[nodiscard]] int stored_column(int column) const {
         return column - first_column_ + (column < first_column_ ? grid_.columns : 0);
@@ -79,7 +83,7 @@ private:
 
     ImageGrid grid_;
     int first_column_ = 0, stored_columns_ = 0;  // the view: all but the widest gap
-    std::vector<Pixel> pixels_;
+    std::vector<std::uint32_t> pixels_;
     std::vector<std::uint16_t> farthest_cm_;  // of each tile; tiles cover the whole circle
 };
 

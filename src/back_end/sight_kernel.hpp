@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+/// The inner loop of the line of sight, compiled once per instruction-set level from
+/// sight_kernel.cpp.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace dynamic_filter::kernel {
+
+struct LookArgs {
+    // The image: range [cm] in the low 16 bits, then the parts of the column and of the row.
+    const std::uint32_t* pixels = nullptr;
+    int columns = 0, rows = 0, first_column = 0, stored_columns = 0;
+    float azimuth_step = 0.0F, elevation_step = 0.0F, elevation_min = 0.0F;
+    // SightMargins.
+    float beside = 0.0F, beyond = 0.0F, touch = 0.0F, surface = 0.0F, per_metre = 0.0F;
+    float nearest = 0.0F, farthest = 0.0F;
+    // Places, and what is seen of them: Sight.
+    const float *azimuth = nullptr, *elevation = nullptr, *range = nullptr;
+    std::size_t count = 0;
+    std::uint8_t* sights = nullptr;
+};
+
+namespace baseline {
+void look(const LookArgs& args);
+}
+#ifdef DYNAMIC_FILTER_X86_LEVELS
+namespace avx2 {
+void look(const LookArgs& args);
+}
+namespace avx512 {
+void look(const LookArgs& args);
+}
+#endif
+
+}  // namespace dynamic_filter::kernel

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "back_end/sight_kernel.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "support/look_reference.hpp"
+#include "support/random.hpp"
+
+namespace dynamic_filter {
+namespace {
+
+constexpr double kDeg = std::numbers::pi / 180.0;
+
+struct Level {
+    std::string name;
+    void (*look)(const kernel::LookArgs&);
+};
+
+/// Every level that this machine can run.
+std::vector<Level> levels() {
+    std::vector<Level> all{{"baseline", kernel::baseline::look}};
+#ifdef DYNAMIC_FILTER_X86_LEVELS
+    if (__builtin_cpu_supports("avx2")) all.push_back({"avx2", kernel::avx2::look});
+    if (__builtin_cpu_supports("avx512f")) all.push_back({"avx512", kernel::avx512::look});
+#endif
+    return all;
+}
+
+Point at(double azimuth, double elevation, double range) {
+    return (range * Eigen::Vector3d(std::cos(elevation) * std::cos(azimuth),
+                                    std::cos(elevation) * std::sin(azimuth), std::sin(elevation)))
+        .cast<float>();
+}
+
+/// A box of walls and a floor, with things in it, holes, and noise; `view` degrees of it.
+BeamImage scan(double step, double view, test::Random& random) {
+    Points points;
+    for (double azimuth = 180.0 - view / 2; azimuth < 180.0 + view / 2; azimuth += step) {
+        for (double elevation = -25.0; elevation <= 15.0; elevation += 2.0 * step) {
+            if (random.below(12) == 0) continue;
+            const double a = azimuth * kDeg, e = elevation * kDeg;
+            double range = 15.0 / std::max(std::abs(std::cos(a)), std::abs(std::sin(a)));
+            if (e < 0.0) range = std::min(range, 1.8 / -std::sin(e));
+            if (std::fmod(azimuth, 40.0) < 6.0) range = std::min(range, 2.0 + azimuth / 60.0);
+            points.push_back(at(a, e, range + random.uniform(-0.03, 0.03)));
+        }
+    }
+    const auto spacing = static_cast<float>(step * kDeg);
+    return BeamImage(points, {spacing, 2.0F * spacing});
+}
+
+Directions places(std::size_t count, test::Random& random) {
+    Directions out;
+    for (std::size_t i = 0; i < count; ++i) {
+        out.azimuth.push_back(random.uniform_f(-3.1415F, 3.1415F));
+        out.elevation.push_back(random.uniform_f(-0.6F, 0.4F));
+        out.range.push_back(random.uniform_f(0.2F, 22.0F));
+    }
+    return out;
+}
+
+std::vector<std::uint8_t> look_with(const Level& level, const BeamImage& image,
+                                    const Directions& places) {
+    const SightMargins m;
+    const ImageGrid& grid = image.grid();
+    std::vector<std::uint8_t> sights(places.range.size(), 7);
+    level.look({image.view().pixels,
+                grid.columns,
+                grid.rows,
+                image.view().first_column,
+                image.view().stored_columns,
+                grid.azimuth_step,
+                grid.elevation_step,
+                grid.elevation_min,
+                m.beside,
+                m.beyond,
+                m.touch,
+                m.surface,
+                m.per_metre,
+                m.nearest,
+                m.farthest,
+                places.azimuth.data(),
+                places.elevation.data(),
+                places.range.data(),
+                places.range.size(),
+                sights.data()});
+    return sights;
+}
+
+TEST(SightKernel, EveryLevelAgreesWithTheReferenceAndBitByBitWithTheOthers) {
+    test::Random random(5);
+    for (const auto& [step, view] : {std::pair{1.0, 360.0}, {0.3, 360.0}, {0.5, 70.0}}) {
+        const BeamImage image = scan(step, view, random);
+        const Directions asked = places(20001, random);  // no whole number of vectors
+        const auto baseline = look_with(levels()[0], image, asked);
+        for (const Level& level : levels()) {
+            EXPECT_EQ(look_with(level, image, asked), baseline) << level.name;
+        }
+        std::array<int, 3> seen{};
+        int other = 0;  // by rounding, at the very edge of a margin
+        for (std::size_t i = 0; i < baseline.size(); ++i) {
+            const Sight expected = test::reference_look(
+                image, {asked.azimuth[i], asked.elevation[i], asked.range[i]}, SightMargins{});
+            ++seen[static_cast<std::size_t>(expected)];
+            other += static_cast<std::uint8_t>(expected) != baseline[i] ? 1 : 0;
+        }
+        EXPECT_LE(other, 10) << step;
+        for (const int count : seen) EXPECT_GT(count, 50) << step;
+    }
+}
+
+TEST(SightKernel, WhatIsNotANumberIsNotSeen) {
+    test::Random random(6);
+    const BeamImage image = scan(1.0, 360.0, random);
+    const float nan = std::nanf("");
+    for (const Level& level : levels()) {
+        const Directions asked{{nan, 0.0F, 0.0F}, {0.0F, nan, 0.0F}, {nan, nan, nan}};
+        EXPECT_EQ(look_with(level, image, asked), std::vector<std::uint8_t>(3, 0)) << level.name;
+    }
+}
+
+}  // namespace
+}  // namespace dynamic_filter
