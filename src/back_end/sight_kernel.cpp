@@ -61,7 +61,7 @@ DF_INLINE Side side_of(Floats angle_a, Floats range_a, Floats angle_b, Floats ra
     const Floats to_line = dx * ya - dy * xa > 0.0F ? -cross : cross;  // away from the sensor: -
     const Ints one_spot = length_sq < 0.02F * 0.02F;
     const Floats distance = one_spot ? smaller(range_a, range_b) - r : to_line;  // times length
-    const Floats limit_sq = margin * margin * (one_spot ? length_sq * 0.0F + 1.0F : length_sq);
+    const Floats limit_sq = margin * margin * (one_spot ? Floats{} + 1.0F : length_sq);
     return {(distance > 0.0F) & (distance * distance > limit_sq), distance * distance <= limit_sq};
 }
 
@@ -75,36 +75,40 @@ DF_INLINE Floats load(const float* values, std::size_t begin, std::size_t count)
 }
 
 /// See look() in line_of_sight.hpp.
-DF_INLINE Ints judge(const LookArgs& args, Floats azimuth, Floats elevation, Floats true_range) {
-    Ints active = (true_range >= args.nearest) & (true_range <= args.farthest);
-    const Ints in_range = active;
-    const Floats range = active ? true_range : true_range * 0.0F + 1.0F;
-    const Floats slant = larger(cosine(elevation), elevation * 0.0F + 0.01F);
+DF_INLINE Ints judge(const LookArgs& args, Floats true_azimuth, Floats true_elevation,
+                     Floats true_range) {
+    // Comparisons with NaN are false: what is not a number is not judged, nor anything made of it.
+    const Ints in_range = (true_range >= args.nearest) & (true_range <= args.farthest) &
+                          (magnitude(true_azimuth) <= 4.0F) & (magnitude(true_elevation) <= 2.0F);
+    Ints active = in_range;
+    const Floats zero{};
+    const Floats azimuth = active ? true_azimuth : zero, elevation = active ? true_elevation : zero;
+    const Floats range = active ? true_range : zero + 1.0F;
+    const Floats slant = larger(cosine(elevation), zero + 0.01F);
     const Floats beside = args.beside / range;
     const Floats column_width = args.azimuth_step * slant;
     const Floats reach_right = larger(1.05F * column_width, beside);
     const Floats own_right = larger(0.55F * column_width, beside);
-    const Floats reach_up = larger(beside * 0.0F + 1.05F * args.elevation_step, beside);
-    const Floats own_up = larger(beside * 0.0F + 0.55F * args.elevation_step, beside);
+    const Floats reach_up = larger(zero + 1.05F * args.elevation_step, beside);
+    const Floats own_up = larger(zero + 0.55F * args.elevation_step, beside);
     const Floats touch = args.touch + args.per_metre * range;
     const Floats surface = args.surface + args.per_metre * range;
 
     const Floats row = (elevation - args.elevation_min) / args.elevation_step;
     const Floats rows = reach_up / args.elevation_step;
     Ints first_row = floored(row - rows), last_row = floored(row + rows);
-    first_row = first_row < 0 ? first_row * 0 : first_row;
-    last_row = last_row >= args.rows ? last_row * 0 + args.rows - 1 : last_row;
+    first_row = first_row < 0 ? Ints{} : first_row;
+    last_row = last_row >= args.rows ? Ints{} + args.rows - 1 : last_row;
     const Floats column = (azimuth + kPi) / args.azimuth_step;
-    const Floats columns = smaller(reach_right / column_width,
-                                   slant * 0.0F + 0.49F * static_cast<float>(args.columns - 1));
+    const Floats columns =
+        smaller(reach_right / column_width, zero + 0.49F * static_cast<float>(args.columns - 1));
     const Ints first_column = floored(column - columns), last_column = floored(column + columns);
 
     Near quad[2][2];  // the nearest beam of each quadrant: [above][right]
     for (auto& side : quad) {
-        for (Near& near : side)
-            near = {range * 0.0F, range * 0.0F, range * 0.0F, range * 0.0F + kNone};
+        for (Near& near : side) near = {zero, zero, zero, zero + kNone};
     }
-    Ints touched = active & 0, blocked = active & 0;
+    Ints touched{}, blocked{};
     const int height = largest(active & (last_row - first_row));
     const int width = largest(active & (last_column - first_column));
     for (int down = 0; down <= height; ++down) {
@@ -164,8 +168,8 @@ DF_INLINE Ints judge(const LookArgs& args, Floats azimuth, Floats elevation, Flo
     // The surface between the nearest beams.
     const Floats far = range + args.beyond;
     const auto is_beyond = [&](const Near& beam) { return exists(beam) & (beam.range > far); };
-    Ints beams = active & 0, any_beyond = active & 0, on_surface = active & 0;
-    Ints all_behind = ~(active & 0);
+    Ints beams{}, any_beyond{}, on_surface{};
+    Ints all_behind = ~Ints{};
     for (int side = 0; side < 2; ++side) {
         const Near &below = quad[0][side], &above = quad[1][side];
         beams -= exists(below) + exists(above);
@@ -176,7 +180,7 @@ DF_INLINE Ints judge(const LookArgs& args, Floats azimuth, Floats elevation, Flo
                       (larger(below.range, above.range) > range);
         // Above or below the image's border, or a hole in it, only a beam that all but meets the
         // place counts.
-        const Floats close = larger(0.5F * beside, beside * 0.0F + 0.3F * args.elevation_step);
+        const Floats close = larger(0.5F * beside, zero + 0.3F * args.elevation_step);
         const Ints passes_close = (is_beyond(below) & (magnitude(below.up) <= close)) |
                                   (is_beyond(above) & (magnitude(above.up) <= close));
         const Ints none = ~(exists(below) | exists(above));
