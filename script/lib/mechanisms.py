@@ -6,12 +6,13 @@ copy the new text here. An edit is (file, text that occurs there once, what repl
 SIGHT = "src/back_end/sight_kernel.cpp"
 EVIDENCE = "src/back_end/evidence.cpp"
 MAP = "src/back_end/evidence_map.cpp"
+VOTE = "src/back_end/vote_kernel.cpp"
 
 MECHANISMS = {
     "company's vote": [
-        (MAP, "return company / companions +", "return 0.0F * company / companions +")],
+        (VOTE, "return sum(company) /", "return 0.0F * sum(company) /")],
     "neighbourhood's vote": [
-        (MAP, "2.0F * around / neighbors;", "0.0F * around / neighbors;")],
+        (VOTE, "2.0F * sum(around) /", "0.0F * sum(around) /")],
     "runs: plain n_free > n_occ instead": [
         (EVIDENCE, "0.45F * std::exp(0.9F * std::log(1.0F + e.switches) + 0.2F * returns) + kOffset;",
          "0.0F * returns + e.seen + kOffset;")],

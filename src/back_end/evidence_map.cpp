@@ -2,12 +2,14 @@
 #include "dynamic_filter/back_end/evidence_map.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
 #include "dynamic_filter/front_end/submap.hpp"
 #include "dynamic_filter/front_end/window.hpp"
 #include "dynamic_filter/parallel.hpp"
+#include "vote_kernel.hpp"
 
 namespace dynamic_filter {
 
@@ -16,6 +18,14 @@ namespace {
 Observer make_observer(const Scan& scan, const BeamPattern& beams) {
     return {BeamImage(scan.points, beams), scan.T_world_sensor.inverse().cast<float>(),
             scan.T_world_sensor.translation().cast<float>()};
+}
+
+auto best_kernel() {
+#ifdef DYNAMIC_FILTER_X86_LEVELS
+    if (__builtin_cpu_supports("avx512f")) return kernel::avx512::vote;
+    if (__builtin_cpu_supports("avx2")) return kernel::avx2::vote;
+#endif
+    return kernel::baseline::vote;
 }
 
 /// A few points say nothing about how densely the sensor looks.
@@ -180,32 +190,67 @@ PointVoxels EvidenceMap::add_points(const Scan& scan) {
     return voxels_of_points;
 }
 
+/// Those who may vote on the voxels of a block.
+struct EvidenceMap::Neighborhood {
+    static constexpr std::size_t kMost = 8 * 8 * 8;  // a block, and two cells around it
+    using Column = std::array<float, kMost>;
+    Column x, y, z, opinion, first, last;
+    std::size_t count = 0;
+
+    void add(const Cell& cell, float voter_opinion, const Evidence& e) {
+        x[count] = static_cast<float>(cell.x());
+        y[count] = static_cast<float>(cell.y());
+        z[count] = static_cast<float>(cell.z());
+        opinion[count] = voter_opinion;
+        first[count] = static_cast<float>(e.first_owner);
+        last[count] = static_cast<float>(e.last_owner);
+        ++count;
+    }
+    void gather(const EvidenceMap& map, std::uint32_t block) {
+        count = 0;
+        const Cell corner = map.voxels_.corner(block);
+        map.voxels_.each_in_box(corner.array() - 2, corner.array() + 5,
+                                [&](std::uint32_t v, const Cell& cell) {
+                                    add(cell, map.transience_[v], map.evidence_[v]);
+                                });
+        constexpr auto kAway = static_cast<int>(kernel::kOutOfReach);
+        while (count % kernel::kVoters != 0) add(Cell::Constant(kAway), 0.0F, {});
+    }
+    /// Things come and go as a whole, so the voxels that were there together know most of each
+    /// other. Surfaces go on and people walk where others did, so the rest of the neighbourhood
+    /// knows, too. Within +-3.
+    [[nodiscard]] float vote_on(const Cell& cell, const Evidence& e) const {
+        static const auto kernel = best_kernel();
+        return kernel({x.data(), y.data(), z.data(), opinion.data(), first.data(), last.data(),
+                       count, static_cast<float>(cell.x()), static_cast<float>(cell.y()),
+                       static_cast<float>(cell.z()), static_cast<float>(e.first_owner),
+                       static_cast<float>(e.last_owner)});
+    }
+};
+
 /// The sum of the three opinions lies within +-4, below 0: static. By the simulated and the real
 /// recordings, its log-odds are three to five times as much.
-std::optional<float> EvidenceMap::probability(std::uint32_t voxel) const {
-    if (is_unknown(evidence_[voxel])) return std::nullopt;
-    return 1.0F / (1.0F + std::exp(3.0F * (transience_[voxel] + neighbors_vote(voxel))));
-}
-
-/// Things come and go as a whole, so the voxels that were there together know most of each other.
-/// Surfaces go on and people walk where others did, so the rest of the neighbourhood knows, too.
-float EvidenceMap::neighbors_vote(std::uint32_t voxel) const {
-    constexpr int kCells = 2;
-    constexpr float kFar = 0.3F;     // weight of a neighbour that does not touch the voxel
-    constexpr float kAlone = 0.25F;  // weight of having no neighbour
-    const Evidence& own = evidence_[voxel];
-    float company = 0.0F, companions = kAlone, around = 0.0F, neighbors = kAlone;
-    voxels_.each_within(kCells, voxels_.key(voxel), [&](std::uint32_t neighbor, int distance) {
-        if (neighbor == voxel) return;
-        const float opinion = transience_[neighbor];
-        const float together = co_presence(own, evidence_[neighbor]);
-        company += together * opinion;
-        companions += together;
-        const float weight = distance > 1 ? kFar : 1.0F;
-        around += weight * opinion;
-        neighbors += weight;
+std::vector<std::optional<float>> EvidenceMap::probabilities(
+    std::span<const std::uint32_t> voxels) const {
+    std::vector<std::pair<std::uint32_t, std::size_t>> by_block;  // block, place among `voxels`
+    for (std::size_t i = 0; i < voxels.size(); ++i) {
+        if (is_unknown(evidence_[voxels[i]])) continue;
+        by_block.emplace_back(voxels_.block_of_voxel(voxels[i]), i);
+    }
+    std::sort(by_block.begin(), by_block.end());
+    std::vector<std::optional<float>> result(voxels.size());
+    constexpr std::size_t kGrain = 512;
+    parallel_for(by_block.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+        Neighborhood neighborhood;
+        for (std::size_t i = begin; i < end; ++i) {
+            const auto [block, at] = by_block[i];
+            if (i == begin || by_block[i - 1].first != block) neighborhood.gather(*this, block);
+            const std::uint32_t v = voxels[at];
+            const float vote = neighborhood.vote_on(unpack(voxels_.key(v)), evidence_[v]);
+            result[at] = 1.0F / (1.0F + std::exp(3.0F * (transience_[v] + vote)));
+        }
     });
-    return company / companions + 2.0F * around / neighbors;
+    return result;
 }
 
 }  // namespace dynamic_filter

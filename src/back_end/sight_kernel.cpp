@@ -1,27 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Compiled several times, each with its own DYNAMIC_FILTER_LEVEL and instruction set. Only builtins
 // and raw pointers here: an inline library function compiled for AVX could be linked into code that
-// runs on older machines. Sixteen places at a time; the compiler splits them where vectors are
-// shorter.
+// runs on older machines.
 #include "sight_kernel.hpp"
+
+#include "lanes.hpp"
 
 namespace dynamic_filter::kernel::DYNAMIC_FILTER_LEVEL {
 
 namespace {
 
-constexpr int kLanes = 16;
 constexpr float kPi = 3.14159265358979F;
 constexpr float kNone = 1e30F;  // nearness where there is no beam
 
-using Floats = float __attribute__((vector_size(4 * kLanes)));
-using Ints = std::int32_t __attribute__((vector_size(4 * kLanes)));  // masks: 0 or -1
-
-#define DF_INLINE static inline __attribute__((always_inline))
-
-DF_INLINE Floats to_floats(Ints v) { return __builtin_convertvector(v, Floats); }
-DF_INLINE Floats smaller(Floats a, Floats b) { return a < b ? a : b; }
-DF_INLINE Floats larger(Floats a, Floats b) { return a > b ? a : b; }
-DF_INLINE Floats magnitude(Floats a) { return a < 0.0F ? -a : a; }
 DF_INLINE Ints floored(Floats v) {
     const Ints whole = __builtin_convertvector(v, Ints);
     return to_floats(whole) > v ? whole - 1 : whole;

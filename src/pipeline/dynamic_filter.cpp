@@ -2,6 +2,7 @@
 #include "dynamic_filter/pipeline/dynamic_filter.hpp"
 
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "dynamic_filter/geometry/pose.hpp"
@@ -85,14 +86,14 @@ std::vector<Verdict> DynamicFilter::finish() {
 }
 
 void DynamicFilter::decide_voxels() {
-    decided_.resize(evidence_.voxels().size());
-    const auto each_voxel = [&](const auto& decide) {
-        parallel_for(decided_.size(), 1024, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t v = begin; v < end; ++v) decide(static_cast<std::uint32_t>(v));
-        });
-    };
-    each_voxel([&](std::uint32_t v) { decided_[v].probability = evidence_.probability(v); });
-    each_voxel([&](std::uint32_t v) { decided_[v].contact = contact_of(v); });
+    std::vector<std::uint32_t> all(evidence_.voxels().size());
+    std::iota(all.begin(), all.end(), 0U);
+    const auto probabilities = evidence_.probabilities(all);
+    decided_.resize(all.size());
+    for (std::size_t v = 0; v < all.size(); ++v) decided_[v].probability = probabilities[v];
+    parallel_for(all.size(), 1024, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t v = begin; v < end; ++v) decided_[v].contact = contact_of(all[v]);
+    });
 }
 
 std::optional<Surface> DynamicFilter::contact_of(std::uint32_t voxel) const {
@@ -154,11 +155,8 @@ Verdict DynamicFilter::instant_verdict(std::size_t index, const PointVoxels& vox
         labels[voxel] = kMet;
         own.push_back(voxel);
     }
-    parallel_for(own.size(), 256, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t v = begin; v < end; ++v) {
-            labels[own[v]] = label_of(evidence_.probability(own[v]));
-        }
-    });
+    const auto probabilities = evidence_.probabilities(own);
+    for (std::size_t v = 0; v < own.size(); ++v) labels[own[v]] = label_of(probabilities[v]);
     Verdict verdict{index, Labels(voxels.size(), Label::unknown), {}};
     for (std::size_t i = 0; i < voxels.size(); ++i) {
         if (voxels[i] != kNoVoxel) verdict.labels[i] = labels[voxels[i]];
@@ -178,10 +176,13 @@ std::vector<StaticVoxel> DynamicFilter::local_static_map(const Pose& T_world_que
     if (scans_observe()) {
         const Point position = T_map_query.translation().cast<float>();
         const auto radius = static_cast<float>(config_.back_end.search_radius);
+        std::vector<std::uint32_t> near;
         for (std::uint32_t v = 0; v < evidence_.voxels().size(); ++v) {
-            if ((evidence_.centroid(v) - position).norm() > radius) continue;
-            const auto probability = evidence_.probability(v);
-            if (label_of(probability) == Label::still) add(v, *probability);
+            if ((evidence_.centroid(v) - position).norm() <= radius) near.push_back(v);
+        }
+        const auto probabilities = evidence_.probabilities(near);
+        for (std::size_t i = 0; i < near.size(); ++i) {
+            if (label_of(probabilities[i]) == Label::still) add(near[i], *probabilities[i]);
         }
         return result;
     }

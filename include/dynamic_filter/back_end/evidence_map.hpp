@@ -41,9 +41,10 @@ public:
     /// reach, plus new voxels times keyframes kept.
     PointVoxels insert(const Scan& scan, StageTimes& times);
 
-    /// Occupancy 0..1 of a voxel: its own evidence, and that of the voxels within two cells, those
-    /// above all that were there when it was there. Empty: unknown.
-    [[nodiscard]] std::optional<float> probability(std::uint32_t voxel) const;
+    /// Occupancy 0..1 of voxels: their own evidence, and that of the voxels within two cells, those
+    /// above all that were there when they were there. Empty: unknown. In parallel.
+    [[nodiscard]] std::vector<std::optional<float>> probabilities(
+        std::span<const std::uint32_t> voxels) const;
 
     /// Keyframes that have observed.
     [[nodiscard]] std::size_t observers() const { return all_observers_; }
@@ -58,7 +59,7 @@ private:
     bool add_observer(const Scan& scan);
     void check_known(std::size_t known);
     void check_new(std::size_t known);
-    [[nodiscard]] float neighbors_vote(std::uint32_t voxel) const;  // within +-3
+    struct Neighborhood;
     struct Glance;
     void look_at(std::span<const std::uint32_t> blocks, Glance& glance, const Observer& observer);
 

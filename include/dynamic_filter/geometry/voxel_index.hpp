@@ -51,7 +51,17 @@ public:
     /// too, in an order that does not depend on the ids. Distance in cells, that of the farthest
     /// axis.
     template <class Use>
-    void each_within(int cells, VoxelKey home, const Use& use) const;
+    void each_within(int cells, VoxelKey home, const Use& use) const {
+        const Cell center = unpack(home);
+        each_in_box(center.array() - cells, center.array() + cells,
+                    [&](std::uint32_t id, const Cell& cell) {
+                        use(id, (cell - center).cwiseAbs().maxCoeff());
+                    });
+    }
+    /// Calls use(id, cell) for every voxel in the box from `low` to `high`, both included, in an
+    /// order that does not depend on the ids.
+    template <class Use>
+    void each_in_box(const Cell& low, const Cell& high, const Use& use) const;
 
 private:
     friend class VoxelFinder;
@@ -116,38 +126,26 @@ inline std::uint64_t VoxelIndex::slab(int axis, int low, int high) {
 }
 
 template <class Use>
-void VoxelIndex::each_within(int cells, VoxelKey home, const Use& use) const {
-    struct Part {
-        int block;
-        std::uint64_t places;
+void VoxelIndex::each_in_box(const Cell& low, const Cell& high, const Use& use) const {
+    const auto part = [](int axis, int block, int from, int to) {  // of a block along an axis
+        return slab(axis, std::max(from - 4 * block, 0), std::min(to - 4 * block, 3));
     };
-    constexpr int kCells = 2 * kCellLimit;  // along an axis
-    const Cell center = (unpack(home).array() + kCellLimit).matrix();
-    std::array<std::array<Part, 4>, 3> parts{};
-    std::array<std::size_t, 3> count{};
-    for (int axis = 0; axis < 3; ++axis) {
-        const auto a = static_cast<std::size_t>(axis);
-        const int low = std::max(center[axis] - cells, 0);
-        const int high = std::min(center[axis] + cells, kCells - 1);
-        for (int block = low >> 2; block <= high >> 2; ++block) {
-            parts[a][count[a]++] = {
-                block, slab(axis, std::max(low - 4 * block, 0), std::min(high - 4 * block, 3))};
-        }
-    }
-    for (std::size_t x = 0; x < count[0]; ++x) {
-        for (std::size_t y = 0; y < count[1]; ++y) {
-            for (std::size_t z = 0; z < count[2]; ++z) {
-                const Cell corner(4 * parts[0][x].block, 4 * parts[1][y].block,
-                                  4 * parts[2][z].block);
-                const Block* block = find_block(pack((corner.array() - kCellLimit).matrix()));
+    const Cell from = low.cwiseMax(-kCellLimit), to = high.cwiseMin(kCellLimit - 1);
+    const Cell first = from.unaryExpr([](int c) { return c >> 2; });
+    const Cell last = to.unaryExpr([](int c) { return c >> 2; });
+    for (int x = first.x(); x <= last.x(); ++x) {
+        const std::uint64_t in_x = part(0, x, from.x(), to.x());
+        for (int y = first.y(); y <= last.y(); ++y) {
+            const std::uint64_t in_xy = in_x & part(1, y, from.y(), to.y());
+            for (int z = first.z(); z <= last.z(); ++z) {
+                const Cell corner(4 * x, 4 * y, 4 * z);
+                const Block* block = find_block(pack(corner));
                 if (block == nullptr) continue;
-                std::uint64_t places =
-                    block->present & parts[0][x].places & parts[1][y].places & parts[2][z].places;
+                std::uint64_t places = block->present & in_xy & part(2, z, from.z(), to.z());
                 for (; places != 0; places &= places - 1) {
                     const int place = std::countr_zero(places);
-                    const Cell cell = corner + Cell(place >> 4, place >> 2 & 3, place & 3);
                     use(block->ids[static_cast<std::size_t>(place)],
-                        (cell - center).cwiseAbs().maxCoeff());
+                        Cell(corner + Cell(place >> 4, place >> 2 & 3, place & 3)));
                 }
             }
         }

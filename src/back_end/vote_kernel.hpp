@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+/// The inner loop of the neighbours' vote, compiled once per instruction-set level from
+/// vote_kernel.cpp.
+#pragma once
+
+#include <cstddef>
+
+namespace dynamic_filter::kernel {
+
+/// Voters, as parallel arrays: cells along each axis, opinion, first and last owner.
+struct VoteArgs {
+    const float *x = nullptr, *y = nullptr, *z = nullptr;
+    const float *opinion = nullptr, *first = nullptr, *last = nullptr;
+    std::size_t count = 0;  ///< a multiple of kVoters
+    // The voxel that is voted on.
+    float own_x = 0.0F, own_y = 0.0F, own_z = 0.0F, own_first = 0.0F, own_last = 0.0F;
+};
+
+/// Fill up the arrays with voters that are out of reach.
+constexpr std::size_t kVoters = 16;
+constexpr float kOutOfReach = 8e6F;  // cells: no key goes as far
+
+namespace baseline {
+float vote(const VoteArgs& args);
+}
+#ifdef DYNAMIC_FILTER_X86_LEVELS
+namespace avx2 {
+float vote(const VoteArgs& args);
+}
+namespace avx512 {
+float vote(const VoteArgs& args);
+}
+#endif
+
+}  // namespace dynamic_filter::kernel
