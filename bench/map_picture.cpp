@@ -95,6 +95,9 @@ Painter by_submap(const io::Sequence& sequence) {
 }
 
 void add(Voxels& voxels, const io::Frame& frame, const Labels& verdict) {
+    if (verdict.size() != frame.points.size()) {
+        throw ConfigError("a scan and its labels differ in number: are they of one recording?");
+    }
     const Points world = app::shifted_world(frame, Eigen::Vector3d::Zero());
     const auto floor = static_cast<float>(frame.T_world_sensor.translation().z()) + kFloor;
     for (std::size_t i = 0; i < world.size(); ++i) {
@@ -129,6 +132,8 @@ std::pair<int, int> span(std::vector<int> values) {
 }
 
 io::Image draw(const Columns& columns) {
+    if (columns.empty())
+        throw ConfigError("nothing to draw: no point with ground truth near the origin");
     std::vector<int> xs, ys;
     for (const auto& [key, mark] : columns) {
         xs.push_back(unpack(key).x());

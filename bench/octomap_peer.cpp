@@ -60,8 +60,10 @@ void insert(octomap::OcTree& tree, const io::Frame& frame, const Eigen::Vector3d
 Labels labels_of(const octomap::OcTree& tree, const io::Frame& frame,
                  const Eigen::Vector3d& origin) {
     Labels labels;
-    for (const Point& p : app::shifted_world(frame, origin)) {
-        const auto* const node = tree.search(to_octomap(p));
+    const Points world = app::shifted_world(frame, origin);
+    for (std::size_t i = 0; i < world.size(); ++i) {
+        const auto* const node =
+            is_measured(frame.points[i]) ? tree.search(to_octomap(world[i])) : nullptr;
         labels.push_back(node == nullptr             ? Label::unknown
                          : tree.isNodeOccupied(node) ? Label::still
                                                      : Label::dynamic);

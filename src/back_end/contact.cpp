@@ -2,7 +2,6 @@
 #include "dynamic_filter/back_end/contact.hpp"
 
 #include <cmath>
-#include <vector>
 
 #include "dynamic_filter/geometry/principal_axes.hpp"
 

@@ -16,8 +16,7 @@ namespace dynamic_filter {
 namespace {
 
 Observer make_observer(const Scan& scan, const BeamPattern& beams) {
-    return {BeamImage(scan.points, beams), scan.T_world_sensor.inverse().cast<float>(),
-            scan.T_world_sensor.translation().cast<float>()};
+    return {BeamImage(scan.points, beams), scan.T_world_sensor.inverse().cast<float>()};
 }
 
 auto best_kernel() {
@@ -98,9 +97,7 @@ void EvidenceMap::check_known(std::size_t known) {
     std::iota(blocks.begin(), blocks.end(), 0U);
     parallel_for(blocks.size(), kGrain, [&](std::size_t begin, std::size_t end) {
         Glance glance{.first = 0, .end = static_cast<std::uint32_t>(known)};
-        for (std::size_t at = begin; at < end; at += kGrain) {
-            look_at({&blocks[at], std::min(kGrain, end - at)}, glance, observers_.back());
-        }
+        look_at({&blocks[begin], end - begin}, glance, observers_.back());
     });
 }
 

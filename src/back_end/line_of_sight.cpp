@@ -55,7 +55,8 @@ void look(const BeamImage& image, const Directions& places, const SightMargins& 
 bool may_see(const BeamImage& image, const Beam& center, float radius,
              const SightMargins& margins) {
     const float nearest = center.range - radius;
-    if (nearest > margins.farthest || center.range + radius < margins.nearest) return false;
+    const bool in_range = nearest <= margins.farthest && center.range + radius >= margins.nearest;
+    if (!in_range) return false;  // nor if it is not a number
     const ImageGrid& grid = image.grid();
     const float slant = std::abs(center.elevation) + 0.5F;     // [rad] of what lies within `radius`
     if (nearest < 2.0F * radius || slant > 1.3F) return true;  // the bounds below need it far off

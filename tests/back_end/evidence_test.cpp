@@ -35,10 +35,10 @@ TEST(Record, CountersStopAtTheirLargestValue) {
     EXPECT_EQ(e.switches, 65535);
 }
 
-TEST(IsUnknown, UntilAnotherScanHasAnOpinion) {
+TEST(IsUnknown, UntilItIsPassedOrSeenTwice) {
     EXPECT_TRUE(is_unknown(after("")));
     EXPECT_TRUE(is_unknown(after("o  ")));
-    EXPECT_FALSE(is_unknown(after(" -")));  // the scan that found it cannot have passed it
+    EXPECT_FALSE(is_unknown(after(" -")));
     EXPECT_FALSE(is_unknown(after("o -")));
     EXPECT_FALSE(is_unknown(after("oo")));
 }

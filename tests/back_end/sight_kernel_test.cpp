@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 
@@ -118,9 +119,10 @@ TEST(SightKernel, WhatIsNotANumberIsNotSeen) {
     test::Random random(6);
     const BeamImage image = scan(1.0, 360.0, random);
     const float nan = std::nanf("");
+    const float inf = std::numeric_limits<float>::infinity();
+    const Directions asked{{nan, 0, 0, inf, 0, 9}, {0, nan, 0, 0, -inf, 0}, {5, 5, nan, 5, 5, inf}};
     for (const Level& level : levels()) {
-        const Directions asked{{nan, 0.0F, 0.0F}, {0.0F, nan, 0.0F}, {nan, nan, nan}};
-        EXPECT_EQ(look_with(level, image, asked), std::vector<std::uint8_t>(3, 0)) << level.name;
+        EXPECT_EQ(look_with(level, image, asked), std::vector<std::uint8_t>(6, 0)) << level.name;
     }
 }
 

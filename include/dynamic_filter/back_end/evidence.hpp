@@ -21,7 +21,7 @@ struct Evidence {
 /// Takes in what the next observer saw.
 void record(Evidence& evidence, Sight sight);
 
-/// True while nobody but the scan that found the voxel has an opinion on it.
+/// True while none passed it and fewer than two saw it: one of those is the scan that found it.
 inline bool is_unknown(const Evidence& e) { return e.seen < 2 && e.passed == 0; }
 
 /// -1..1: whether the voxel was empty most of the time and only crossed by something; below 0: no.

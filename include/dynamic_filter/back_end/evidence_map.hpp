@@ -19,7 +19,6 @@ namespace dynamic_filter {
 struct Observer {
     BeamImage image;
     Eigen::Isometry3f T_sensor_map = Eigen::Isometry3f::Identity();
-    Point position = Point::Zero();  ///< of the sensor, in the map
 };
 
 /// The voxel of each point of a scan; kNoVoxel for points that were not measured or lie too far
@@ -37,8 +36,8 @@ class EvidenceMap {
 public:
     explicit EvidenceMap(const Config& config);
 
-    /// Takes a scan whose `T_world_sensor` is relative to the map. Cost: points, plus voxels within
-    /// reach, plus new voxels times keyframes kept.
+    /// Takes a scan whose `T_world_sensor` is relative to the map. Cost: points, plus blocks of
+    /// voxels, plus the voxels of those within sight, plus new voxels times keyframes kept.
     PointVoxels insert(const Scan& scan, StageTimes& times);
 
     /// Occupancy 0..1 of voxels: their own evidence, and that of the voxels within two cells, those

@@ -45,6 +45,7 @@ public:
     [[nodiscard]] bool has_beam(int row, int column) const {
         return is_stored(column) && (pixels_[pixel(row, column)] & 0xFFFFU) != 0;
     }
+    /// Only where has_beam().
     [[nodiscard]] Beam beam(int row, int column) const {
         const std::uint32_t p = pixels_[pixel(row, column)];
         constexpr float kFraction = 1.0F / 256.0F;
