@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "best_kernel.hpp"
 #include "dynamic_filter/front_end/submap.hpp"
 #include "dynamic_filter/front_end/window.hpp"
 #include "dynamic_filter/parallel.hpp"
@@ -17,14 +18,6 @@ namespace {
 
 Observer make_observer(const Scan& scan, const BeamPattern& beams) {
     return {BeamImage(scan.points, beams), scan.T_world_sensor.inverse().cast<float>()};
-}
-
-auto best_kernel() {
-#ifdef DYNAMIC_FILTER_X86_LEVELS
-    if (__builtin_cpu_supports("avx512f")) return kernel::avx512::vote;
-    if (__builtin_cpu_supports("avx2")) return kernel::avx2::vote;
-#endif
-    return kernel::baseline::vote;
 }
 
 /// A few points say nothing about how densely the sensor looks.
@@ -217,7 +210,7 @@ struct EvidenceMap::Neighborhood {
     /// other. Surfaces go on and people walk where others did, so the rest of the neighbourhood
     /// knows, too. Within +-3.
     [[nodiscard]] float vote_on(const Cell& cell, const Evidence& e) const {
-        static const auto kernel = best_kernel();
+        static const auto kernel = DYNAMIC_FILTER_BEST_KERNEL(vote);
         return kernel({x.data(), y.data(), z.data(), opinion.data(), first.data(), last.data(),
                        count, static_cast<float>(cell.x()), static_cast<float>(cell.y()),
                        static_cast<float>(cell.z()), static_cast<float>(e.first_owner),

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "best_kernel.hpp"
 #include "sight_kernel.hpp"
 
 namespace dynamic_filter {
@@ -12,19 +13,11 @@ namespace {
 
 constexpr float kPi = 3.14159265358979F;
 
-auto best_kernel() {
-#ifdef DYNAMIC_FILTER_X86_LEVELS
-    if (__builtin_cpu_supports("avx512f")) return kernel::avx512::look;
-    if (__builtin_cpu_supports("avx2")) return kernel::avx2::look;
-#endif
-    return kernel::baseline::look;
-}
-
 }  // namespace
 
 void look(const BeamImage& image, const Directions& places, const SightMargins& margins,
           std::vector<Sight>& sights) {
-    static const auto kernel = best_kernel();
+    static const auto kernel = DYNAMIC_FILTER_BEST_KERNEL(look);
     static_assert(sizeof(Sight) == 1);
     sights.assign(places.range.size(), Sight::nothing);
     if (image.bytes() == 0) return;

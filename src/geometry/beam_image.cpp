@@ -5,19 +5,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "best_kernel.hpp"
 #include "project_kernel.hpp"
 
 namespace dynamic_filter {
 
 namespace {
-
-auto best_kernel() {
-#ifdef DYNAMIC_FILTER_X86_LEVELS
-    if (__builtin_cpu_supports("avx512f")) return kernel::avx512::to_spherical;
-    if (__builtin_cpu_supports("avx2")) return kernel::avx2::to_spherical;
-#endif
-    return kernel::baseline::to_spherical;
-}
 
 /// Finer pixels would only cost memory: beams of one ring jitter by as much.
 constexpr float kLeastStep = 0.1F * std::numbers::pi_v<float> / 180.0F;
@@ -45,7 +38,7 @@ Position split(float steps, int count) {
 
 void to_spherical(std::span<const Point> points, const Eigen::Isometry3f& T_image_points,
                   Directions& out) {
-    static const auto kernel = best_kernel();
+    static const auto kernel = DYNAMIC_FILTER_BEST_KERNEL(to_spherical);
     static_assert(sizeof(Point) == 3 * sizeof(float));
     out.azimuth.resize(points.size());
     out.elevation.resize(points.size());

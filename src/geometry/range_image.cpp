@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "best_kernel.hpp"
 #include "project_kernel.hpp"
 
 namespace dynamic_filter {
@@ -13,14 +14,6 @@ namespace dynamic_filter {
 namespace {
 
 constexpr float kTwoPi = 2.0F * std::numbers::pi_v<float>;
-
-auto best_kernel() {
-#ifdef DYNAMIC_FILTER_X86_LEVELS
-    if (__builtin_cpu_supports("avx512f")) return kernel::avx512::project;
-    if (__builtin_cpu_supports("avx2")) return kernel::avx2::project;
-#endif
-    return kernel::baseline::project;
-}
 
 /// 0 if there are no gaps. Reorders them.
 float median_gap(std::vector<float>& gaps) {
@@ -67,7 +60,7 @@ ImageGrid make_grid(float azimuth_step, float elevation_step, float elevation_mi
 
 void project(std::span<const Point> points, const Eigen::Isometry3f& T_image_points,
              const ImageGrid& grid, Projection& out) {
-    static const auto kernel = best_kernel();
+    static const auto kernel = DYNAMIC_FILTER_BEST_KERNEL(project);
     static_assert(sizeof(Point) == 3 * sizeof(float));
     out.pixel.resize(points.size());
     out.range.resize(points.size());
