@@ -26,6 +26,8 @@ thread_local int thread_limit = 0;
 
 int available_threads() { return std::max(1U, std::thread::hardware_concurrency()); }
 
+int current_threads() { return thread_limit > 0 ? thread_limit : available_threads(); }
+
 void with_threads(int threads, const std::function<void()>& work) {
     struct Restore {
         int before;
@@ -36,8 +38,7 @@ void with_threads(int threads, const std::function<void()>& work) {
 
 void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t)>& body) {
-    const auto limit =
-        static_cast<std::size_t>(thread_limit > 0 ? thread_limit : available_threads());
+    const auto limit = static_cast<std::size_t>(current_threads());
     const std::size_t chunks =
         std::clamp<std::size_t>(count / std::max<std::size_t>(1, grain), 1, limit);
     std::mutex mutex;
@@ -62,6 +63,8 @@ void parallel_for(std::size_t count, std::size_t grain,
 #else
 
 int available_threads() { return tbb::info::default_concurrency(); }
+
+int current_threads() { return tbb::this_task_arena::max_concurrency(); }
 
 void with_threads(int threads, const std::function<void()>& work) {
     tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);

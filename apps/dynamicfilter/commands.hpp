@@ -35,6 +35,8 @@ struct RunOptions {
     std::size_t first = 0, stride = 1;
     std::optional<std::size_t> last;
     int threads = 0;
+    bool online = false;
+    double speed = 1.0;  ///< of online: times the sensor's rate; 0: as fast as it can
     bool overwrite = false;
 };
 

@@ -45,7 +45,7 @@ int demo(const DemoOptions& o) {
 
     TopView view;
     const io::Sequence sequence = open(recording, "kitti", {});
-    const RunSummary summary = run_sequence(sequence, preset("default"), 0, result, &view);
+    const RunSummary summary = run_sequence(sequence, preset("default"), {}, result, &view);
     io::write_png(o.output / "before.png", view.draw(true));
     io::write_png(o.output / "after.png", view.draw(false));
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <future>
 
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/geometry/pose.hpp"
@@ -44,19 +45,32 @@ io::Sequence open(const std::filesystem::path& data, const std::string& format,
 void for_each_frame(const io::Sequence& sequence, const std::vector<std::size_t>& scans,
                     const std::function<void(std::size_t, MaybeFrame&)>& prepare,
                     const std::function<bool(std::size_t, MaybeFrame&)>& use) {
-    constexpr std::size_t kAhead = 16;
-    for (std::size_t first = 0; first < scans.size(); first += kAhead) {
+    constexpr std::size_t kAhead = 8;
+    const auto read = [&](std::size_t i, MaybeFrame& maybe) {
+        try {
+            maybe.frame = io::read_frame(sequence, scans[i]);
+            if (prepare) prepare(scans[i], maybe);
+        } catch (const InputError& error) {
+            maybe = {std::nullopt, error.what()};
+        }
+    };
+    const auto read_batch = [&, threads = current_threads()](std::size_t first) {
         std::vector<MaybeFrame> batch(std::min(kAhead, scans.size() - first));
-        parallel_for(batch.size(), 1, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                try {
-                    batch[i].frame = io::read_frame(sequence, scans[first + i]);
-                    if (prepare) prepare(scans[first + i], batch[i]);
-                } catch (const InputError& error) {
-                    batch[i] = {std::nullopt, error.what()};
-                }
-            }
+        with_threads(threads, [&] {
+            parallel_for(batch.size(), 1, [&](std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i) read(first + i, batch[i]);
+            });
         });
+        return batch;
+    };
+    std::future<std::vector<MaybeFrame>> next;  // its destructor waits
+    const auto begin_batch = [&](std::size_t first) {
+        if (first < scans.size()) next = std::async(std::launch::async, read_batch, first);
+    };
+    begin_batch(0);
+    for (std::size_t first = 0; first < scans.size(); first += kAhead) {
+        std::vector<MaybeFrame> batch = next.get();
+        begin_batch(first + kAhead);
         for (std::size_t i = 0; i < batch.size(); ++i) {
             if (!use(scans[first + i], batch[i])) return;
         }

@@ -23,8 +23,9 @@ struct MaybeFrame {
     std::string error;
 };
 
-/// Reads `scans` (indices) a few at a time, in parallel; `prepare` runs on each in parallel, then
-/// `use` on each in order. Stops early when `use` returns false.
+/// Reads `scans` (indices) a few at a time, in parallel, and the next few meanwhile; `prepare` runs
+/// on each in parallel, then `use` on each in order, in the caller's thread. Stops early when `use`
+/// returns false.
 void for_each_frame(const io::Sequence& sequence, const std::vector<std::size_t>& scans,
                     const std::function<void(std::size_t, MaybeFrame&)>& prepare,
                     const std::function<bool(std::size_t, MaybeFrame&)>& use);

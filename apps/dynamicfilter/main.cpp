@@ -30,7 +30,16 @@ void add_run(CLI::App& app, std::function<int()>& chosen) {
     c.add_option("--first", o->first, "index of the first scan")->check(CLI::NonNegativeNumber);
     c.add_option("--last", o->last, "index of the last scan")->check(CLI::NonNegativeNumber);
     c.add_option("--stride", o->stride, "use every n-th scan")->check(CLI::PositiveNumber);
-    c.add_option("--threads", o->threads, "0: all cores")->check(CLI::Range(0, 1024));
+    c.add_option("--threads", o->threads, "of each stage; 0: all cores")
+        ->check(CLI::Range(0, 1024));
+    CLI::Option* const online =
+        c.add_flag("--online", o->online,
+                   "replay as a sensor would; scans that it cannot keep up with are dropped");
+    c.add_option("--speed", o->speed,
+                 "with --online: times the sensor's rate; 0: as fast as it can, nothing dropped")
+        ->needs(online)
+        ->check(CLI::Range(0.0, 1e6))
+        ->capture_default_str();
     c.add_flag("--overwrite", o->overwrite,
                "replace what an earlier run left in the output folder");
     c.callback([o, &chosen] { chosen = [o] { return run(*o); }; });

@@ -3,9 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
-#include <numeric>
 
 namespace dynamic_filter::app {
 
@@ -36,18 +34,15 @@ ordered_json to_json(const eval::Scores& scores) {
 
 ordered_json to_json(const StageTimes& times) {
     ordered_json json = ordered_json::object();
+    constexpr double kMs = 1e3;
     for (const auto& [stage, calls] : times) {
-        std::vector<double> sorted = calls;
-        std::sort(sorted.begin(), sorted.end());
-        const auto quantile = [&](double share) {
-            return 1e3 *
-                   sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
-        };
-        const double sum = std::accumulate(sorted.begin(), sorted.end(), 0.0);
-        json[stage] = {
-            {"count", sorted.size()}, {"mean", 1e3 * sum / static_cast<double>(sorted.size())},
-            {"p50", quantile(0.50)},  {"p95", quantile(0.95)},
-            {"p99", quantile(0.99)},  {"max", quantile(1.0)}};
+        if (calls.count() == 0) continue;
+        json[stage] = {{"count", calls.count()},
+                       {"mean", kMs * calls.total() / static_cast<double>(calls.count())},
+                       {"p50", kMs * calls.quantile(0.50)},
+                       {"p95", kMs * calls.quantile(0.95)},
+                       {"p99", kMs * calls.quantile(0.99)},
+                       {"max", kMs * calls.max()}};
     }
     return json;
 }

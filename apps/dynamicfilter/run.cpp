@@ -21,9 +21,13 @@ int run(const RunOptions& o) {
     for (const std::string& note : sequence.notes) fmt::print(stderr, "note: {}\n", note);
 
     catch_interrupts();
-    const RunSummary summary = run_sequence(sequence, config, o.threads, output);
+    const Pace pace{.threads = o.threads,
+                    .online = o.online ? std::optional(o.speed) : std::nullopt};
+    const RunSummary summary = run_sequence(sequence, config, pace, output);
 
+    for (const std::string& line : summary.notes) fmt::print(stderr, "note: {}\n", line);
     for (const std::string& line : summary.rejected) fmt::print(stderr, "rejected {}\n", line);
+    for (const std::string& line : summary.dropped) fmt::print(stderr, "dropped {}\n", line);
     fmt::print("{}written  {}\n", to_text(summary), output.path().string());
     if (!named && !link_latest(output.path())) fmt::print(stderr, "note: no link results/latest\n");
     if (2 * summary.unknown > summary.points) {
@@ -31,7 +35,7 @@ int run(const RunOptions& o) {
                    "note: most points are unknown; are the first poses of another place?\n");
     }
     if (summary.interrupted) return kInterrupted;
-    return summary.rejected.empty() ? kDone : kRejected;
+    return summary.rejected.empty() && summary.dropped.empty() ? kDone : kRejected;
 }
 
 }  // namespace dynamic_filter::app

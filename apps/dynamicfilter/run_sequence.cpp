@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <algorithm>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <thread>
 
 #include "config_file.hpp"
 #include "dynamic_filter/dynamic_filter.hpp"
@@ -28,11 +31,35 @@ double seconds_since(Clock::time_point start) {
 struct Pass {
     const io::Sequence& sequence;
     const Config& config;
+    const Pace& pace;
     const OutputFolder& output;
-    DynamicFilter filter;
     RunSummary summary{};
-    std::vector<std::size_t> accepted{};
+    std::vector<bool> accepted = std::vector<bool>(sequence.size());
     std::vector<Labels> instant{};  ///< by scan; filled only where there is ground truth
+    std::mutex notices_lock{};
+    std::vector<Notice> notices{};
+    OnlineFilter filter{config, options(), callbacks()};  // the last: it uses the others
+
+    /// Verdicts are written at the end, so nothing is forgotten.
+    [[nodiscard]] OnlineOptions options() const {
+        const bool drops = pace.online.value_or(0.0) > 0.0;
+        return {.overload = drops ? Overload::drop_oldest : Overload::wait,
+                .horizon = 0.0,
+                .max_bytes = 0,
+                .threads = pace.threads};
+    }
+    OnlineCallbacks callbacks() {
+        return {.instant =
+                    [this](const Verdict& verdict) {
+                        if (sequence.has_truth()) instant[verdict.index] = verdict.labels;
+                    },
+                .settled = {},
+                .notice =
+                    [this](const Notice& notice) {
+                        const std::lock_guard hold(notices_lock);
+                        notices.push_back(notice);
+                    }};
+    }
 };
 
 std::vector<std::size_t> all_scans(const io::Sequence& sequence) {
@@ -41,13 +68,43 @@ std::vector<std::size_t> all_scans(const io::Sequence& sequence) {
     return scans;
 }
 
-void keep_instant(Pass& pass, std::vector<Verdict> verdicts) {
-    if (!pass.sequence.has_truth()) return;
-    for (Verdict& v : verdicts) pass.instant[v.index] = std::move(v.labels);
+std::vector<std::size_t> accepted_scans(const Pass& pass) {
+    std::vector<std::size_t> scans;
+    for (std::size_t i = 0; i < pass.accepted.size(); ++i) {
+        if (pass.accepted[i]) scans.push_back(i);
+    }
+    return scans;
 }
 
 void reject(Pass& pass, std::size_t i, const std::string& why) {
     pass.summary.rejected.push_back(fmt::format("{}: {}", io::stem(pass.sequence, i), why));
+}
+
+/// What the filter said about scans, into the summary.
+void take_notices(Pass& pass) {
+    for (const Notice& notice : pass.notices) {
+        const std::string line =
+            fmt::format("{}: {}", io::stem(pass.sequence, notice.index), notice.text);
+        if (notice.kind == NoticeKind::jump || notice.kind == NoticeKind::restart) {
+            pass.summary.notes.push_back(line);
+            continue;
+        }
+        pass.accepted[notice.index] = false;
+        (notice.kind == NoticeKind::dropped ? pass.summary.dropped : pass.summary.rejected)
+            .push_back(line);
+    }
+}
+
+/// Waits until the sensor would have sent the scan.
+void keep_pace(const Pass& pass, Clock::time_point start, double stamp) {
+    const double speed = pass.pace.online.value_or(0.0);
+    if (speed <= 0.0) return;
+    const double due = (stamp - pass.sequence.stamps.front()) / speed;
+    while (!interrupted()) {
+        const double left = due - seconds_since(start);
+        if (left <= 0.0) return;
+        std::this_thread::sleep_for(std::chrono::duration<double>(std::min(left, 0.1)));
+    }
 }
 
 /// First pass: every usable scan goes through the filter.
@@ -55,26 +112,30 @@ void filter_scans(Pass& pass) {
     Progress progress("filter", pass.sequence.size());
     pass.instant.resize(pass.sequence.size());
     std::vector<io::Field> fields;
+    std::optional<Clock::time_point> start;
     const auto use = [&](std::size_t i, MaybeFrame& maybe) {
+        if (!start) start = Clock::now();
         if (!maybe.frame) {
             reject(pass, i, maybe.error);
         } else if (!fields.empty() && maybe.frame->cloud.fields != fields) {
             reject(pass, i, "its fields are not those of the first scan; one map cannot hold both");
         } else {
             if (fields.empty()) fields = maybe.frame->cloud.fields;
-            pass.accepted.push_back(i);
-            keep_instant(pass, pass.filter.push(take_scan(*maybe.frame, i)));
+            pass.accepted[i] = true;
+            keep_pace(pass, *start, maybe.frame->stamp);
+            pass.filter.push(take_scan(*maybe.frame, i));
         }
         progress.advance();
         return !(pass.summary.interrupted = interrupted());
     };
     for_each_frame(pass.sequence, all_scans(pass.sequence), {}, use);
-    if (pass.accepted.empty() && !pass.summary.interrupted) {
+    pass.filter.finish();
+    take_notices(pass);
+    if (accepted_scans(pass).empty() && !pass.summary.interrupted) {
         throw InputError(
             pass.sequence.root, "",
             "no scan is usable; the first was rejected: " + pass.summary.rejected.front());
     }
-    keep_instant(pass, pass.filter.finish());
 }
 
 void count(RunSummary& summary, const Labels& labels) {
@@ -92,7 +153,8 @@ void write_results(Pass& pass, TopView* view) {
     const auto folder = pass.output.subfolder("labels");
     MapFiles maps(pass.output.path(), pass.config.output.keep_unknown,
                   pass.sequence.format == io::Format::benchmark);
-    Progress progress("write", pass.accepted.size());
+    const std::vector<std::size_t> scans = accepted_scans(pass);
+    Progress progress("write", scans.size());
     std::vector<Labels> labels(pass.sequence.size());
     const auto classify = [&](std::size_t i, MaybeFrame& maybe) {
         const io::Frame& frame = *maybe.frame;
@@ -113,7 +175,7 @@ void write_results(Pass& pass, TopView* view) {
         progress.advance();
         return true;  // what is filtered is written even after an interruption; a second one kills
     };
-    for_each_frame(pass.sequence, pass.accepted, classify, use);
+    for_each_frame(pass.sequence, scans, classify, use);
     maps.commit();
 }
 
@@ -139,16 +201,17 @@ void score(Pass& pass) {
 
 double total(const StageTimes& times, const std::string& stage) {
     const auto it = times.find(stage);
-    return it == times.end() ? 0.0 : std::accumulate(it->second.begin(), it->second.end(), 0.0);
+    return it == times.end() ? 0.0 : it->second.total();
 }
 
 double rate(std::size_t items, double seconds) {
     return seconds > 0 ? static_cast<double>(items) / seconds : 0.0;
 }
 
-void write_timing(const Pass& pass, int threads, double cpu_seconds, long peak_rss) {
+void write_timing(const Pass& pass, double cpu_seconds, long peak_rss) {
     const RunSummary& s = pass.summary;
-    const nlohmann::ordered_json json{
+    const int threads = pass.pace.threads;
+    nlohmann::ordered_json json{
         {"scans_per_second", rate(s.scans, s.seconds)},
         {"cpu_seconds", cpu_seconds},
         {"front_end", {{"scans_per_second", s.front_end_scans_per_second}}},
@@ -157,6 +220,12 @@ void write_timing(const Pass& pass, int threads, double cpu_seconds, long peak_r
         {"voxels", s.voxels},
         {"peak_rss_bytes", peak_rss},
         {"threads", threads > 0 ? threads : available_threads()}};
+    if (pass.pace.online) {
+        const Counters c = pass.filter.counters();
+        json["online"] = {{"speed", *pass.pace.online}, {"in", c.in},
+                          {"processed", c.processed},   {"dropped", c.dropped},
+                          {"rejected", c.rejected},     {"queued", c.queued}};
+    }
     io::write_file(pass.output.path() / "timing.json", text_of(json));
 }
 
@@ -169,6 +238,7 @@ void write_metrics(const Pass& pass) {
     json["scans"] = s.scans;
     json["points"] = {{"static", s.still}, {"dynamic", s.dynamic}, {"unknown", s.unknown}};
     json["rejected"] = s.rejected;
+    json["dropped"] = s.dropped;
     io::write_file(pass.output.path() / "metrics.json", text_of(json));
 }
 
@@ -176,8 +246,10 @@ void write_log(const Pass& pass) {
     std::string log = fmt::format("input    {} ({}, {} scans)\n", pass.sequence.root.string(),
                                   io::to_string(pass.sequence.format), pass.sequence.size());
     for (const std::string& note : pass.sequence.notes) log += "note     " + note + "\n";
+    for (const std::string& note : pass.summary.notes) log += "note     " + note + "\n";
     for (const std::string& line : pass.summary.rejected) log += "rejected " + line + "\n";
-    if (const auto& beams = pass.filter.beams()) {
+    for (const std::string& line : pass.summary.dropped) log += "dropped  " + line + "\n";
+    if (const auto beams = pass.filter.extent().beams) {
         log += fmt::format("beams    {:.2f} deg along azimuth, {:.2f} deg along elevation\n",
                            beams->azimuth_spacing * 180.0 / M_PI,
                            beams->elevation_spacing * 180.0 / M_PI);
@@ -186,7 +258,7 @@ void write_log(const Pass& pass) {
     io::write_file(pass.output.path() / "run.log", log + to_text(pass.summary));
 }
 
-void measure(Pass& pass, Clock::time_point start, int threads) {
+void measure(Pass& pass, Clock::time_point start) {
     RunSummary& s = pass.summary;
     s.seconds = seconds_since(start);
     rusage usage{};
@@ -194,26 +266,27 @@ void measure(Pass& pass, Clock::time_point start, int threads) {
     const auto seconds = [](const timeval& t) {
         return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
     };
-    s.submaps = pass.filter.submaps();
-    s.voxels = pass.filter.voxels().size();
-    s.front_end_scans_per_second = rate(s.scans, total(pass.filter.times(), "front_end"));
-    s.back_end_submaps_per_second = rate(s.submaps, total(pass.filter.times(), "back_end"));
-    write_timing(pass, threads, seconds(usage.ru_utime) + seconds(usage.ru_stime),
-                 1024 * usage.ru_maxrss);
+    const OnlineFilter::Extent extent = pass.filter.extent();
+    const StageTimes times = pass.filter.times();
+    s.submaps = extent.submaps;
+    s.voxels = extent.voxels;
+    s.front_end_scans_per_second = rate(s.scans, total(times, "front_end"));
+    s.back_end_submaps_per_second = rate(s.submaps, total(times, "back_end"));
+    write_timing(pass, seconds(usage.ru_utime) + seconds(usage.ru_stime), 1024 * usage.ru_maxrss);
 }
 
 }  // namespace
 
-RunSummary run_sequence(const io::Sequence& sequence, const Config& config, int threads,
+RunSummary run_sequence(const io::Sequence& sequence, const Config& config, const Pace& pace,
                         const OutputFolder& output, TopView* view) {
     RunSummary summary;
-    with_threads(threads, [&] {
+    with_threads(pace.threads, [&] {
         const auto start = Clock::now();
-        Pass pass{sequence, config, output, DynamicFilter(config)};
+        Pass pass{sequence, config, pace, output};
         io::write_file(output.path() / "config.toml", to_toml(config));
         filter_scans(pass);
         write_results(pass, view);
-        measure(pass, start, threads);
+        measure(pass, start);
         pass.summary.interrupted |= interrupted();
         if (sequence.has_truth() && !pass.summary.interrupted) score(pass);
         write_metrics(pass);

@@ -18,6 +18,8 @@ namespace dynamic_filter::app {
 struct RunSummary {
     std::size_t scans = 0;  ///< that have a verdict
     std::vector<std::string> rejected;
+    std::vector<std::string> dropped;  ///< online: what it could not keep up with
+    std::vector<std::string> notes;
     std::size_t points = 0, still = 0, dynamic = 0, unknown = 0;
     std::size_t submaps = 0, voxels = 0;
     double seconds = 0.0, front_end_scans_per_second = 0.0, back_end_submaps_per_second = 0.0;
@@ -25,9 +27,14 @@ struct RunSummary {
     bool interrupted = false;
 };
 
+struct Pace {
+    int threads = 0;               ///< 0: all cores
+    std::optional<double> online;  ///< times the sensor's rate; 0: as fast as it can
+};
+
 /// Filters the sequence and writes everything a run leaves behind. `view`, if given, collects the
 /// final verdicts. Throws InputError if not a single scan is usable.
-RunSummary run_sequence(const io::Sequence& sequence, const Config& config, int threads,
+RunSummary run_sequence(const io::Sequence& sequence, const Config& config, const Pace& pace,
                         const OutputFolder& output, TopView* view = nullptr);
 
 /// The closing table.

@@ -6,4 +6,5 @@
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/parallel.hpp"
 #include "dynamic_filter/pipeline/dynamic_filter.hpp"
+#include "dynamic_filter/pipeline/online_filter.hpp"
 #include "dynamic_filter/types.hpp"

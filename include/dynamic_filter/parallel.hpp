@@ -15,6 +15,9 @@ void parallel_for(std::size_t count, std::size_t grain,
 /// Runs `work` so that parallel_for inside it uses at most `threads` threads (0: all cores).
 void with_threads(int threads, const std::function<void()>& work);
 
+/// Threads that parallel_for uses at most if called from here.
+int current_threads();
+
 /// Cores that this process may run on.
 int available_threads();
 

@@ -2,7 +2,9 @@
 /// Wall time per call of each stage, for timing.json.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <map>
 #include <string>
 #include <utility>
@@ -10,18 +12,61 @@
 
 namespace dynamic_filter {
 
-/// Seconds of each call, by stage.
-using StageTimes = std::map<std::string, std::vector<double>>;
+/// Seconds of many calls, in bounded memory: all count towards the sums, the newest towards the
+/// quantiles.
+class Durations {
+public:
+    static constexpr std::size_t kNewest = 4096;
+
+    void add(double seconds) {
+        keep(seconds);
+        ++count_;
+        total_ += seconds;
+        max_ = std::max(max_, seconds);
+    }
+    void add(const Durations& other) {
+        for (const double seconds : other.newest_) keep(seconds);
+        count_ += other.count_;
+        total_ += other.total_;
+        max_ = std::max(max_, other.max_);
+    }
+    [[nodiscard]] std::size_t count() const { return count_; }
+    [[nodiscard]] double total() const { return total_; }
+    [[nodiscard]] double max() const { return max_; }
+    /// The call below which that share of the newest calls lies. 0 if there was none.
+    [[nodiscard]] double quantile(double share) const {
+        if (newest_.empty()) return 0.0;
+        std::vector<double> calls = newest_;
+        const auto rank =
+            static_cast<std::ptrdiff_t>(share * static_cast<double>(calls.size() - 1));
+        std::nth_element(calls.begin(), calls.begin() + rank, calls.end());
+        return calls[static_cast<std::size_t>(rank)];
+    }
+
+private:
+    void keep(double seconds) {
+        if (newest_.size() < kNewest) {
+            newest_.push_back(seconds);
+        } else {
+            newest_[oldest_++ % kNewest] = seconds;
+        }
+    }
+    std::vector<double> newest_;
+    std::size_t oldest_ = 0, count_ = 0;
+    double total_ = 0.0, max_ = 0.0;
+};
+
+using StageTimes = std::map<std::string, Durations>;
 
 /// Runs `work`, notes how long it took, and hands on its result. Single caller per `times`.
 template <class F>
 decltype(auto) timed(StageTimes& times, const std::string& stage, F&& work) {
     struct Note {
-        std::vector<double>& seconds;
+        Durations& durations;
         std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
         ~Note() {
             const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
-            seconds.push_back(passed.count());
+            durations.add(passed.count());
         }
     } note{times[stage]};
     return std::forward<F>(work)();

@@ -6,19 +6,26 @@
 
 #include "dynamic_filter/back_end/normals.hpp"
 #include "dynamic_filter/front_end/front_end.hpp"
+#include "dynamic_filter/geometry/map_points.hpp"
 
 namespace dynamic_filter {
 
 namespace {
 
 std::vector<std::uint32_t> own_voxels(const Points& points, float voxel_size, VoxelIndex& index) {
+    MapPoints in_map;
+    to_voxels(points, voxel_size, in_map);
+    std::vector<bool> met(index.size());
     std::vector<std::uint32_t> ids;
-    ids.reserve(points.size());
-    for (const Point& p : points) {
-        if (const auto key = voxel_of(p, voxel_size)) ids.push_back(index.insert(*key));
+    for (const VoxelKey key : in_map.keys) {
+        if (key == kNoKey) continue;
+        const std::uint32_t id = index.insert(key);
+        if (id >= met.size()) met.resize(2 * id + 1);
+        if (met[id]) continue;
+        met[id] = true;
+        ids.push_back(id);
     }
     std::sort(ids.begin(), ids.end());
-    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
     return ids;
 }
 
@@ -47,6 +54,32 @@ void BackEnd::insert(Submap submap, const BeamPattern& beams, StageTimes& times)
         });
     }
     buffer_.push_back(std::move(buffered));
+}
+
+double BackEnd::keep_within(const Eigen::Vector3d& center, double radius, std::size_t most_points) {
+    const auto distance = [&](const BufferedSubmap& b) {
+        return (b.submap.T_map_submap.translation() - center).norm();
+    };
+    std::erase_if(buffer_, [&](const BufferedSubmap& b) { return distance(b) > radius; });
+    while (buffer_.size() > 1 && points() > most_points) {
+        const auto farthest = std::max_element(
+            buffer_.begin(), buffer_.end(),
+            [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+        radius = distance(*farthest);
+        buffer_.erase(farthest);
+    }
+    voxels_ = {};
+    for (BufferedSubmap& b : buffer_) {
+        b.voxels = own_voxels(b.submap.points, static_cast<float>(config_.voxel_size), voxels_);
+    }
+    slot_of_voxel_.assign(voxels_.size(), 0);
+    return radius;
+}
+
+std::size_t BackEnd::points() const {
+    std::size_t sum = 0;
+    for (const BufferedSubmap& b : buffer_) sum += b.submap.points.size();
+    return sum;
 }
 
 LocalMap BackEnd::local_map(const Pose& T_map_query, StageTimes& times) {

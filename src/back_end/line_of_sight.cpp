@@ -13,6 +13,12 @@ namespace {
 
 constexpr float kPi = 3.14159265358979F;
 
+/// Without the call to the C library that std::floor is on the oldest machines.
+int floor_of(float x) {
+    const int cut = static_cast<int>(x);
+    return cut - (static_cast<float>(cut) > x ? 1 : 0);
+}
+
 }  // namespace
 
 void look(const BeamImage& image, const Directions& places, const SightMargins& margins,
@@ -24,6 +30,7 @@ void look(const BeamImage& image, const Directions& places, const SightMargins& 
     const BeamImage::View view = image.view();
     const ImageGrid& grid = image.grid();
     kernel({.pixels = view.pixels,
+            .farthest_cm = view.farthest_cm,
             .columns = grid.columns,
             .rows = grid.rows,
             .first_column = view.first_column,
@@ -53,19 +60,17 @@ bool may_see(const BeamImage& image, const Beam& center, float radius,
     const ImageGrid& grid = image.grid();
     const float slant = std::abs(center.elevation) + 0.5F;     // [rad] of what lies within `radius`
     if (nearest < 2.0F * radius || slant > 1.3F) return true;  // the bounds below need it far off
-    const float angle = 1.1F * radius / center.range;          // at least asin of it
-    const float beside = margins.beside / nearest;
-    const float rows = (angle + beside) / grid.elevation_step + 1.1F;
-    const float columns = (angle + beside) / std::cos(slant) / grid.azimuth_step + 1.1F;
+    // The angle is at least asin of the radius over the range.
+    const float reach = 1.1F * radius / center.range + margins.beside / nearest;
+    const float rows = reach / grid.elevation_step + 1.1F;
+    const float columns = reach / (std::cos(slant) * grid.azimuth_step) + 1.1F;
     const float row = (center.elevation - grid.elevation_min) / grid.elevation_step;
     const float column = (center.azimuth + kPi) / grid.azimuth_step;
-    const auto floor_of = [](float x) { return static_cast<int>(std::floor(x)); };
     const int first_row = std::max(0, floor_of(row - rows));
     const int last_row = std::min(grid.rows - 1, floor_of(row + rows));
     if (first_row > last_row) return false;
-    const float farthest =
-        image.farthest(first_row, last_row, floor_of(column - columns), floor_of(column + columns));
-    return farthest > nearest - margins.touch - margins.per_metre * nearest;
+    return image.reaches(nearest - margins.touch - margins.per_metre * nearest, first_row, last_row,
+                         floor_of(column - columns), floor_of(column + columns));
 }
 
 }  // namespace dynamic_filter

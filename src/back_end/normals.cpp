@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
+#include <numeric>
 #include <vector>
 
-#include "dynamic_filter/front_end/submap.hpp"
+#include "dynamic_filter/geometry/map_points.hpp"
 #include "dynamic_filter/geometry/principal_axes.hpp"
+#include "dynamic_filter/geometry/voxel_index.hpp"
 #include "dynamic_filter/parallel.hpp"
 
 namespace dynamic_filter {
@@ -19,25 +20,33 @@ namespace {
 struct VoxelTable {
     std::vector<VoxelKey> keys;
     std::vector<Moments> moments;
-    std::vector<std::uint32_t> voxel_of_point;  ///< into keys; UINT32_MAX beyond the keys' reach
+    std::vector<std::uint32_t> voxel_of_point;  ///< into keys; kNoVoxel beyond the keys' reach
 };
 
 VoxelTable tabulate(std::span<const Point> points, float voxel_size) {
-    std::vector<std::pair<VoxelKey, std::uint32_t>> order;
-    order.reserve(points.size());
-    for (std::uint32_t i = 0; i < points.size(); ++i) {
-        if (const auto key = voxel_of(points[i], voxel_size)) order.emplace_back(*key, i);
+    MapPoints in_map;
+    to_voxels(points, voxel_size, in_map);
+    VoxelIndex index;  // by first point, not yet in order
+    std::vector<Moments> moments;
+    std::vector<std::uint32_t> id_of_point(points.size(), kNoVoxel);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (in_map.keys[i] == kNoKey) continue;
+        const std::uint32_t id = id_of_point[i] = index.insert(in_map.keys[i]);
+        if (id == moments.size()) moments.emplace_back();
+        moments[id].add(points[i]);
     }
-    std::sort(order.begin(), order.end());
+    std::vector<std::uint32_t> order(index.size()), place(index.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::sort(order.begin(), order.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return index.key(a) < index.key(b); });
     VoxelTable table;
-    table.voxel_of_point.assign(points.size(), UINT32_MAX);
-    for (const auto& [key, i] : order) {
-        if (table.keys.empty() || table.keys.back() != key) {
-            table.keys.push_back(key);
-            table.moments.emplace_back();
-        }
-        table.moments.back().add(points[i]);
-        table.voxel_of_point[i] = static_cast<std::uint32_t>(table.keys.size() - 1);
+    for (const std::uint32_t id : order) {
+        place[id] = static_cast<std::uint32_t>(table.keys.size());
+        table.keys.push_back(index.key(id));
+        table.moments.push_back(moments[id]);
+    }
+    for (const std::uint32_t id : id_of_point) {
+        table.voxel_of_point.push_back(id == kNoVoxel ? kNoVoxel : place[id]);
     }
     return table;
 }
@@ -93,8 +102,8 @@ Points estimate_normals(std::span<const Point> points, float voxel_size) {
     });
     Points normals(points.size(), Point::Zero());
     for (std::size_t i = 0; i < points.size(); ++i) {
-        if (table.voxel_of_point[i] != UINT32_MAX)
-            normals[i] = normal_of_voxel[table.voxel_of_point[i]];
+        const std::uint32_t voxel = table.voxel_of_point[i];
+        if (voxel != kNoVoxel) normals[i] = normal_of_voxel[voxel];
     }
     return normals;
 }

@@ -33,7 +33,7 @@ DF_INLINE Floats cosine(Floats x) {
     return 1.0F + s * (-0.5F + s * (1.0F / 24.0F + s * (-1.0F / 720.0F + s * (1.0F / 40320.0F))));
 }
 
-/// Beams as seen from the places: angles [rad] to the right and up, both true arcs.
+/// Beams as seen from the places: pixels to the right and up.
 struct Near {
     Floats right, up, range, nearness;
 };
@@ -56,50 +56,178 @@ DF_INLINE Side side_of(Floats angle_a, Floats range_a, Floats angle_b, Floats ra
     return {(distance > 0.0F) & (distance * distance > limit_sq), distance * distance <= limit_sq};
 }
 
-DF_INLINE Floats load(const float* values, std::size_t begin, std::size_t count) {
+/// Sixteen places, and how far around each beams matter. Lengths in pixels, if nothing is said.
+struct Places {
+    Ints in_range;
+    Floats range, touch;               // [m]
+    Floats column_width;               // [rad] true arc
+    Floats column, row;                // where in the image
+    Floats reach_columns, reach_rows;  // half the window
+    Floats own_columns, own_rows;      // of a beam that is the place's own
+    Floats beside_rows;                // SightMargins::beside
+    Floats per_reach_column, per_reach_row;
+};
+DF_INLINE Floats load(const float* values) {
     Floats out;
-    for (int k = 0; k < kLanes; ++k) {
-        const std::size_t i = begin + static_cast<std::size_t>(k);
-        out[k] = values[i < count ? i : count - 1];
-    }
+    __builtin_memcpy(&out, values, sizeof out);
     return out;
 }
-
-/// See look() in line_of_sight.hpp.
-DF_INLINE Ints judge(const LookArgs& args, Floats true_azimuth, Floats true_elevation,
-                     Floats true_range) {
+DF_INLINE Places places_at(const LookArgs& args, const float* azimuths, const float* elevations,
+                           const float* ranges) {
+    const Floats azimuth = load(azimuths), elevation = load(elevations), range = load(ranges);
+    Places p;
     // Comparisons with NaN are false: what is not a number is not judged, nor anything made of it.
-    const Ints in_range = (true_range >= args.nearest) & (true_range <= args.farthest) &
-                          (magnitude(true_azimuth) <= 4.0F) & (magnitude(true_elevation) <= 2.0F);
-    Ints active = in_range;
+    p.in_range = (range >= args.nearest) & (range <= args.farthest) & (magnitude(azimuth) <= 4.0F) &
+                 (magnitude(elevation) <= 2.0F);
+    const Floats zero{}, one = zero + 1.0F;
+    p.range = p.in_range ? range : one;
+    p.touch = args.touch + args.per_metre * p.range;
+    const Floats slant = larger(cosine(p.in_range ? elevation : zero), zero + 0.01F);
+    p.column_width = args.azimuth_step * slant;
+    p.column = ((p.in_range ? azimuth : zero) + kPi) / args.azimuth_step;
+    p.row = ((p.in_range ? elevation : zero) - args.elevation_min) / args.elevation_step;
+    const Floats beside = args.beside / p.range;
+    const Floats beside_columns = beside / p.column_width;
+    p.beside_rows = beside / args.elevation_step;
+    const float around = 0.49F * static_cast<float>(args.columns - 1);
+    p.reach_columns = smaller(larger(one, beside_columns), zero + around);
+    p.reach_rows = larger(one, p.beside_rows);
+    p.own_columns = larger(0.55F * one, beside_columns);
+    p.own_rows = larger(0.55F * one, p.beside_rows);
+    p.per_reach_column = 1.0F / p.reach_columns;
+    p.per_reach_row = 1.0F / p.reach_rows;
+    return p;
+}
+
+/// Where columns are kept; at or beyond `stored_columns`: not at all.
+DF_INLINE Ints stored(const LookArgs& args, Ints column) {
+    // The window may begin a circle before, and the view may begin near its end.
+    Ints from_first = column - args.first_column;
+    from_first = from_first < 0 ? from_first + args.columns : from_first;
+    from_first = from_first < 0 ? from_first + args.columns : from_first;
+    return from_first >= args.columns ? from_first - args.columns : from_first;
+}
+
+/// One beam for each place.
+struct Beams {
+    Ints there;  // and near enough to matter
+    Floats right, up, range;
+    Ints touches, blocks;
+};
+DF_INLINE Beams beams_at(const LookArgs& args, const Places& p, Ints row, Ints column,
+                         Ints in_window) {
+    const Ints place = stored(args, column);
+    const Ints kept = in_window & (place < args.stored_columns);
+    const Ints index = kept & (row * args.stored_columns + place);
+    Ints pixel;
+    for (int k = 0; k < kLanes; ++k) pixel[k] = static_cast<std::int32_t>(args.pixels[index[k]]);
+    const Ints range_cm = pixel & 0xFFFF;
+    const auto part = [&](int shift) {
+        return (to_floats(pixel >> shift & 0xFF) + 0.5F) * (1.0F / 256.0F);
+    };
+    Beams b;
+    b.right = to_floats(column) + part(16) - p.column;
+    b.up = to_floats(row) + part(24) - p.row;
+    b.range = 0.01F * to_floats(range_cm);
+    const Floats columns = magnitude(b.right), rows = magnitude(b.up);
+    b.there = kept & (range_cm != 0) & (columns <= p.reach_columns) & (rows <= p.reach_rows);
+    const Ints own = b.there & (columns <= p.own_columns) & (rows <= p.own_rows);
+    const Floats gap = b.range - p.range;
+    const Floats across = p.range * p.column_width * columns;
+    const Floats along = p.range * args.elevation_step * rows;
+    b.touches = own & (across * across + along * along + gap * gap <= p.touch * p.touch);
+    b.blocks = own & (gap < -args.beyond) & (rows <= p.beside_rows);
+    return b;
+}
+
+constexpr int kUndecided = 4;
+
+/// What the pooled image and one beam tell: most places lie behind all that is around them, or the
+/// very beam to them touches them. As judge() finds, or undecided.
+DF_INLINE Ints glance(const LookArgs& args, const Places& p) {
+    const Ints row = floored(p.row), column = floored(p.column);
+    const Ints inside = p.in_range & (row >= 0) & (row < args.rows);
+    const Ints touched = beams_at(args, p, row, column, inside).touches;
+    constexpr float kWidest = 4.0F;  // columns that three looks into the pooled image cover
+    const Ints covered = inside & (p.reach_rows <= 1.0F) & (p.reach_columns <= kWidest);
+    Ints farthest_cm{};
+    const auto pool = [&](Ints center) {
+        const Ints place = stored(args, center);
+        const Ints kept = covered & (place < args.stored_columns);
+        const Ints index = kept & (row * args.stored_columns + place);
+        for (int k = 0; k < kLanes; ++k) {
+            const std::int32_t far = kept[k] & args.farthest_cm[index[k]];
+            farthest_cm[k] = far > farthest_cm[k] ? far : farthest_cm[k];
+        }
+    };
+    pool(column);
+    if (any(covered & (p.reach_columns > 1.0F))) {
+        const Ints aside = floored(p.reach_columns + 0.999F) - 1;
+        pool(column - aside);
+        pool(column + aside);
+    }
+    constexpr float kRounding = 0.01F;
+    const Ints behind = covered & (0.01F * to_floats(farthest_cm) < p.range - p.touch - kRounding);
+    const Ints outside =
+        (p.row < -p.reach_rows) | (p.row > p.reach_rows + static_cast<float>(args.rows));
+    return touched ? Ints{} + 1 : (behind | outside | ~p.in_range) ? Ints{} : Ints{} + kUndecided;
+}
+
+/// What the beams around the places tell: the nearest of each quadrant, [above][right], and whether
+/// any touches or blocks.
+struct Around {
+    Near quad[2][2];
+    Ints touched{}, blocked{};
+};
+DF_INLINE void take_in(Around& around, const Places& p, const Beams& b) {
+    around.touched |= b.touches;
+    around.blocked |= b.blocks;
+    const Floats nearness =
+        magnitude(b.right) * p.per_reach_column + magnitude(b.up) * p.per_reach_row;
+    for (int above = 0; above < 2; ++above) {
+        const Ints in_half = b.there & (above ? b.up > 0.0F : b.up <= 0.0F);
+        for (int at_right = 0; at_right < 2; ++at_right) {
+            Near& nearest = around.quad[above][at_right];
+            const Ints closer = in_half & (at_right ? b.right > 0.0F : b.right <= 0.0F) &
+                                (nearness < nearest.nearness);
+            nearest = {closer ? b.right : nearest.right, closer ? b.up : nearest.up,
+                       closer ? b.range : nearest.range, closer ? nearness : nearest.nearness};
+        }
+    }
+}
+DF_INLINE Around nothing_around() {
+    Around around;
     const Floats zero{};
-    const Floats azimuth = active ? true_azimuth : zero, elevation = active ? true_elevation : zero;
-    const Floats range = active ? true_range : zero + 1.0F;
-    const Floats slant = larger(cosine(elevation), zero + 0.01F);
-    const Floats beside = args.beside / range;
-    const Floats column_width = args.azimuth_step * slant;
-    const Floats reach_right = larger(1.05F * column_width, beside);
-    const Floats own_right = larger(0.55F * column_width, beside);
-    const Floats reach_up = larger(zero + 1.05F * args.elevation_step, beside);
-    const Floats own_up = larger(zero + 0.55F * args.elevation_step, beside);
-    const Floats touch = args.touch + args.per_metre * range;
-    const Floats surface = args.surface + args.per_metre * range;
-
-    const Floats row = (elevation - args.elevation_min) / args.elevation_step;
-    const Floats rows = reach_up / args.elevation_step;
-    Ints first_row = floored(row - rows), last_row = floored(row + rows);
-    first_row = first_row < 0 ? Ints{} : first_row;
-    last_row = last_row >= args.rows ? Ints{} + args.rows - 1 : last_row;
-    const Floats column = (azimuth + kPi) / args.azimuth_step;
-    const Floats columns =
-        smaller(reach_right / column_width, zero + 0.49F * static_cast<float>(args.columns - 1));
-    const Ints first_column = floored(column - columns), last_column = floored(column + columns);
-
-    Near quad[2][2];  // the nearest beam of each quadrant: [above][right]
-    for (auto& side : quad) {
+    for (auto& side : around.quad) {
         for (Near& near : side) near = {zero, zero, zero, zero + kNone};
     }
-    Ints touched{}, blocked{};
+    return around;
+}
+
+/// Most places are so far away that their window is 3 x 3 pixels.
+DF_INLINE Ints has_small_window(const Places& p) {
+    return (p.reach_rows <= 1.0F) & (p.reach_columns <= 1.0F);
+}
+DF_INLINE Around look_around_small(const LookArgs& args, const Places& p) {
+    Around around = nothing_around();
+    const Ints row = floored(p.row), column = floored(p.column);
+    for (int down = -1; down <= 1; ++down) {
+        const Ints r = row + down;
+        const Ints in_image = p.in_range & (r >= 0) & (r < args.rows);
+        for (int along = -1; along <= 1; ++along) {
+            take_in(around, p, beams_at(args, p, r, column + along, in_image));
+        }
+    }
+    return around;
+}
+DF_INLINE Around look_around(const LookArgs& args, const Places& p) {
+    Around around = nothing_around();
+    Ints active = p.in_range;
+    Ints first_row = floored(p.row - p.reach_rows), last_row = floored(p.row + p.reach_rows);
+    first_row = first_row < 0 ? Ints{} : first_row;
+    last_row = last_row >= args.rows ? Ints{} + args.rows - 1 : last_row;
+    const Ints first_column = floored(p.column - p.reach_columns);
+    const Ints last_column = floored(p.column + p.reach_columns);
     const int height = largest(active & (last_row - first_row));
     const int width = largest(active & (last_column - first_column));
     for (int down = 0; down <= height; ++down) {
@@ -107,56 +235,19 @@ DF_INLINE Ints judge(const LookArgs& args, Floats true_azimuth, Floats true_elev
         const Ints row_active = active & (r <= last_row);
         for (int along = 0; along <= width; ++along) {
             const Ints c = first_column + along;
-            const Ints wrapped = c < 0               ? c + args.columns
-                                 : c >= args.columns ? c - args.columns
-                                                     : c;
-            const Ints stored = wrapped < args.first_column
-                                    ? wrapped - args.first_column + args.columns
-                                    : wrapped - args.first_column;
-            const Ints there = row_active & (c <= last_column) & (stored < args.stored_columns);
-            const Ints index = there & (r * args.stored_columns + stored);
-            Ints pixel;
-            for (int k = 0; k < kLanes; ++k) {
-                pixel[k] = static_cast<std::int32_t>(args.pixels[index[k]]);
-            }
-            const Ints range_cm = pixel & 0xFFFF;
-            const Ints column_part = pixel >> 16 & 0xFF, row_part = pixel >> 24 & 0xFF;
-            const Floats beam_range = 0.01F * to_floats(range_cm);
-            const Floats beam_azimuth =
-                -kPi + (to_floats(wrapped) + (to_floats(column_part) + 0.5F) * (1.0F / 256.0F)) *
-                           args.azimuth_step;
-            const Floats beam_elevation =
-                args.elevation_min +
-                (to_floats(r) + (to_floats(row_part) + 0.5F) * (1.0F / 256.0F)) *
-                    args.elevation_step;
-            Floats turn = beam_azimuth - azimuth;
-            turn = turn > kPi ? turn - 2.0F * kPi : turn < -kPi ? turn + 2.0F * kPi : turn;
-            const Floats to_right = turn * slant, to_up = beam_elevation - elevation;
-            const Floats right = magnitude(to_right), up = magnitude(to_up);
-            const Ints near = there & (range_cm != 0) & (right <= reach_right) & (up <= reach_up);
-            const Ints own = near & (right <= own_right) & (up <= own_up);
-            const Floats gap = beam_range - range;
-            const Floats across_sq = range * range * (right * right + up * up);
-            touched |= own & (across_sq + gap * gap <= touch * touch);
-            blocked |= own & (gap < -args.beyond) & (up <= beside);
-            const Floats nearness = right / reach_right + up / reach_up;
-            for (int above = 0; above < 2; ++above) {
-                const Ints in_half = near & (above ? to_up > 0.0F : to_up <= 0.0F);
-                for (int at_right = 0; at_right < 2; ++at_right) {
-                    Near& nearest = quad[above][at_right];
-                    const Ints closer = in_half & (at_right ? to_right > 0.0F : to_right <= 0.0F) &
-                                        (nearness < nearest.nearness);
-                    nearest = {closer ? to_right : nearest.right, closer ? to_up : nearest.up,
-                               closer ? beam_range : nearest.range,
-                               closer ? nearness : nearest.nearness};
-                }
-            }
+            take_in(around, p, beams_at(args, p, r, c, row_active & (c <= last_column)));
         }
-        active &= ~touched;
+        active &= ~around.touched;
         if (!any(active)) break;
     }
+    return around;
+}
 
-    // The surface between the nearest beams.
+/// See look() in line_of_sight.hpp: the surface between the nearest beams.
+DF_INLINE Ints judge(const LookArgs& args, const Places& p, const Around& around) {
+    const Floats zero{};
+    const auto& quad = around.quad;
+    const Floats range = p.range, surface = args.surface + args.per_metre * range;
     const Floats far = range + args.beyond;
     const auto is_beyond = [&](const Near& beam) { return exists(beam) & (beam.range > far); };
     Ints beams{}, any_beyond{}, on_surface{};
@@ -166,39 +257,84 @@ DF_INLINE Ints judge(const LookArgs& args, Floats true_azimuth, Floats true_elev
         beams -= exists(below) + exists(above);
         any_beyond |= is_beyond(below) | is_beyond(above);
         const Ints both = exists(below) & exists(above);
-        const Side up_down = side_of(below.up, below.range, above.up, above.range, range, surface);
+        const Side up_down = side_of(args.elevation_step * below.up, below.range,
+                                     args.elevation_step * above.up, above.range, range, surface);
         on_surface |= both & up_down.on & (smaller(below.range, above.range) < range) &
                       (larger(below.range, above.range) > range);
         // Above or below the image's border, or a hole in it, only a beam that all but meets the
         // place counts.
-        const Floats close = larger(0.5F * beside, zero + 0.3F * args.elevation_step);
+        const Floats close = larger(0.5F * p.beside_rows, zero + 0.3F);
         const Ints passes_close = (is_beyond(below) & (magnitude(below.up) <= close)) |
                                   (is_beyond(above) & (magnitude(above.up) <= close));
         const Ints none = ~(exists(below) | exists(above));
         all_behind &= none | (both ? up_down.before : passes_close);
         const Near &left = quad[side][0], &right = quad[side][1];
         const Ints spans = exists(left) & exists(right) & (is_beyond(left) | is_beyond(right));
-        const Side left_right =
-            side_of(left.right, left.range, right.right, right.range, range, surface);
+        const Side left_right = side_of(p.column_width * left.right, left.range,
+                                        p.column_width * right.right, right.range, range, surface);
         all_behind &= ~spans | left_right.before;
     }
-    const Ints judged = (beams >= 2) & any_beyond & ~blocked;
-    const Ints occupied = touched | (judged & ~all_behind & on_surface);
-    const Ints passed = judged & all_behind & ~touched;
-    return in_range & ((occupied & 1) | (passed & 2));
+    const Ints judged = (beams >= 2) & any_beyond & ~around.blocked;
+    const Ints occupied = around.touched | (judged & ~all_behind & on_surface);
+    const Ints passed = judged & all_behind & ~around.touched;
+    return p.in_range & ((occupied & 1) | (passed & 2));
+}
+
+/// Places that wait until there are sixteen of them.
+struct Waiting {
+    float azimuth[2 * kLanes] = {}, elevation[2 * kLanes] = {}, range[2 * kLanes] = {};
+    std::size_t index[2 * kLanes] = {};
+    int count = 0;
+};
+DF_INLINE void add(Waiting& w, float azimuth, float elevation, float range, std::size_t index) {
+    w.azimuth[w.count] = azimuth;
+    w.elevation[w.count] = elevation;
+    w.range[w.count] = range;
+    w.index[w.count] = index;
+    ++w.count;
+}
+template <bool small>
+DF_INLINE void judge_sixteen(const LookArgs& args, Waiting& w) {
+    const Places p = places_at(args, w.azimuth, w.elevation, w.range);
+    const Ints sight = judge(args, p, small ? look_around_small(args, p) : look_around(args, p));
+    const int done = w.count < kLanes ? w.count : kLanes;
+    for (int k = 0; k < done; ++k) args.sights[w.index[k]] = static_cast<std::uint8_t>(sight[k]);
+    const int left = w.count - done;
+    w.count = 0;
+    for (int k = done; k < done + left; ++k) {
+        add(w, w.azimuth[k], w.elevation[k], w.range[k], w.index[k]);
+    }
 }
 
 }  // namespace
 
 void look(const LookArgs& args) {
+    Waiting near, far;
     for (std::size_t begin = 0; begin < args.count; begin += kLanes) {
-        const Ints sight =
-            judge(args, load(args.azimuth, begin, args.count),
-                  load(args.elevation, begin, args.count), load(args.range, begin, args.count));
-        for (std::size_t k = 0; k < kLanes && begin + k < args.count; ++k) {
-            args.sights[begin + k] = static_cast<std::uint8_t>(sight[k]);
+        const std::size_t left = args.count - begin;
+        const int count = left < kLanes ? static_cast<int>(left) : kLanes;
+        const float *azimuth = args.azimuth + begin, *elevation = args.elevation + begin;
+        const float* range = args.range + begin;
+        Waiting last;  // a place at range 0 is not judged
+        if (count < kLanes) {
+            for (int k = 0; k < count; ++k) add(last, azimuth[k], elevation[k], range[k], 0);
+            azimuth = last.azimuth;
+            elevation = last.elevation;
+            range = last.range;
         }
+        const Places p = places_at(args, azimuth, elevation, range);
+        const Ints sight = glance(args, p), small = has_small_window(p);
+        for (int k = 0; k < count; ++k) {
+            const std::size_t i = begin + static_cast<std::size_t>(k);
+            args.sights[i] = static_cast<std::uint8_t>(sight[k]);
+            if (sight[k] != kUndecided) continue;
+            add(small[k] ? far : near, azimuth[k], elevation[k], range[k], i);
+        }
+        if (near.count >= kLanes) judge_sixteen<false>(args, near);
+        if (far.count >= kLanes) judge_sixteen<true>(args, far);
     }
+    if (near.count > 0) judge_sixteen<false>(args, near);
+    if (far.count > 0) judge_sixteen<true>(args, far);
 }
 
 }  // namespace dynamic_filter::kernel::DYNAMIC_FILTER_LEVEL

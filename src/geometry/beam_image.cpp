@@ -24,14 +24,29 @@ float step_of(float spacing) {
     return spacing > 0.0F ? std::clamp(spacing, kLeastStep, kMostStep) : kUnknownStep;
 }
 
-/// Index and 1/256 part of a position in steps.
-struct Position {
-    int index;
-    std::uint8_t part;
+/// Where in the image a point is, in 1/256 of a pixel, and how far away [cm].
+struct Pixels {
+    std::vector<std::int32_t> column, row, range_cm;
 };
-Position split(float steps, int count) {
-    const int fine = std::clamp(static_cast<int>(steps * 256.0F), 0, count * 256 - 1);
-    return {fine / 256, static_cast<std::uint8_t>(fine % 256)};
+/// `range_cm` 0: not in the image, NaN too.
+Pixels pixels_of(const Directions& seen, const ImageGrid& grid) {
+    const std::size_t count = seen.range.size();
+    Pixels out{std::vector<std::int32_t>(count), std::vector<std::int32_t>(count),
+               std::vector<std::int32_t>(count)};
+    constexpr float kFine = 256.0F;
+    const auto most_columns = static_cast<float>(grid.columns * 256 - 1);
+    const auto most_rows = static_cast<float>(grid.rows * 256 - 1);
+    const auto within = [](float x, float most) { return x > 0.0F ? (x < most ? x : most) : 0.0F; };
+    for (std::size_t i = 0; i < count; ++i) {
+        const float column = (seen.azimuth[i] + std::numbers::pi_v<float>) / grid.azimuth_step;
+        const float row = (seen.elevation[i] - grid.elevation_min) / grid.elevation_step;
+        const float range = 100.0F * seen.range[i] + 0.5F;
+        const bool fits = range >= 1.0F && range < 65536.0F;
+        out.column[i] = static_cast<std::int32_t>(within(column * kFine, most_columns));
+        out.row[i] = static_cast<std::int32_t>(within(row * kFine, most_rows));
+        out.range_cm[i] = static_cast<std::int32_t>(fits ? range : 0.0F);
+    }
+    return out;
 }
 
 }  // namespace
@@ -58,14 +73,10 @@ BeamImage::BeamImage(std::span<const Point> points, const BeamPattern& spacing) 
                       span.min, span.max);
     Directions seen;
     to_spherical(points, Eigen::Isometry3f::Identity(), seen);
-    const auto column_of = [&](std::size_t i) {
-        return split((seen.azimuth[i] + kPi) / grid_.azimuth_step, grid_.columns);
-    };
-    const auto range_of = [&](std::size_t i) { return std::round(100.0F * seen.range[i]); };
-    const auto fits = [](float range_cm) { return range_cm >= 1.0F && range_cm <= 65535.0F; };
+    const Pixels at = pixels_of(seen, grid_);
     std::vector<bool> hit(static_cast<std::size_t>(grid_.columns));
     for (std::size_t i = 0; i < points.size(); ++i) {
-        if (fits(range_of(i))) hit[static_cast<std::size_t>(column_of(i).index)] = true;
+        if (at.range_cm[i] > 0) hit[static_cast<std::size_t>(at.column[i] >> 8)] = true;
     }
     find_view(hit);
     pixels_.resize(static_cast<std::size_t>(grid_.rows) *
@@ -73,39 +84,65 @@ BeamImage::BeamImage(std::span<const Point> points, const BeamPattern& spacing) 
     farthest_cm_.resize(static_cast<std::size_t>(grid_.rows / kTile + 1) *
                         static_cast<std::size_t>(tile_columns()));
     for (std::size_t i = 0; i < points.size(); ++i) {
-        const float range_cm = range_of(i);
-        if (!fits(range_cm)) continue;  // NaN too
-        const Position row =
-            split((seen.elevation[i] - grid_.elevation_min) / grid_.elevation_step, grid_.rows);
-        const Position column = column_of(i);
-        const auto range = static_cast<std::uint16_t>(range_cm);
-        std::uint32_t& p = pixels_[pixel(row.index, column.index)];
-        if ((p & 0xFFFFU) != 0 && (p & 0xFFFFU) <= range) continue;
-        p = range | std::uint32_t{column.part} << 16 | std::uint32_t{row.part} << 24;
-        std::uint16_t& farthest = farthest_cm_[static_cast<std::size_t>(
-            row.index / kTile * tile_columns() + column.index / kTile)];
-        farthest = std::max(farthest, range);
+        if (at.range_cm[i] == 0) continue;
+        const auto range = static_cast<std::uint32_t>(at.range_cm[i]);
+        const int row = at.row[i] >> 8, column = at.column[i] >> 8;
+        std::uint32_t& p = pixels_[pixel(row, column)];
+        if (p == 0) ++beams_;
+        if (p != 0 && (p & 0xFFFFU) <= range) continue;
+        p = range | static_cast<std::uint32_t>(at.column[i] & 0xFF) << 16 |
+            static_cast<std::uint32_t>(at.row[i] & 0xFF) << 24;
+        std::uint16_t& farthest =
+            farthest_cm_[static_cast<std::size_t>(row / kTile * tile_columns() + column / kTile)];
+        farthest = std::max(farthest, static_cast<std::uint16_t>(range));
     }
+    pool();
 }
 
-float BeamImage::farthest(int first_row, int last_row, int first_column, int last_column) const {
-    std::uint16_t farthest = 0;
+/// Along the rows, then across them. Only a view that is the whole circle wraps around.
+void BeamImage::pool() {
+    const auto width = static_cast<std::size_t>(stored_columns_);
+    if (width == 0) return;
+    const bool wraps = stored_columns_ == grid_.columns;
+    std::vector<std::uint16_t> along(pixels_.size()), row(width + 2);
+    for (std::size_t begin = 0; begin < pixels_.size(); begin += width) {
+        for (std::size_t c = 0; c < width; ++c) {
+            row[c + 1] = static_cast<std::uint16_t>(pixels_[begin + c] & 0xFFFFU);
+        }
+        row.front() = wraps ? row[width] : std::uint16_t{0};
+        row.back() = wraps ? row[1] : std::uint16_t{0};
+        for (std::size_t c = 0; c < width; ++c) {
+            along[begin + c] = std::max({row[c], row[c + 1], row[c + 2]});
+        }
+    }
+    farthest_of_nine_cm_ = along;
+    const auto take_in = [&](std::size_t to, std::size_t from) {
+        for (std::size_t i = 0; i + width < along.size(); ++i) {
+            std::uint16_t& farthest = farthest_of_nine_cm_[to + i];
+            farthest = std::max(farthest, along[from + i]);
+        }
+    };
+    take_in(0, width);
+    take_in(width, 0);
+}
+
+bool BeamImage::reaches(float range, int first_row, int last_row, int first_column,
+                        int last_column) const {
+    const auto least = static_cast<int>(100.0F * range);  // [cm] rounded down: cautious
     const auto look = [&](int first, int last) {
         for (int r = first_row / kTile; r <= last_row / kTile; ++r) {
             const auto row = farthest_cm_.begin() + r * tile_columns();
-            farthest =
-                std::max(farthest, *std::max_element(row + first / kTile, row + last / kTile + 1));
+            for (int c = first / kTile; c <= last / kTile; ++c) {
+                if (row[c] != 0 && row[c] >= least) return true;
+            }
         }
+        return false;
     };
     const int columns = grid_.columns;
-    if (last_column - first_column >= columns) {
-        look(0, columns - 1);
-    } else {
-        look(std::max(first_column, 0), std::min(last_column, columns - 1));
-        if (first_column < 0) look(first_column + columns, columns - 1);
-        if (last_column >= columns) look(0, last_column - columns);
-    }
-    return 0.01F * farthest;
+    if (last_column - first_column >= columns) return look(0, columns - 1);
+    return look(std::max(first_column, 0), std::min(last_column, columns - 1)) ||
+           (first_column < 0 && look(first_column + columns, columns - 1)) ||
+           (last_column >= columns && look(0, last_column - columns));
 }
 
 void BeamImage::find_view(const std::vector<bool>& hit) {
@@ -127,6 +164,12 @@ void BeamImage::find_view(const std::vector<bool>& hit) {
         gap = 0;
     }
     stored_columns_ = columns - widest;
+    if (widest < 2) {
+        stored_columns_ = columns;
+        return;
+    }
+    first_column_ = (first_column_ + columns - 1) % columns;  // one more on both sides
+    stored_columns_ += 2;
 }
 
 }  // namespace dynamic_filter

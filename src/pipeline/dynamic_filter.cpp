@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "dynamic_filter/pipeline/dynamic_filter.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -42,6 +44,10 @@ Pose DynamicFilter::to_map_frame(const Pose& T_world_sensor) const {
     return shifted;
 }
 
+std::size_t DynamicFilter::size() const {
+    return scans_observe() ? evidence_.voxels().size() : back_end_.points();
+}
+
 std::size_t DynamicFilter::submaps() const {
     const auto keyframes = static_cast<std::size_t>(config_.submap.keyframes);
     return scans_observe() ? (evidence_.observers() + keyframes - 1) / keyframes
@@ -49,40 +55,82 @@ std::size_t DynamicFilter::submaps() const {
 }
 
 std::vector<Verdict> DynamicFilter::push(Scan scan) {
-    if (!origin_) origin_ = nearby_origin(scan.T_world_sensor, config_.back_end.voxel_size);
-    scan.T_world_sensor = to_map_frame(scan.T_world_sensor);
-    if (scans_observe()) {
-        const PointVoxels voxels = evidence_.insert(scan, times_);
-        return {timed(times_, "front_end", [&] {
-            return timed(times_, "instant_verdict",
-                         [&] { return instant_verdict(scan.index, voxels); });
-        })};
-    }
-    const auto window = cutter_.push(std::move(scan));
-    return window ? process(*window) : std::vector<Verdict>{};
+    Judged judged = judge(std::move(scan));
+    integrate(std::move(judged.work));
+    return std::move(judged.verdicts);
 }
 
-std::vector<Verdict> DynamicFilter::process(const Window& window) {
-    auto [submap, labels] =
-        timed(times_, "front_end", [&] { return front_end_.process(window, times_); });
-    timed(times_, "back_end",
-          [&] { back_end_.insert(std::move(submap), *front_end_.beams(), times_); });
-    std::vector<Verdict> instant;
-    for (std::size_t s = 0; s < window.scans.size(); ++s) {
-        instant.push_back({window.scans[s].index, std::move(labels[s]), {}});
+Judged DynamicFilter::judge(Scan scan) {
+    if (!origin_) origin_ = nearby_origin(scan.T_world_sensor, config_.back_end.voxel_size);
+    scan.T_world_sensor = to_map_frame(scan.T_world_sensor);
+    if (!scans_observe()) {
+        const auto window = cutter_.push(std::move(scan));
+        return window ? process(*window) : Judged{};
     }
-    return instant;
+    Judged judged;
+    timed(front_times_, "front_end", [&] {
+        const PointVoxels voxels = evidence_.insert(scan, front_times_);
+        judged.verdicts.push_back(timed(front_times_, "instant_verdict",
+                                        [&] { return instant_verdict(scan.index, voxels); }));
+    });
+    return judged;
+}
+
+Judged DynamicFilter::process(const Window& window) {
+    auto [submap, labels] =
+        timed(front_times_, "front_end", [&] { return front_end_.process(window, front_times_); });
+    Judged judged{.verdicts = {}, .work = {std::move(submap), *front_end_.beams()}};
+    for (std::size_t s = 0; s < window.scans.size(); ++s) {
+        judged.verdicts.push_back({window.scans[s].index, std::move(labels[s]), {}});
+    }
+    return judged;
+}
+
+void DynamicFilter::integrate(BackEndWork work) {
+    if (scans_observe()) {
+        timed(back_times_, "back_end", [&] { evidence_.look_at_rest(back_times_); });
+    } else if (work.submap) {
+        timed(back_times_, "back_end",
+              [&] { back_end_.insert(std::move(*work.submap), work.beams, back_times_); });
+    }
 }
 
 std::vector<Verdict> DynamicFilter::finish() {
     if (scans_observe()) {
-        timed(times_, "back_end", [&] { timed(times_, "merging", [&] { decide_voxels(); }); });
+        timed(back_times_, "back_end",
+              [&] { timed(back_times_, "merging", [&] { decide_voxels(); }); });
         return {};
     }
     std::vector<Verdict> instant;
-    if (const auto window = cutter_.flush()) instant = process(*window);
+    if (const auto window = cutter_.flush()) {
+        Judged judged = process(*window);
+        integrate(std::move(judged.work));
+        instant = std::move(judged.verdicts);
+    }
     if (config_.back_end.enabled) merge_local_maps();
     return instant;
+}
+
+StageTimes DynamicFilter::times() const {
+    StageTimes all = front_times_;
+    for (const auto& [stage, calls] : back_times_) all[stage].add(calls);
+    return all;
+}
+
+void DynamicFilter::keep_within(const Pose& T_world_center, double radius, std::size_t most) {
+    if (!origin_) return;
+    const Pose T_map_center = to_map_frame(T_world_center);
+    if (!scans_observe()) {
+        const double reach = back_end_.keep_within(T_map_center.translation(), radius, most);
+        kept_ = {T_map_center.translation().cast<float>(), static_cast<float>(reach)};
+        return;
+    }
+    const auto kept = evidence_.keep_within(T_map_center.translation().cast<float>(),
+                                            static_cast<float>(radius), most);
+    std::vector<Instant> instant;
+    instant.reserve(kept.size());
+    for (const std::uint32_t v : kept) instant.push_back(instant_[v]);
+    instant_ = std::move(instant);
 }
 
 void DynamicFilter::decide_voxels() {
@@ -115,9 +163,9 @@ std::optional<Surface> DynamicFilter::contact_of(std::uint32_t voxel) const {
 
 void DynamicFilter::merge_local_maps() {
     for (std::size_t i = 0; i < back_end_.buffer().size(); ++i) {
-        timed(times_, "back_end", [&] {
-            const LocalMap local = back_end_.local_map_of(i, times_);
-            timed(times_, "merging", [&] {
+        timed(back_times_, "back_end", [&] {
+            const LocalMap local = back_end_.local_map_of(i, back_times_);
+            timed(back_times_, "merging", [&] {
                 merge(merged_, local, back_end_.buffer()[i].submap.T_map_submap, back_end_.voxels(),
                       config_.back_end.voxel_size);
             });
@@ -131,35 +179,29 @@ Label DynamicFilter::label_of(std::optional<float> probability) const {
     return *probability >= threshold ? Label::still : Label::dynamic;
 }
 
-Label DynamicFilter::label_by_submaps(const Point& map_point, float& probability) const {
-    const auto key = voxel_of(map_point, static_cast<float>(config_.back_end.voxel_size));
-    if (!key) return Label::unknown;
-    const auto voxel = voxels().find(*key);
-    if (!voxel) return Label::dynamic;  // no static submap holds it: the front-end removed it all
-    if (!config_.back_end.enabled) {
-        probability = 1.0F;
-        return Label::still;
-    }
-    if (*voxel >= merged_.probability.size()) return Label::unknown;  // before finish()
-    probability = merged_.probability[*voxel];
-    return label_of(std::optional(probability));
-}
-
-/// From the evidence so far. Every voxel is judged once, however many points it holds.
-Verdict DynamicFilter::instant_verdict(std::size_t index, const PointVoxels& voxels) const {
-    std::vector<std::uint32_t> own;
-    std::vector<Label> labels(evidence_.voxels().size(), Label::unknown);
-    constexpr auto kMet = Label::still;  // until it is judged
+/// From the evidence so far. A voxel is asked again when its own evidence says something else than
+/// when it was asked last; most say what they said.
+Verdict DynamicFilter::instant_verdict(std::size_t index, const PointVoxels& voxels) {
+    constexpr float kSame = 0.2F;  // a tenth of the span of opinions
+    instant_.resize(evidence_.voxels().size());
+    std::vector<std::uint32_t> due;
     for (const std::uint32_t voxel : voxels) {
-        if (voxel == kNoVoxel || labels[voxel] == kMet) continue;
-        labels[voxel] = kMet;
-        own.push_back(voxel);
+        if (voxel == kNoVoxel) continue;
+        Instant& instant = instant_[voxel];
+        const float opinion = evidence_.opinion(voxel);
+        const bool same = std::abs(opinion - instant.opinion) <= kSame;
+        if (same && instant.label != Label::unknown) continue;
+        if (same && is_unknown(evidence_.evidence(voxel))) continue;
+        instant = {opinion, Label::still};  // until it is judged, so that it is listed once
+        due.push_back(voxel);
     }
-    const auto probabilities = evidence_.probabilities(own);
-    for (std::size_t v = 0; v < own.size(); ++v) labels[own[v]] = label_of(probabilities[v]);
+    const auto probabilities = evidence_.probabilities(due);
+    for (std::size_t i = 0; i < due.size(); ++i) {
+        instant_[due[i]].label = label_of(probabilities[i]);
+    }
     Verdict verdict{index, Labels(voxels.size(), Label::unknown), {}};
     for (std::size_t i = 0; i < voxels.size(); ++i) {
-        if (voxels[i] != kNoVoxel) verdict.labels[i] = labels[voxels[i]];
+        if (voxels[i] != kNoVoxel) verdict.labels[i] = instant_[voxels[i]].label;
     }
     return verdict;
 }
@@ -176,17 +218,14 @@ std::vector<StaticVoxel> DynamicFilter::local_static_map(const Pose& T_world_que
     if (scans_observe()) {
         const Point position = T_map_query.translation().cast<float>();
         const auto radius = static_cast<float>(config_.back_end.search_radius);
-        std::vector<std::uint32_t> near;
-        for (std::uint32_t v = 0; v < evidence_.voxels().size(); ++v) {
-            if ((evidence_.centroid(v) - position).norm() <= radius) near.push_back(v);
-        }
+        const std::vector<std::uint32_t> near = evidence_.within(position, radius);
         const auto probabilities = evidence_.probabilities(near);
         for (std::size_t i = 0; i < near.size(); ++i) {
             if (label_of(probabilities[i]) == Label::still) add(near[i], *probabilities[i]);
         }
         return result;
     }
-    const LocalMap local = back_end_.local_map(T_map_query, times_);
+    const LocalMap local = back_end_.local_map(T_map_query, back_times_);
     for (std::size_t i = 0; i < local.voxels.size(); ++i) {
         if (label_of(std::optional(local.probability[i])) == Label::still) {
             add(local.voxels[i], local.probability[i]);
@@ -195,37 +234,73 @@ std::vector<StaticVoxel> DynamicFilter::local_static_map(const Pose& T_world_que
     return result;
 }
 
-Verdict DynamicFilter::verdict(const Scan& scan) const {
-    Points points;
-    to_map(scan.points, to_map_frame(scan.T_world_sensor), points);
-    Verdict verdict{scan.index, Labels(points.size(), Label::unknown),
-                    std::vector<float>(points.size(), 0.0F)};
-    if (scans_observe()) {
-        judge_by_scans(scan.points, points, verdict);
-        return verdict;
-    }
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        if (!is_measured(scan.points[i])) continue;
-        verdict.labels[i] = label_by_submaps(points[i], verdict.probability[i]);
-    }
-    return verdict;
+DynamicFilter::Located DynamicFilter::locate(const Scan& scan) const {
+    const std::size_t size = scan.points.size();
+    Located located;
+    located.verdict = {scan.index, Labels(size, Label::unknown), std::vector<float>(size, 0.0F)};
+    located.voxels.assign(size, kNoVoxel);
+    located.in_map.keys.assign(size, kNoKey);
+    if (!origin_) return located;  // before the first scan
+    to_voxels(scan.points, to_map_frame(scan.T_world_sensor),
+              static_cast<float>(config_.back_end.voxel_size), located.in_map);
+    located.voxels = find_voxels(located.in_map.keys);
+    return located;
 }
 
-void DynamicFilter::judge_by_scans(const Points& sensor_points, const Points& map_points,
-                                   Verdict& verdict) const {
-    const auto size = static_cast<float>(config_.back_end.voxel_size);
-    VoxelFinder find(voxels());
-    PointVoxels voxels(map_points.size(), kNoVoxel);
-    for (std::size_t i = 0; i < map_points.size(); ++i) {
-        if (!is_measured(sensor_points[i])) continue;
-        const auto key = voxel_of(map_points[i], size);
-        const std::uint32_t voxel = key ? find(*key) : kNoVoxel;
-        if (voxel >= decided_.size()) continue;  // not there, or before finish()
-        voxels[i] = voxel;
-        verdict.labels[i] = label_of(decided_[voxel].probability);
-        verdict.probability[i] = decided_[voxel].probability.value_or(0.0F);
+Verdict DynamicFilter::verdict(const Scan& scan) const {
+    auto [in_map, voxels, verdict] = locate(scan);
+    for (std::size_t i = 0; i < voxels.size(); ++i) {
+        if (in_map.keys[i] == kNoKey) continue;
+        const auto [label, probability] = decision_on(voxels[i], in_map.points[i]);
+        verdict.labels[i] = label;
+        verdict.probability[i] = probability;
     }
-    judge_contacts(map_points, voxels, verdict.labels);
+    if (scans_observe()) judge_contacts(in_map.points, voxels, verdict.labels);
+    return std::move(verdict);
+}
+
+PointVoxels DynamicFilter::find_voxels(const std::vector<VoxelKey>& keys) const {
+    VoxelFinder find(voxels());
+    PointVoxels found(keys.size(), kNoVoxel);
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        if (keys[i] != kNoKey) found[i] = find(keys[i]);
+    }
+    return found;
+}
+
+/// Once finish() has decided; before it, all is unknown.
+std::pair<Label, float> DynamicFilter::decision_on(std::uint32_t voxel, const Point& at) const {
+    constexpr std::pair kUnknown{Label::unknown, 0.0F};
+    if (scans_observe()) {
+        if (voxel >= decided_.size()) return kUnknown;
+        const auto& probability = decided_[voxel].probability;
+        return {label_of(probability), probability.value_or(0.0F)};
+    }
+    if (voxel == kNoVoxel) {  // no static submap holds it: forgotten, or removed by the front-end
+        const bool forgotten = kept_ && (at - kept_->center).norm() > kept_->radius;
+        return forgotten ? kUnknown : std::pair{Label::dynamic, 0.0F};
+    }
+    if (!config_.back_end.enabled) return {Label::still, 1.0F};
+    if (voxel >= merged_.probability.size()) return kUnknown;
+    const float probability = merged_.probability[voxel];
+    return {label_of(std::optional(probability)), probability};
+}
+
+Verdict DynamicFilter::settled(const Scan& scan) const {
+    auto [in_map, voxels, verdict] = locate(scan);
+    PointVoxels own = voxels;
+    std::sort(own.begin(), own.end());
+    own.erase(std::unique(own.begin(), own.end()), own.end());
+    if (!own.empty() && own.back() == kNoVoxel) own.pop_back();
+    const auto probabilities = evidence_.probabilities(own);
+    for (std::size_t i = 0; i < voxels.size(); ++i) {
+        if (voxels[i] == kNoVoxel) continue;
+        const auto at = std::lower_bound(own.begin(), own.end(), voxels[i]) - own.begin();
+        const auto& probability = probabilities[static_cast<std::size_t>(at)];
+        verdict.labels[i] = label_of(probability);
+        verdict.probability[i] = probability.value_or(0.0F);
+    }
+    return std::move(verdict);
 }
 
 /// A static point becomes dynamic if it lies above the static surface of its voxel while, in this

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "dynamic_filter/io/cloud.hpp"
 #include "dynamic_filter/io/sequence.hpp"
@@ -105,6 +106,56 @@ TEST_F(Command, GivesTheSameBytesForOneAndTwoThreads) {
     ASSERT_EQ(run("run " + recording().string() + " -o one --threads 1"), 0);
     ASSERT_EQ(run("run " + recording().string() + " -o two --threads 2"), 0);
     EXPECT_EQ(bytes_of("one"), bytes_of("two"));
+}
+
+TEST_F(Command, OnlineGivesTheSameBytesIfNothingIsDropped) {
+    for (const std::string preset : {"default", "paper"}) {
+        const std::string line = "run " + recording().string() + " --preset " + preset;
+        ASSERT_EQ(run(line + " -o off" + preset), 0);
+        ASSERT_EQ(run(line + " -o on" + preset + " --online --speed 0"), 0);
+        EXPECT_EQ(bytes_of("on" + preset), bytes_of("off" + preset));
+        const auto timing = nlohmann::json::parse(slurp(folder_ / ("on" + preset) / "timing.json"));
+        EXPECT_EQ(timing["online"]["processed"], 24);
+        EXPECT_EQ(timing["online"]["queued"], 0);
+        EXPECT_EQ(timing["stages"]["latency"]["count"], 24);
+    }
+}
+
+TEST_F(Command, OnlineDropsWhatItCannotKeepUpWithAndSaysSo) {
+    const int code = run("run " + recording().string() + " -o out --online --speed 1e6");
+    const auto metrics = nlohmann::json::parse(slurp(folder_ / "out" / "metrics.json"));
+    const std::size_t dropped = metrics["dropped"].size();
+    EXPECT_EQ(metrics["scans"].get<std::size_t>() + dropped, 24U);
+    EXPECT_GT(dropped, 0U);  // a million times too fast
+    EXPECT_EQ(code, 4);
+    std::size_t labels = 0;
+    for (const auto& entry : fs::directory_iterator(folder_ / "out" / "labels")) {
+        labels += entry.is_regular_file() ? 1 : 0;
+    }
+    EXPECT_EQ(labels, metrics["scans"]);
+    EXPECT_EQ(run("run " + recording().string() + " -o out2 --speed 2"), 2);  // without --online
+}
+
+// Two drives in one folder: poses jump from one to the other.
+TEST_F(Command, SaysThatPosesJump) {
+    const fs::path data = copy();
+    std::string poses, line;
+    std::istringstream lines(slurp(data / "poses.txt"));
+    for (int i = 0; std::getline(lines, line); ++i) {
+        std::istringstream words(line);
+        for (int k = 0; k < 12; ++k) {
+            double value = 0.0;
+            words >> value;
+            poses += std::to_string(value + (i >= 12 && k == 3 ? 500.0 : 0.0)) + " ";
+        }
+        poses += "\n";
+    }
+    spill(data / "poses.txt", poses);
+    ASSERT_EQ(run("run data -o out"), 0);
+    expect_said("a new map begins");
+    EXPECT_NE(slurp(folder_ / "out" / "run.log").find("000012: the pose is 500 m"),
+              std::string::npos)
+        << slurp(folder_ / "out" / "run.log");
 }
 
 TEST_F(Command, SimulatesTheSameBytesForTheSameSeed) {

@@ -37,7 +37,7 @@ TEST(Report, TableIsGolden) {
 
 TEST(Report, StageTimesAreMillisecondsByRank) {
     StageTimes times;
-    for (int i = 100; i >= 1; --i) times["work"].push_back(1e-3 * i);
+    for (int i = 100; i >= 1; --i) times["work"].add(1e-3 * i);
     const auto json = to_json(times)["work"];
     EXPECT_EQ(json["count"], 100);
     EXPECT_NEAR(json["mean"], 50.5, 1e-9);

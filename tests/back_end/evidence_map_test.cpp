@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <cmath>
 #include <numeric>
 
@@ -23,7 +25,10 @@ Config every_scan() {
 EvidenceMap filled(const std::vector<test::RoomScan>& scans, const Config& config) {
     EvidenceMap map(config);
     StageTimes times;
-    for (const auto& s : scans) map.insert(s.scan, times);
+    for (const auto& s : scans) {
+        map.insert(s.scan, times);
+        map.look_at_rest(times);
+    }
     return map;
 }
 
@@ -125,6 +130,72 @@ TEST(EvidenceMap, ForgetsOnlyTheKeyframesBeyondItsMemory) {
     }
     EXPECT_GT(asked_few, 0U);
     EXPECT_EQ(map.observers(), scans.size());
+}
+
+// Keyframes that are not asked are stood for by those that are: the counts come out much the same.
+TEST(EvidenceMap, ANewVoxelAsksASelectionOfManyKeyframes) {
+    auto scans = drive(2, false);
+    for (std::size_t i = 2; i < 200; ++i) {  // a sensor at rest, that sees one more thing at last
+        scans.push_back(scans[1]);
+        scans[i].scan.index = i;
+    }
+    const Point thing(2.0F, 0.3F, 0.1F);
+    for (int k = 0; k < 40; ++k) {
+        scans.back().scan.points.push_back(thing + 0.002F * static_cast<float>(k) * Point::UnitY());
+    }
+    const EvidenceMap map = filled(scans, every_scan());
+    std::size_t seen_through = 0;
+    for (std::uint32_t v = 0; v < map.voxels().size(); ++v) {
+        const Evidence& e = map.evidence(v);
+        if (e.first_owner != 199 || e.passed == 0) continue;
+        EXPECT_NEAR(e.passed, 199, 20) << v;
+        ++seen_through;
+    }
+    EXPECT_GT(seen_through, 0U);
+}
+
+TEST(EvidenceMap, WithinFindsWhatLiesNear) {
+    const EvidenceMap map = filled(drive(6, true), every_scan());
+    const Point center(1.0F, 0.5F, 1.0F);
+    std::vector<std::uint32_t> found = map.within(center, 4.0F), expected;
+    for (std::uint32_t v = 0; v < map.voxels().size(); ++v) {
+        if ((map.centroid(v) - center).norm() <= 4.0F) expected.push_back(v);
+    }
+    std::sort(found.begin(), found.end());
+    EXPECT_EQ(found, expected);
+    EXPECT_GT(found.size(), 100U);
+    EXPECT_LT(found.size(), map.voxels().size() / 2);
+}
+
+TEST(EvidenceMap, WhatIsKeptIsAsItWasAndGoesOnAsItWouldHave) {
+    const auto scans = drive(12, true);
+    EvidenceMap whole(every_scan()), part(every_scan());
+    StageTimes times;
+    const auto insert = [&](EvidenceMap& map, std::size_t i) {
+        map.insert(scans[i].scan, times);
+        map.look_at_rest(times);
+    };
+    for (std::size_t i = 0; i < 8; ++i) {
+        insert(whole, i);
+        insert(part, i);
+    }
+    const std::size_t before = part.voxels().size();
+    const auto kept = part.keep_within(Point(0.0F, 0.25F, 1.25F), 5.0F, SIZE_MAX);
+    EXPECT_EQ(part.voxels().size(), kept.size());
+    EXPECT_LT(kept.size(), before);
+    for (std::size_t i = 8; i < scans.size(); ++i) {
+        insert(whole, i);
+        insert(part, i);
+    }
+    for (std::uint32_t v = 0; v < kept.size(); ++v) {
+        EXPECT_EQ(part.voxels().key(v), whole.voxels().key(kept[v]));
+        EXPECT_EQ(part.centroid(v), whole.centroid(kept[v]));
+        EXPECT_EQ(part.evidence(v).seen, whole.evidence(kept[v]).seen) << v;
+        EXPECT_EQ(part.evidence(v).passed, whole.evidence(kept[v]).passed) << v;
+        EXPECT_EQ(part.evidence(v).last_owner, whole.evidence(kept[v]).last_owner) << v;
+    }
+    EXPECT_LE(part.keep_within(Point::Zero(), 100.0F, 300).size(), 400U);
+    EXPECT_GT(part.voxels().size(), 100U);
 }
 
 /// Own opinion, that of the company and that of the neighbourhood, by asking all voxels of the map.

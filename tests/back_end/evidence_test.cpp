@@ -35,6 +35,18 @@ TEST(Record, CountersStopAtTheirLargestValue) {
     EXPECT_EQ(e.switches, 65535);
 }
 
+TEST(Record, AnObserverMayStandForOthers) {
+    Evidence e = after("o");
+    record(e, Sight::passed, 4);
+    record(e, Sight::nothing, 8);
+    record(e, Sight::passed, 2);
+    EXPECT_EQ(e.seen, 1);
+    EXPECT_EQ(e.passed, 6);
+    EXPECT_EQ(e.switches, 4);
+    record(e, Sight::occupied, 100000);
+    EXPECT_EQ(e.seen, 65535);
+}
+
 TEST(IsUnknown, UntilItIsPassedOrSeenTwice) {
     EXPECT_TRUE(is_unknown(after("")));
     EXPECT_TRUE(is_unknown(after("o  ")));

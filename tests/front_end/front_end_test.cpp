@@ -153,7 +153,7 @@ TEST(FrontEnd, ReadsTheBeamsOffTheFirstWindowOnly) {
     const float before = front_end.beams()->azimuth_spacing;
     front_end.process(other, times);
     EXPECT_EQ(front_end.beams()->azimuth_spacing, before);
-    EXPECT_EQ(times.at("submap").size(), 2U);
+    EXPECT_EQ(times.at("submap").count(), 2U);
 }
 
 TEST(FrontEnd, AWindowOfOneScanIsAllStill) {

@@ -116,5 +116,21 @@ TEST(BeamImage, KeepsPixelsForTheFieldOfViewOnly) {
     }
 }
 
+TEST(BeamImage, CoverageIsTheShareOfPixelsWithABeam) {
+    EXPECT_EQ(BeamImage().coverage(), 0.0F);
+    Points all, half;
+    for (int column = 0; column < 360; ++column) {
+        for (int row = -5; row <= 5; ++row) {
+            all.push_back(polar(column + 0.5, row, 10.0));
+            if (column % 2 == 0) half.push_back(all.back());
+        }
+    }
+    const auto step = static_cast<float>(kDeg);
+    const float full = BeamImage(all, {step, step}).coverage();
+    EXPECT_GT(full, 0.8F);
+    EXPECT_LE(full, 1.0F);
+    EXPECT_NEAR(BeamImage(half, {step, step}).coverage(), 0.5F * full, 0.02F);
+}
+
 }  // namespace
 }  // namespace dynamic_filter

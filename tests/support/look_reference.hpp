@@ -43,8 +43,8 @@ public:
         cos_elevation_ = std::max(std::cos(place.elevation), 0.01F);
         beside_ = margins.beside / place.range;
         const float column = grid_.azimuth_step * cos_elevation_;
-        reach_right_ = std::max(1.05F * column, beside_);
-        reach_up_ = std::max(1.05F * grid_.elevation_step, beside_);
+        reach_right_ = std::max(column, beside_);
+        reach_up_ = std::max(grid_.elevation_step, beside_);
         own_right_ = std::max(0.55F * column, beside_);
         own_up_ = std::max(0.55F * grid_.elevation_step, beside_);
         touch_ = margins.touch + margins.per_metre * place.range;

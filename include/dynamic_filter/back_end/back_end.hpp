@@ -29,6 +29,13 @@ public:
     /// The same at the pose of a submap of the buffer, which is always among those consulted.
     LocalMap local_map_of(std::size_t submap, StageTimes& times);
 
+    /// Forgets the submaps whose pose lies beyond `radius` [m] of a place, and the farthest until
+    /// the rest, at least one, holds at most `most_points`. Voxels get new numbers. Returns how far
+    /// [m] nothing is forgotten.
+    double keep_within(const Eigen::Vector3d& center, double radius, std::size_t most_points);
+    /// Of all submaps.
+    [[nodiscard]] std::size_t points() const;
+
     [[nodiscard]] const std::vector<BufferedSubmap>& buffer() const { return buffer_; }
     [[nodiscard]] const VoxelIndex& voxels() const { return voxels_; }
 

@@ -18,8 +18,8 @@ struct Evidence {
     std::uint32_t first_owner = 0, last_owner = 0;  ///< scans that own it, by their order
 };
 
-/// Takes in what the next observer saw.
-void record(Evidence& evidence, Sight sight);
+/// Takes in what the next observer saw, as if `weight` observers like it had seen it.
+void record(Evidence& evidence, Sight sight, unsigned weight = 1);
 
 /// True while none passed it and fewer than two saw it: one of those is the scan that found it.
 inline bool is_unknown(const Evidence& e) { return e.seen < 2 && e.passed == 0; }

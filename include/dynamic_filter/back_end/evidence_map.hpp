@@ -19,6 +19,7 @@ namespace dynamic_filter {
 struct Observer {
     BeamImage image;
     Eigen::Isometry3f T_sensor_map = Eigen::Isometry3f::Identity();
+    float reach = 0.0F;  ///< [m] how far it looks
 };
 
 /// The voxel of each point of a scan; kNoVoxel for points that were not measured or lie too far
@@ -26,8 +27,9 @@ struct Observer {
 using PointVoxels = std::vector<std::uint32_t>;
 
 /// Every voxel is asked about once by every observer: a new keyframe looks at the voxels known so
-/// far, a new voxel asks the keyframes kept so far. So nothing is computed twice, and the result is
-/// that of asking all keyframes about all voxels, but for keyframes no longer kept.
+/// far, a new voxel asks the keyframes kept so far: the newest all, of the older ones a selection
+/// that stands for them. So nothing is computed twice, and the result is nearly (with few
+/// keyframes: exactly) that of asking all keyframes about all voxels in their reach.
 ///
 /// A voxel stands for the centroid of its points in the first scan that has any there, so it can be
 /// judged at once, and never moves. Single caller; const members may run in several threads. Poses
@@ -36,28 +38,56 @@ class EvidenceMap {
 public:
     explicit EvidenceMap(const Config& config);
 
-    /// Takes a scan whose `T_world_sensor` is relative to the map. Cost: points, plus blocks of
-    /// voxels, plus the voxels of those within sight, plus new voxels times keyframes kept.
+    /// Takes a scan whose `T_world_sensor` is relative to the map, as far as its own points are
+    /// concerned. Cost: points, plus new voxels times keyframes asked.
     PointVoxels insert(const Scan& scan, StageTimes& times);
+
+    /// Lets that scan look at the rest of the map, where it has no points. Call it once after each
+    /// insert(). Cost: blocks of voxels, plus the voxels of those within sight.
+    void look_at_rest(StageTimes& times);
+
+    /// Forgets blocks of voxels beyond `radius` [m] of a place, and the farthest ones until at most
+    /// `most_voxels` are left (about). Voxels get new numbers. Returns the old number of each.
+    std::vector<std::uint32_t> keep_within(const Point& center, float radius,
+                                           std::size_t most_voxels);
+
+    /// Voxels whose centroid lies within `radius` [m] of a place.
+    [[nodiscard]] std::vector<std::uint32_t> within(const Point& center, float radius) const;
 
     /// Occupancy 0..1 of voxels: their own evidence, and that of the voxels within two cells, those
     /// above all that were there when they were there. Empty: unknown. In parallel.
     [[nodiscard]] std::vector<std::optional<float>> probabilities(
         std::span<const std::uint32_t> voxels) const;
 
+    /// Scans that were taken in, without those that measured nothing.
+    [[nodiscard]] std::uint32_t scans() const { return scans_; }
     /// Keyframes that have observed.
     [[nodiscard]] std::size_t observers() const { return all_observers_; }
     [[nodiscard]] const VoxelIndex& voxels() const { return voxels_; }
-    [[nodiscard]] const Evidence& evidence(std::uint32_t voxel) const { return evidence_[voxel]; }
-    [[nodiscard]] const Point& centroid(std::uint32_t voxel) const { return centroids_[voxel]; }
+    [[nodiscard]] const Evidence& evidence(std::uint32_t voxel) const {
+        return states_[voxel].evidence;
+    }
+    /// Its transience.
+    [[nodiscard]] float opinion(std::uint32_t voxel) const { return states_[voxel].opinion; }
+    [[nodiscard]] const Point& centroid(std::uint32_t voxel) const {
+        return states_[voxel].centroid;
+    }
     /// Read off the first scan that has enough points; empty before it.
     [[nodiscard]] const std::optional<BeamPattern>& beams() const { return beams_; }
 
 private:
     PointVoxels add_points(const Scan& scan);
+    std::uint32_t own(VoxelKey key);
     bool add_observer(const Scan& scan);
-    void check_known(std::size_t known);
+    enum class Where { touched, elsewhere };
+    void check_known(std::size_t known, Where where);
+    struct Asked {
+        const Observer* observer;
+        unsigned weight;
+    };
+    [[nodiscard]] std::vector<Asked> asked_by_new() const;
     void check_new(std::size_t known);
+    [[nodiscard]] Point middle_of(std::uint32_t block) const;
     struct Neighborhood;
     struct Glance;
     void look_at(std::span<const std::uint32_t> blocks, Glance& glance, const Observer& observer);
@@ -71,12 +101,17 @@ private:
     std::deque<Observer> observers_;
     std::size_t all_observers_ = 0;
     std::uint32_t scans_ = 0;
+    double last_far_look_ = 0.0;  // [s]
+    std::size_t rest_ = 0;  // voxels below this number, but those in blocks touched, are to look at
 
     VoxelIndex voxels_;
-    Points centroids_;  // by voxel, as the evidence is
-    std::vector<Evidence> evidence_;
-    std::vector<float>
-        transience_;  // of the evidence; neighbours ask far more often than it changes
+    std::vector<std::uint32_t> touched_;  // by block: the newest scan with a point in it
+    struct State {
+        Point centroid = Point::Zero();
+        float opinion = 0.0F;  // its transience; neighbours ask far more often than it changes
+        Evidence evidence;
+    };
+    std::vector<State> states_;  // by voxel
 };
 
 }  // namespace dynamic_filter

@@ -27,7 +27,7 @@ struct Beam {
 };
 
 /// One beam per pixel, the nearest; pixels are as wide as the sensor's beams are apart. Immutable;
-/// thread-safe. Four bytes for each pixel in the field of view: range in steps of 1 cm, direction
+/// thread-safe. Six bytes for each pixel in the field of view: range in steps of 1 cm, direction
 /// in 1/256 of the pixel.
 class BeamImage {
 public:
@@ -36,10 +36,15 @@ public:
     BeamImage(std::span<const Point> points, const BeamPattern& spacing);
 
     [[nodiscard]] const ImageGrid& grid() const { return grid_; }
-    /// At least the farthest range [m] in a window of pixels; 0 where nothing returned. Rows must
-    /// exist, columns may wrap around, no farther than once.
-    [[nodiscard]] float farthest(int first_row, int last_row, int first_column,
-                                 int last_column) const;
+    /// False if no beam in a window of pixels goes as far as `range` [m]; cautious, because it asks
+    /// tiles of pixels. Rows must exist, columns may wrap around, no farther than once.
+    [[nodiscard]] bool reaches(float range, int first_row, int last_row, int first_column,
+                               int last_column) const;
+    /// The share of the pixels in the field of view that hold a beam; 0 if there are none.
+    [[nodiscard]] float coverage() const {
+        return pixels_.empty() ? 0.0F
+                               : static_cast<float>(beams_) / static_cast<float>(pixels_.size());
+    }
     [[nodiscard]] std::size_t bytes() const { return pixels_.size() * sizeof(std::uint32_t); }
     /// False where nothing returned.
     [[nodiscard]] bool has_beam(int row, int column) const {
@@ -57,12 +62,16 @@ public:
     }
     /// The pixels of the field of view, row by row: range [cm] in the low 16 bits (0: nothing
     /// returned), then the parts of the column and of the row in 1/256. Columns count from
-    /// `first_column` and wrap around. Valid as long as the image.
+    /// `first_column` and wrap around. Nothing returned beside it. `farthest_cm`: the farthest
+    /// range of each pixel and the eight around it. Valid as long as the image.
     struct View {
         const std::uint32_t* pixels;
+        const std::uint16_t* farthest_cm;
         int first_column, stored_columns;
     };
-    [[nodiscard]] View view() const { return {pixels_.data(), first_column_, stored_columns_}; }
+    [[nodiscard]] View view() const {
+        return {pixels_.data(), farthest_of_nine_cm_.data(), first_column_, stored_columns_};
+    }
 
 private:
     static constexpr float kPi = 3.14159265358979F;
@@ -78,13 +87,16 @@ private:
                static_cast<std::size_t>(stored_column(column));
     }
     void find_view(const std::vector<bool>& hit);
+    void pool();
 
     static constexpr int kTile = 8;  // pixels, both ways
     [[nodiscard]] int tile_columns() const { return grid_.columns / kTile + 1; }
 
     ImageGrid grid_;
     int first_column_ = 0, stored_columns_ = 0;  // the view: all but the widest gap
+    std::size_t beams_ = 0;
     std::vector<std::uint32_t> pixels_;
+    std::vector<std::uint16_t> farthest_of_nine_cm_;
     std::vector<std::uint16_t> farthest_cm_;  // of each tile; tiles cover the whole circle
 };
 

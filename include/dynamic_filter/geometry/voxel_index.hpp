@@ -17,6 +17,21 @@ namespace dynamic_filter {
 
 constexpr std::uint32_t kNoVoxel = UINT32_MAX;
 
+/// The numbers of the blocks asked for last. A scan comes back to the same blocks with every ring
+/// or column of it.
+class BlockCache {
+public:
+    struct Entry {
+        VoxelKey block = ~VoxelKey{0};
+        std::uint32_t number = 0;
+    };
+    /// Where the block is, if it is here; the caller fills in what is not.
+    Entry& at(VoxelKey block) { return entries_[block * 0x9E3779B97F4A7C15ULL >> 54]; }
+
+private:
+    std::vector<Entry> entries_ = std::vector<Entry>(1024);
+};
+
 /// Numbers voxels in the order in which they are first met: dense ids for plain arrays. Inside,
 /// voxels live in blocks of 4 x 4 x 4: what is near is near in memory, and one look into the hash
 /// table serves a whole block. Const members may run in several threads.
@@ -26,8 +41,8 @@ public:
 
     [[nodiscard]] std::optional<std::uint32_t> find(VoxelKey key) const {
         const Block* block = find_block(block_of(key));
-        if (block == nullptr || (block->present >> place_of(key) & 1U) == 0) return std::nullopt;
-        return block->ids[place_of(key)];
+        const std::uint32_t id = block == nullptr ? kNoVoxel : id_in(*block, key);
+        return id == kNoVoxel ? std::nullopt : std::optional(id);
     }
     [[nodiscard]] VoxelKey key(std::uint32_t id) const { return keys_[id]; }
     [[nodiscard]] std::size_t size() const { return keys_.size(); }
@@ -35,7 +50,7 @@ public:
     /// Blocks are numbered in the order in which they are first met, too.
     [[nodiscard]] std::size_t blocks() const { return blocks_.size(); }
     [[nodiscard]] std::uint32_t block_of_voxel(std::uint32_t id) const {
-        return number_of_block_.find(block_of(keys_[id]))->second;
+        return block_of_voxel_[id];
     }
     /// The first of its 4 x 4 x 4 cells.
     [[nodiscard]] Cell corner(std::uint32_t block) const { return unpack(blocks_[block].corner); }
@@ -76,6 +91,13 @@ private:
     static std::uint32_t place_of(VoxelKey key) {
         return static_cast<std::uint32_t>((key >> 38 & 48) | (key >> 19 & 12) | (key & 3));
     }
+    static std::uint32_t id_in(const Block& block, VoxelKey key) {
+        const std::uint32_t place = place_of(key);
+        return (block.present >> place & 1U) != 0 ? block.ids[place] : kNoVoxel;
+    }
+    [[nodiscard]] std::uint32_t number_of(const Block& block) const {
+        return static_cast<std::uint32_t>(&block - blocks_.data());
+    }
     [[nodiscard]] const Block* find_block(VoxelKey block) const {
         const auto it = number_of_block_.find(block);
         return it == number_of_block_.end() ? nullptr : &blocks_[it->second];
@@ -87,11 +109,11 @@ private:
     tsl::robin_map<VoxelKey, std::uint32_t, VoxelHash> number_of_block_;
     std::vector<Block> blocks_;
     std::vector<VoxelKey> keys_;
-    VoxelKey last_block_ = ~VoxelKey{0};  // of insert(): the next point is mostly in the same
-    std::uint32_t last_number_ = 0;
+    std::vector<std::uint32_t> block_of_voxel_;
+    BlockCache recent_;  // of insert()
 };
 
-/// Finds one voxel after another; quick while they share a block. For one thread; the index must
+/// Finds one voxel after another; quick while they share blocks. For one thread; the index must
 /// outlive it and not grow meanwhile.
 class VoxelFinder {
 public:
@@ -99,19 +121,19 @@ public:
 
     /// kNoVoxel: not there.
     std::uint32_t operator()(VoxelKey key) {
-        if (const VoxelKey block = VoxelIndex::block_of(key); block != last_) {
-            last_ = block;
-            found_ = index_.find_block(block);
+        const VoxelKey block = VoxelIndex::block_of(key);
+        BlockCache::Entry& recent = recent_.at(block);
+        if (recent.block != block) {
+            const VoxelIndex::Block* found = index_.find_block(block);
+            recent = {block, found == nullptr ? kNoVoxel : index_.number_of(*found)};
         }
-        const std::uint32_t place = VoxelIndex::place_of(key);
-        const bool present = found_ != nullptr && (found_->present >> place & 1U) != 0;
-        return present ? found_->ids[place] : kNoVoxel;
+        return recent.number == kNoVoxel ? kNoVoxel
+                                         : index_.id_in(index_.blocks_[recent.number], key);
     }
 
 private:
     const VoxelIndex& index_;
-    VoxelKey last_ = ~VoxelKey{0};
-    const VoxelIndex::Block* found_ = nullptr;
+    BlockCache recent_;
 };
 
 inline std::uint64_t VoxelIndex::slab(int axis, int low, int high) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "dynamic_filter/back_end/back_end.hpp"
@@ -10,6 +11,7 @@
 #include "dynamic_filter/back_end/evidence_map.hpp"
 #include "dynamic_filter/config.hpp"
 #include "dynamic_filter/front_end/front_end.hpp"
+#include "dynamic_filter/geometry/map_points.hpp"
 #include "dynamic_filter/pipeline/merge.hpp"
 #include "dynamic_filter/stage_times.hpp"
 #include "dynamic_filter/types.hpp"
@@ -25,17 +27,28 @@ struct Verdict {
                       ///< be dynamic all the same); empty in instant verdicts
 };
 
+/// What judging leaves to the back-end.
+struct BackEndWork {
+    std::optional<Submap> submap;  ///< where submaps observe and a window has closed
+    BeamPattern beams;             ///< that it was seen with
+};
+
+struct Judged {
+    std::vector<Verdict> verdicts;
+    BackEndWork work;
+};
+
 /// A voxel of the static local map.
 struct StaticVoxel {
     Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< [m] world frame
     float probability = 0.0F;                          ///< occupancy 0..1
 };
 
-/// Usage: push() every scan, finish(), then verdict() of any scan. Single caller; verdict() alone
-/// is const and may run in several threads. Same scans and config give the same bits for any number
-/// of threads. Scans are not kept. Memory: scans observe: about 60 bytes a voxel, 28 more after finish(), and four a pixel
-/// of the newest `back_end.max_scans` keyframes; submaps observe: one window of scans and the
-/// thinned submaps.
+/// Usage: push() every scan, finish(), then verdict() of any scan. Single caller, but see judge();
+/// const members may run in several threads while no other runs. Same scans and config give the
+/// same bits for any number of threads. Scans are not kept. Memory: scans observe: about 80 bytes a
+/// voxel, 28 more after finish(), and six a pixel of the newest `back_end.max_scans` keyframes;
+/// submaps observe: one window of scans and the thinned submaps.
 class DynamicFilter {
 public:
     /// Throws ConfigError.
@@ -46,6 +59,14 @@ public:
     /// processed and its scans' instant verdicts are returned; otherwise nothing.
     std::vector<Verdict> push(Scan scan);
 
+    /// push() in two steps: the front-end's, which gives the verdicts, and what can wait until they
+    /// are delivered. Each judge() must be followed by integrate() of its work, in order. Where
+    /// submaps observe, one thread may judge while another integrates earlier work; where scans
+    /// observe (`front_end_waits()`), the work must be integrated before the next scan is judged.
+    Judged judge(Scan scan);
+    void integrate(BackEndWork work);
+    [[nodiscard]] bool front_end_waits() const { return scans_observe(); }
+
     /// Decides every voxel. Submaps observe: processes the last window (its verdicts are returned)
     /// and merges the local maps of all submap poses. No push() after it.
     std::vector<Verdict> finish();
@@ -54,11 +75,21 @@ public:
     /// said: not measured, or beyond the reach of a voxel's key.
     [[nodiscard]] Verdict verdict(const Scan& scan) const;
 
+    /// The verdict on a scan from the evidence so far, where scans observe; what stands on a static
+    /// surface is told from it by the final verdict only.
+    [[nodiscard]] Verdict settled(const Scan& scan) const;
+
+    /// Forgets the map beyond `radius` [m] of a pose, and the farthest of it until its size() is at
+    /// most `most`. What is forgotten is unknown.
+    void keep_within(const Pose& T_world_center, double radius, std::size_t most);
+    /// Voxels of the map, or points of its submaps.
+    [[nodiscard]] std::size_t size() const;
+
     /// The static local map at any pose (Sec. III-C), from the scans or the closed submaps so far:
     /// the static voxels within `back_end.search_radius`, or of the submaps within it.
     std::vector<StaticVoxel> local_static_map(const Pose& T_world_query);
 
-    [[nodiscard]] const StageTimes& times() const { return times_; }
+    [[nodiscard]] StageTimes times() const;
     [[nodiscard]] const BackEnd& back_end() const { return back_end_; }
     /// How densely the sensor looks. Empty before it is known.
     [[nodiscard]] const std::optional<BeamPattern>& beams() const {
@@ -73,15 +104,20 @@ public:
 private:
     Pose to_map_frame(const Pose& T_world_sensor) const;
     [[nodiscard]] bool scans_observe() const;
-    [[nodiscard]] std::vector<Verdict> process(const Window& window);
-    [[nodiscard]] Verdict instant_verdict(std::size_t index, const PointVoxels& voxels) const;
+    [[nodiscard]] Judged process(const Window& window);
+    [[nodiscard]] Verdict instant_verdict(std::size_t index, const PointVoxels& voxels);
     void decide_voxels();
     [[nodiscard]] std::optional<Surface> contact_of(std::uint32_t voxel) const;
-    void judge_by_scans(const Points& sensor_points, const Points& map_points,
-                        Verdict& verdict) const;
+    struct Located {
+        MapPoints in_map;
+        PointVoxels voxels;
+        Verdict verdict;  // all unknown
+    };
+    [[nodiscard]] Located locate(const Scan& scan) const;
+    [[nodiscard]] PointVoxels find_voxels(const std::vector<VoxelKey>& keys) const;
+    [[nodiscard]] std::pair<Label, float> decision_on(std::uint32_t voxel, const Point& at) const;
     void judge_contacts(const Points& map_points, const PointVoxels& voxels, Labels& labels) const;
     void merge_local_maps();
-    [[nodiscard]] Label label_by_submaps(const Point& map_point, float& probability) const;
     [[nodiscard]] Label label_of(std::optional<float> probability) const;
 
     Config config_;
@@ -90,13 +126,23 @@ private:
     FrontEnd front_end_;
     BackEnd back_end_;
     EvidenceMap evidence_;
+    struct Instant {
+        float opinion = 2.0F;  // when it was asked last; none is as large
+        Label label = Label::unknown;
+    };
+    std::vector<Instant> instant_;  // by voxel, when scans observe
     struct Decision {
         std::optional<float> probability;
         std::optional<Surface> contact;
     };
     std::vector<Decision> decided_;  // by voxel, when scans observe
     MergedMap merged_;
-    StageTimes times_;
+    struct Kept {
+        Point center;
+        float radius;  // [m]
+    };
+    std::optional<Kept> kept_;             // of the submaps, once some are forgotten
+    StageTimes front_times_, back_times_;  // of judge() and of the rest
 };
 
 }  // namespace dynamic_filter

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+/// The pipeline beside a running sensor: scans in at any time, verdicts out, never more behind than
+/// a short queue.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamic_filter/pipeline/dynamic_filter.hpp"
+
+namespace dynamic_filter {
+
+/// What happens to a scan that comes while `OnlineOptions::queue` others wait.
+enum class Overload {
+    drop_oldest,  ///< the scan with the oldest stamp is dropped: what comes out is never old
+    wait          ///< the caller waits: nothing is lost
+};
+
+struct OnlineOptions {
+    std::size_t queue = 2;  ///< scans that may wait, besides the one being judged; at least 1
+    Overload overload = Overload::drop_oldest;
+    double horizon = 200.0;  ///< [m] the map is forgotten beyond it; 0: no bound
+    /// The farthest of the map is forgotten where its voxels (submaps: their points) need more; to
+    /// forget, the map is copied, so for a moment there is more. 0: no bound.
+    std::size_t max_bytes = std::size_t{2} << 30;
+    std::size_t settle_after = 0;  ///< a scan is settled when so many came after it, where scans
+                                   ///< observe; 0: never
+    int threads = 0;               ///< for the work inside; 0: all cores
+};
+
+/// Something that a robot's log should hold. All but `jump` and `restart` cost the scan.
+enum class NoticeKind {
+    dropped,    ///< overload
+    late,       ///< its stamp is before that of a scan already judged
+    duplicate,  ///< stamp and pose of the scan before
+    invalid,    ///< stamp or pose is not a number, or the rotation is none
+    jump,       ///< the pose jumped: a new map begins, which knows nothing of the one before
+    restart     ///< stamps went back by more than a second: a new map begins
+};
+std::string to_string(NoticeKind kind);
+
+struct Notice {
+    NoticeKind kind = NoticeKind::dropped;
+    std::size_t index = 0;  ///< Scan::index
+    std::string text;       ///< one sentence
+};
+
+/// Verdicts come from the filter's threads (the last ones from the caller of finish()), notices
+/// also from the caller of push(); one call of each kind at a time. They should be quick, because
+/// the next scan waits for them, and must call nothing of the filter but counters(). What the first
+/// two throw stops the filter.
+struct OnlineCallbacks {
+    std::function<void(const Verdict&)> instant;  ///< of every scan judged, in order
+    std::function<void(const Verdict&)> settled;  ///< corrections, see `settle_after`
+    std::function<void(const Notice&)> notice;
+};
+
+/// in = processed + dropped + rejected + queued, whenever asked. A scan in work is still queued.
+struct Counters {
+    std::uint64_t in = 0, processed = 0, dropped = 0, rejected = 0, queued = 0;
+};
+
+/// Two threads of its own, and those of the work inside: the front-end judges scan after scan, the
+/// back-end integrates beside the caller, and beside the front-end where submaps observe. Scans
+/// that wait are put in the order of their stamps. One filter serves one vehicle; indices of scans
+/// must grow. push(), ask(), flush(), finish(), counters() and local_static_map() may be called
+/// from any thread, the others after flush(). An exception in a stage is thrown to the next caller
+/// of push(), ask(), flush() or finish(). The destructor drops what waits, and does not finish().
+///
+/// Where stamps are in order, the trajectory has no break, and nothing is dropped or forgotten,
+/// verdicts are those of DynamicFilter on the same scans, to the byte. Points more than 105 km (at
+/// voxels of 0.2 m) from where a map began end as unknown: make another filter in time.
+class OnlineFilter {
+public:
+    /// Throws ConfigError.
+    explicit OnlineFilter(const Config& config, OnlineOptions options = {},
+                          OnlineCallbacks callbacks = {});
+    ~OnlineFilter();
+    OnlineFilter(const OnlineFilter&) = delete;
+    OnlineFilter& operator=(const OnlineFilter&) = delete;
+
+    /// Hands over a scan and returns, at once or, with `Overload::wait`, when there is room.
+    void push(Scan scan);
+
+    /// push(), and waits for the scan's instant verdict. Empty: dropped or rejected, or submaps
+    /// observe: a window's verdicts come to the callback when it closes.
+    std::optional<Verdict> ask(Scan scan);
+
+    /// Waits until all that was pushed is judged and integrated.
+    void flush();
+
+    /// flush(), settles what is not, and decides every voxel. Nothing can be pushed after it.
+    void finish();
+
+    /// After finish(): the final verdict on a scan that was pushed, with the index it had. Where
+    /// the horizon forgot what it saw: unknown.
+    [[nodiscard]] Verdict verdict(const Scan& scan) const;
+
+    [[nodiscard]] Counters counters() const;
+    /// The static voxels around a pose (DynamicFilter::local_static_map), as of now. Waits for the
+    /// stage in work, and the next one waits for it.
+    [[nodiscard]] std::vector<StaticVoxel> local_static_map(const Pose& T_world_query);
+
+    /// How the stages did, once flush() has returned; `latency`: from push() to the end of judging.
+    [[nodiscard]] StageTimes times() const;
+    struct Extent {
+        std::size_t maps = 0, submaps = 0, voxels = 0;
+        std::optional<BeamPattern> beams;
+    };
+    /// What there is, once flush() has returned.
+    [[nodiscard]] Extent extent() const;
+
+private:
+    struct Engine;
+    std::unique_ptr<Engine> engine_;
+};
+
+}  // namespace dynamic_filter

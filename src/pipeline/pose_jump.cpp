@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#include "dynamic_filter/pipeline/pose_jump.hpp"
+
+#include <algorithm>
+
+namespace dynamic_filter {
+
+std::optional<double> pose_jump(const std::optional<StampedPose>& before_last,
+                                const std::optional<StampedPose>& last, const StampedPose& now) {
+    constexpr double kLeast = 2.0;          // [m] beyond any noise
+    constexpr double kAcceleration = 50.0;  // [m/s^2] beyond any vehicle
+    if (!before_last || !last) return std::nullopt;
+    const double passed = now.stamp - last->stamp, earlier = last->stamp - before_last->stamp;
+    if (!(passed > 0.0) || !(earlier > 0.0)) return std::nullopt;
+    const Eigen::Vector3d velocity =
+        (last->T_world_sensor.translation() - before_last->T_world_sensor.translation()) / earlier;
+    const Eigen::Vector3d expected = last->T_world_sensor.translation() + passed * velocity;
+    const double moved =
+        (now.T_world_sensor.translation() - last->T_world_sensor.translation()).norm();
+    // Two sensors of one vehicle take turns: the velocity between them is none.
+    const double off = std::min(moved, (now.T_world_sensor.translation() - expected).norm());
+    // The velocity itself is uncertain by a change within the step before.
+    const double possible = kLeast + kAcceleration * passed * (0.5 * passed + earlier);
+    return off > possible ? std::optional(off) : std::nullopt;
+}
+
+}  // namespace dynamic_filter

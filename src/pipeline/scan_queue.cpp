@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "scan_queue.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+namespace dynamic_filter {
+
+namespace {
+
+constexpr double kRestart = 1.0;  // [s] back in time: no scan is as late, the recording began anew
+
+std::string seconds(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6f s", value);
+    return text;
+}
+
+bool is_rigid(const Pose& pose) {
+    constexpr double kTolerance = 1e-3;
+    const Eigen::Matrix3d r = pose.linear();
+    return pose.matrix().allFinite() && r.determinant() > 0.0 &&
+           (r * r.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < kTolerance;
+}
+
+bool is_same(const Pose& a, const Pose& b) { return a.matrix() == b.matrix(); }
+
+}  // namespace
+
+bool ScanQueue::restarts(double stamp) const { return newest_ && stamp < *newest_ - kRestart; }
+
+std::optional<Notice> ScanQueue::refusal(const Scan& scan) const {
+    const auto because = [&](NoticeKind kind, const std::string& text) {
+        return Notice{kind, scan.index, text};
+    };
+    if (!std::isfinite(scan.stamp)) {
+        return because(NoticeKind::invalid, "its stamp is not a number");
+    }
+    if (!is_rigid(scan.T_world_sensor)) {
+        return because(NoticeKind::invalid,
+                       "its pose is not a rigid motion; is the quaternion normalised?");
+    }
+    if (restarts(scan.stamp)) return std::nullopt;
+    const auto repeats = [&](std::uint64_t run, double stamp, const Pose& pose) {
+        return run == run_ && stamp == scan.stamp && is_same(pose, scan.T_world_sensor);
+    };
+    const bool waits = std::any_of(waiting_.begin(), waiting_.end(), [&](const Waiting& w) {
+        return repeats(w.run, w.scan.stamp, w.scan.T_world_sensor);
+    });
+    if (waits || (taken_ && repeats(taken_->run, taken_->stamp, taken_->T_world_sensor))) {
+        return because(NoticeKind::duplicate,
+                       "the scan of " + seconds(scan.stamp) + " at this pose has come before");
+    }
+    if (taken_ && taken_->run == run_ && scan.stamp < taken_->stamp) {
+        return because(NoticeKind::late, "its stamp " + seconds(scan.stamp) +
+                                             " is before that of a scan already judged, " +
+                                             seconds(taken_->stamp));
+    }
+    return std::nullopt;
+}
+
+void ScanQueue::add(Waiting waiting) {
+    const double stamp = waiting.scan.stamp;
+    if (restarts(stamp)) {
+        ++run_;
+        newest_.reset();
+    }
+    newest_ = std::max(stamp, newest_.value_or(stamp));
+    waiting.run = run_;
+    const auto before = [](const Waiting& a, const Waiting& b) {
+        return std::pair(a.run, a.scan.stamp) < std::pair(b.run, b.scan.stamp);
+    };
+    const auto place = std::upper_bound(waiting_.begin(), waiting_.end(), waiting, before);
+    waiting_.insert(place, std::move(waiting));
+}
+
+Waiting ScanQueue::pop() {
+    Waiting oldest = std::move(waiting_.front());
+    waiting_.pop_front();
+    return oldest;
+}
+
+Waiting ScanQueue::take() {
+    Waiting oldest = pop();
+    taken_ = {oldest.run, oldest.scan.stamp, oldest.scan.T_world_sensor};
+    return oldest;
+}
+
+Waiting ScanQueue::drop() { return pop(); }
+
+}  // namespace dynamic_filter
