@@ -1,7 +1,6 @@
-"""The default preset on simulated and real recordings, and its speed."""
+"""The default preset on simulated and real recordings."""
 import os
 import shutil
-import statistics
 import sys
 from pathlib import Path
 
@@ -51,23 +50,6 @@ def scene_table(bench):
             for scene, sensor, *options in cases]
     return ("\n## Other sensors, noise, and nothing moving\n\n"
             f"Same settings throughout, mean of seeds {bench.seeds}.\n\n" + table(["scene", "sensor", "options", *HEAD], rows))
-
-
-def speed_table(bench):
-    """Median of three runs each. Run it on an idle machine."""
-    rows = []
-    for scene, sensor in (("crowd", "vlp16"), ("street", "os64")):
-        recording = simulated(bench, scene, sensor, 1)
-        for preset in ("default", "paper"):
-            timing = [run(bench, recording, preset=preset)["timing"] for _ in range(1 if bench.quick else 3)]
-            rates = ([t["front_end"]["scans_per_second"] for t in timing],
-                     [t["back_end"]["submaps_per_second"] for t in timing], [t["scans_per_second"] for t in timing])
-            rows.append([scene, sensor, preset, *(f"{statistics.median(rate):.1f}" for rate in rates)])
-        shutil.rmtree(recording)
-    return ("\n## Speed\n\nTwo cores; median of three runs. Items per busy wall second of the stage, and scans per second of the whole run "
-            "with reading and writing. Default preset: the front-end is voxels, images and instant verdicts, the back-end "
-            "the visibility checks and the final verdicts of voxels; a submap is 20 keyframes.\n\n" +
-            table(["scene", "sensor", "preset", "front-end [scans/s]", "back-end [submaps/s]", "run [scans/s]"], rows))
 
 
 def error_tables(_):

@@ -14,8 +14,8 @@ MECHANISMS = {
     "neighbourhood's vote": [
         (VOTE, "2.0F * sum(around) /", "0.0F * sum(around) /")],
     "runs: plain n_free > n_occ instead": [
-        (EVIDENCE, "0.45F * std::exp(0.9F * std::log(1.0F + e.switches) + 0.2F * returns) + kOffset;",
-         "0.0F * returns + e.seen + kOffset;")],
+        (EVIDENCE, "by_switches(e.switches) * returns(e.seen) * owned * owned + kOffset;",
+         "0.0F * by_switches(0) * owned + e.seen + kOffset;")],
     "lines left-right": [
         (SIGHT, "all_behind &= ~spans | left_right.before;", "(void)spans, (void)left_right;")],
     "surface between rings occupies": [
@@ -23,7 +23,7 @@ MECHANISMS = {
     "margins grow with range": [
         ("include/dynamic_filter/back_end/line_of_sight.hpp", "per_metre = 0.007F;", "per_metre = 0.0F;")],
     "new voxels ask earlier keyframes": [
-        (MAP, "for (const Observer& observer : observers_) {", "for (const Observer& observer : {std::cref(observers_.back())}) {")],
+        (MAP, "for (const auto& [observer, weight] : asked) {", "for (const auto& [observer, weight] : {asked.back()}) {")],
     "contact": [
         ("src/back_end/contact.cpp", "if (!moving) return std::nullopt;", "if (true) return std::nullopt;")],
 }
