@@ -25,10 +25,6 @@ using namespace dynamic_filter;
 using Clock = std::chrono::steady_clock;
 using nlohmann::ordered_json;
 
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 double resident_mib() {
     std::ifstream file("/proc/self/statm");
     long pages = 0, resident = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Which of a kernel's instruction-set levels this machine runs best. A macro, because the levels
-/// are namespaces, and not all exist everywhere.
+/// The instruction-set levels that kernels exist for, and which of them this machine runs best.
+/// Macros, because the levels are namespaces, and not all exist everywhere.
 #pragma once
 
 #ifdef DYNAMIC_FILTER_X86_LEVELS
@@ -8,6 +8,20 @@
     (__builtin_cpu_supports("avx512f") ? ::dynamic_filter::kernel::avx512::function \
      : __builtin_cpu_supports("avx2")  ? ::dynamic_filter::kernel::avx2::function   \
                                        : ::dynamic_filter::kernel::baseline::function)
+#define DYNAMIC_FILTER_DECLARE_KERNEL(result, function, Args) \
+    namespace baseline {                                      \
+    result function(const Args& args);                        \
+    }                                                         \
+    namespace avx2 {                                          \
+    result function(const Args& args);                        \
+    }                                                         \
+    namespace avx512 {                                        \
+    result function(const Args& args);                        \
+    }
 #else
 #define DYNAMIC_FILTER_BEST_KERNEL(function) (::dynamic_filter::kernel::baseline::function)
+#define DYNAMIC_FILTER_DECLARE_KERNEL(result, function, Args) \
+    namespace baseline {                                      \
+    result function(const Args& args);                        \
+    }
 #endif

@@ -23,10 +23,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 /// What lives from the first pass over the scans to the reports.
 struct Pass {
     const io::Sequence& sequence;
@@ -131,7 +127,9 @@ void filter_scans(Pass& pass) {
     for_each_frame(pass.sequence, all_scans(pass.sequence), {}, use);
     pass.filter.finish();
     take_notices(pass);
-    if (accepted_scans(pass).empty() && !pass.summary.interrupted) {
+    const bool none =
+        std::find(pass.accepted.begin(), pass.accepted.end(), true) == pass.accepted.end();
+    if (none && !pass.summary.interrupted) {
         throw InputError(
             pass.sequence.root, "",
             "no scan is usable; the first was rejected: " + pass.summary.rejected.front());

@@ -12,6 +12,10 @@
 
 namespace dynamic_filter {
 
+inline double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 /// Seconds of many calls, in bounded memory: all count towards the sums, the newest towards the
 /// quantiles.
 class Durations {
@@ -64,10 +68,7 @@ decltype(auto) timed(StageTimes& times, const std::string& stage, F&& work) {
     struct Note {
         Durations& durations;
         std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
-        ~Note() {
-            const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
-            durations.add(passed.count());
-        }
+        ~Note() { durations.add(seconds_since(start)); }
     } note{times[stage]};
     return std::forward<F>(work)();
 }

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "best_kernel.hpp"
+
 namespace dynamic_filter::kernel {
 
 struct LookArgs {
@@ -23,16 +25,6 @@ struct LookArgs {
     std::uint8_t* sights = nullptr;
 };
 
-namespace baseline {
-void look(const LookArgs& args);
-}
-#ifdef DYNAMIC_FILTER_X86_LEVELS
-namespace avx2 {
-void look(const LookArgs& args);
-}
-namespace avx512 {
-void look(const LookArgs& args);
-}
-#endif
+DYNAMIC_FILTER_DECLARE_KERNEL(void, look, LookArgs)
 
 }  // namespace dynamic_filter::kernel

@@ -5,6 +5,8 @@
 
 #include <cstddef>
 
+#include "best_kernel.hpp"
+
 namespace dynamic_filter::kernel {
 
 /// Voters, as parallel arrays: cells along each axis, opinion, first and last owner.
@@ -20,16 +22,6 @@ struct VoteArgs {
 constexpr std::size_t kVoters = 16;
 constexpr float kOutOfReach = 8e6F;  // cells: no key goes as far
 
-namespace baseline {
-float vote(const VoteArgs& args);
-}
-#ifdef DYNAMIC_FILTER_X86_LEVELS
-namespace avx2 {
-float vote(const VoteArgs& args);
-}
-namespace avx512 {
-float vote(const VoteArgs& args);
-}
-#endif
+DYNAMIC_FILTER_DECLARE_KERNEL(float, vote, VoteArgs)
 
 }  // namespace dynamic_filter::kernel

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "best_kernel.hpp"
+
 namespace dynamic_filter::kernel {
 
 struct ProjectArgs {
@@ -24,19 +26,7 @@ struct SphericalArgs {
     float *azimuth = nullptr, *elevation = nullptr, *range = nullptr;
 };
 
-namespace baseline {
-void project(const ProjectArgs& args);
-void to_spherical(const SphericalArgs& args);
-}  // namespace baseline
-#ifdef DYNAMIC_FILTER_X86_LEVELS
-namespace avx2 {
-void project(const ProjectArgs& args);
-void to_spherical(const SphericalArgs& args);
-}  // namespace avx2
-namespace avx512 {
-void project(const ProjectArgs& args);
-void to_spherical(const SphericalArgs& args);
-}  // namespace avx512
-#endif
+DYNAMIC_FILTER_DECLARE_KERNEL(void, project, ProjectArgs)
+DYNAMIC_FILTER_DECLARE_KERNEL(void, to_spherical, SphericalArgs)
 
 }  // namespace dynamic_filter::kernel

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "best_kernel.hpp"
+
 namespace dynamic_filter::kernel {
 
 struct VoxelArgs {
@@ -18,16 +20,6 @@ struct VoxelArgs {
     std::uint64_t* keys = nullptr;  ///< all ones: none
 };
 
-namespace baseline {
-void to_voxels(const VoxelArgs& args);
-}
-#ifdef DYNAMIC_FILTER_X86_LEVELS
-namespace avx2 {
-void to_voxels(const VoxelArgs& args);
-}
-namespace avx512 {
-void to_voxels(const VoxelArgs& args);
-}
-#endif
+DYNAMIC_FILTER_DECLARE_KERNEL(void, to_voxels, VoxelArgs)
 
 }  // namespace dynamic_filter::kernel

@@ -243,7 +243,10 @@ DynamicFilter::Located DynamicFilter::locate(const Scan& scan) const {
     if (!origin_) return located;  // before the first scan
     to_voxels(scan.points, to_map_frame(scan.T_world_sensor),
               static_cast<float>(config_.back_end.voxel_size), located.in_map);
-    located.voxels = find_voxels(located.in_map.keys);
+    VoxelFinder find(voxels());
+    for (std::size_t i = 0; i < size; ++i) {
+        if (located.in_map.keys[i] != kNoKey) located.voxels[i] = find(located.in_map.keys[i]);
+    }
     return located;
 }
 
@@ -257,15 +260,6 @@ Verdict DynamicFilter::verdict(const Scan& scan) const {
     }
     if (scans_observe()) judge_contacts(in_map.points, voxels, verdict.labels);
     return std::move(verdict);
-}
-
-PointVoxels DynamicFilter::find_voxels(const std::vector<VoxelKey>& keys) const {
-    VoxelFinder find(voxels());
-    PointVoxels found(keys.size(), kNoVoxel);
-    for (std::size_t i = 0; i < keys.size(); ++i) {
-        if (keys[i] != kNoKey) found[i] = find(keys[i]);
-    }
-    return found;
 }
 
 /// Once finish() has decided; before it, all is unknown.

@@ -30,10 +30,6 @@ OnlineOptions checked(OnlineOptions options) {
     return options;
 }
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 /// Between two breaks of the trajectory.
 struct Map {
     std::size_t first_index = 0;  ///< of the first scan in it
@@ -49,24 +45,6 @@ struct Task {
 
 }  // namespace
 
-std::string to_string(NoticeKind kind) {
-    switch (kind) {
-        case NoticeKind::dropped:
-            return "dropped";
-        case NoticeKind::late:
-            return "late";
-        case NoticeKind::duplicate:
-            return "duplicate";
-        case NoticeKind::invalid:
-            return "invalid";
-        case NoticeKind::jump:
-            return "jump";
-        case NoticeKind::restart:
-            return "restart";
-    }
-    return "?";
-}
-
 /// Two locks: `map_lock` for the maps, `lock` for all else; who holds `lock` takes no other. The
 /// front-end judges without `map_lock` where submaps observe: it touches nothing then that others
 /// do.
@@ -74,8 +52,20 @@ struct OnlineFilter::Engine {
     Engine(const Config& config_of_all, OnlineOptions options_of_all, OnlineCallbacks call)
         : config(config_of_all), options(checked(options_of_all)), callbacks(std::move(call)) {
         maps.push_back({0, std::make_unique<DynamicFilter>(config)});
-        front = std::thread([this] { guarded([this] { judge_scans(); }); });
-        back = std::thread([this] { guarded([this] { integrate_tasks(); }); });
+        front = std::thread([this] {
+            guarded([this] { judge_scans(); },
+                    [this] {
+                        judging = false;
+                        ++counters.rejected;
+                    });
+        });
+        back = std::thread([this] {
+            guarded([this] { integrate_tasks(); },
+                    [this] {
+                        integrating = false;
+                        tasks.clear();
+                    });
+        });
     }
 
     // Called by users.
@@ -99,7 +89,7 @@ struct OnlineFilter::Engine {
     void forget_far(const Pose& T_world_sensor);
 
     void end_map();
-    void guarded(const std::function<void()>& loop);
+    void guarded(const std::function<void()>& loop, const std::function<void()>& give_up);
     void drop_waiting();
     void tell(const Notice& notice);
     DynamicFilter& newest() { return *maps.back().filter; }
@@ -216,13 +206,16 @@ void OnlineFilter::Engine::stop() {
     if (back.joinable()) back.join();
 }
 
-/// A stage that fails stops both threads; the next caller gets the exception.
-void OnlineFilter::Engine::guarded(const std::function<void()>& loop) {
+/// A stage that fails stops both threads and leaves nothing half done; the next caller gets the
+/// exception.
+void OnlineFilter::Engine::guarded(const std::function<void()>& loop,
+                                   const std::function<void()>& give_up) {
     try {
         with_threads(options.threads, loop);
     } catch (...) {
         const std::lock_guard hold(lock);
         if (!failure) failure = std::current_exception();
+        give_up();
         stopping = true;
         drop_waiting();
         changed.notify_all();
@@ -248,9 +241,6 @@ void OnlineFilter::Engine::judge_scans() {
             judge(*next);
         } catch (...) {
             if (next->reply) next->reply->set_exception(std::current_exception());
-            const std::lock_guard hold(lock);
-            judging = false;
-            ++counters.rejected;
             throw;
         }
     }
@@ -340,14 +330,7 @@ void OnlineFilter::Engine::integrate_tasks() {
             task = std::move(tasks.front());
             tasks.pop_front();
         }
-        try {
-            integrate(std::move(task));
-        } catch (...) {
-            const std::lock_guard hold(lock);
-            integrating = false;
-            tasks.clear();
-            throw;
-        }
+        integrate(std::move(task));
         const std::lock_guard hold(lock);
         integrating = false;
         changed.notify_all();

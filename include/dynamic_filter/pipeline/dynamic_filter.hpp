@@ -114,7 +114,6 @@ private:
         Verdict verdict;  // all unknown
     };
     [[nodiscard]] Located locate(const Scan& scan) const;
-    [[nodiscard]] PointVoxels find_voxels(const std::vector<VoxelKey>& keys) const;
     [[nodiscard]] std::pair<Label, float> decision_on(std::uint32_t voxel, const Point& at) const;
     void judge_contacts(const Points& map_points, const PointVoxels& voxels, Labels& labels) const;
     void merge_local_maps();

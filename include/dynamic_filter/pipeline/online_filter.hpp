@@ -41,7 +41,6 @@ enum class NoticeKind {
     jump,       ///< the pose jumped: a new map begins, which knows nothing of the one before
     restart     ///< stamps went back by more than a second: a new map begins
 };
-std::string to_string(NoticeKind kind);
 
 struct Notice {
     NoticeKind kind = NoticeKind::dropped;
