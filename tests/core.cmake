@@ -1,6 +1,6 @@
 foreach(unit config parallel stage_times
              geometry/beam_image geometry/map_points geometry/neighbor_grid geometry/pose geometry/principal_axes geometry/project_kernel
-             geometry/range_image geometry/voxel geometry/voxel_index
+             geometry/range_image geometry/voxel geometry/voxel_index geometry/voxel_neighbors
              front_end/front_end front_end/removert front_end/reverting front_end/submap front_end/visibility_removal
              front_end/window
              back_end/back_end back_end/contact back_end/evidence back_end/evidence_map

@@ -196,26 +196,57 @@ void EvidenceMap::look_at(std::span<const std::uint32_t> blocks, Glance& glance,
     }
 }
 
+/// The voxels of this scan met last. It comes back to them with every ring or column.
+class EvidenceMap::OwnVoxels {
+public:
+    struct Entry {
+        VoxelKey key = kNoKey;
+        std::uint32_t voxel = kNoVoxel;
+    };
+    /// Where the voxel is, if it is here; the caller fills in what is not.
+    Entry& at(VoxelKey key) { return entries_[VoxelHash{}(key) % entries_.size()]; }
+
+private:
+    std::vector<Entry> entries_ = std::vector<Entry>(4096);
+};
+
 PointVoxels EvidenceMap::add_points(const Scan& scan) {
     MapPoints in_map;
     to_voxels(scan.points, scan.T_world_sensor, voxel_size_, in_map);
     PointVoxels voxels_of_points(scan.points.size(), kNoVoxel);
     const std::size_t known = voxels_.size();
-    std::vector<std::uint32_t> counts;  // points of the new voxels
-    VoxelKey last_key = kNoKey;
-    std::uint32_t voxel = kNoVoxel;
+    OwnVoxels own_voxels;
     for (std::size_t i = 0; i < voxels_of_points.size(); ++i) {
         const VoxelKey key = in_map.keys[i];
         if (key == kNoKey) continue;
-        if (key != last_key) {
-            voxel = own(key);
-            last_key = key;
-        }
-        voxels_of_points[i] = voxel;
-        if (voxel < known) continue;
-        if (voxel - known == counts.size()) counts.push_back(0);
+        OwnVoxels::Entry& entry = own_voxels.at(key);
+        if (entry.key != key) entry = {key, own(key)};
+        voxels_of_points[i] = entry.voxel;
+    }
+    number_by_block(known, voxels_of_points);
+    find_centroids(known, in_map, voxels_of_points);
+    return voxels_of_points;
+}
+
+/// Voxels that were met together are asked together, block by block.
+void EvidenceMap::number_by_block(std::size_t known, PointVoxels& voxels_of_points) {
+    const auto first = static_cast<std::uint32_t>(known);
+    const std::vector<std::uint32_t> renumbered = voxels_.group_by_block(first);
+    for (std::uint32_t& voxel : voxels_of_points) {
+        if (voxel != kNoVoxel && voxel >= first) voxel = renumbered[voxel - first];
+    }
+    neighbors_.update(voxels_);
+}
+
+/// Of the voxels from `known` on; their states are alike until now.
+void EvidenceMap::find_centroids(std::size_t known, const MapPoints& in_map,
+                                 const PointVoxels& voxels_of_points) {
+    std::vector<std::uint32_t> counts(voxels_.size() - known);
+    for (std::size_t i = 0; i < voxels_of_points.size(); ++i) {
+        const std::uint32_t voxel = voxels_of_points[i];
+        if (voxel == kNoVoxel || voxel < known) continue;
         states_[voxel].centroid +=
-            in_map.points[i] - center(key, voxel_size_);  // so floats lose nothing
+            in_map.points[i] - center(in_map.keys[i], voxel_size_);  // so floats lose nothing
         ++counts[voxel - known];
     }
     for (std::size_t v = known; v < voxels_.size(); ++v) {
@@ -224,7 +255,6 @@ PointVoxels EvidenceMap::add_points(const Scan& scan) {
         centroid =
             center(voxels_.key(id), voxel_size_) + centroid / static_cast<float>(counts[v - known]);
     }
-    return voxels_of_points;
 }
 
 /// The voxel of that key, which this scan owns.
@@ -281,6 +311,8 @@ std::vector<std::uint32_t> EvidenceMap::keep_within(const Point& center, float r
         }
         states_.push_back(states[v]);
     }
+    neighbors_ = {};
+    neighbors_.update(voxels_);
     return kept;
 }
 
@@ -302,11 +334,9 @@ struct EvidenceMap::Neighborhood {
     }
     void gather(const EvidenceMap& map, std::uint32_t block) {
         count = 0;
-        const Cell corner = map.voxels_.corner(block);
-        map.voxels_.each_in_box(corner.array() - 2, corner.array() + 5,
-                                [&](std::uint32_t v, const Cell& cell) {
-                                    add(cell, map.states_[v].opinion, map.states_[v].evidence);
-                                });
+        map.neighbors_.each_around(map.voxels_, 2, block, [&](std::uint32_t v, const Cell& cell) {
+            add(cell, map.states_[v].opinion, map.states_[v].evidence);
+        });
         constexpr auto kAway = static_cast<int>(kernel::kOutOfReach);
         while (count % kernel::kVoters != 0) add(Cell::Constant(kAway), 0.0F, {});
     }

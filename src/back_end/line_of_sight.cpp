@@ -26,7 +26,7 @@ void look(const BeamImage& image, const Directions& places, const SightMargins& 
     static const auto kernel = DYNAMIC_FILTER_BEST_KERNEL(look);
     static_assert(sizeof(Sight) == 1);
     sights.assign(places.range.size(), Sight::nothing);
-    if (image.bytes() == 0) return;
+    if (image.empty()) return;
     const BeamImage::View view = image.view();
     const ImageGrid& grid = image.grid();
     kernel({.pixels = view.pixels,

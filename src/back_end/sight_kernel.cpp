@@ -108,19 +108,62 @@ DF_INLINE Ints stored(const LookArgs& args, Ints column) {
     return from_first >= args.columns ? from_first - args.columns : from_first;
 }
 
+constexpr int kMargin = 3;  // BeamImage::kMargin
+
+/// The first pixel of each row section that begins at those columns; what lies outside the image or
+/// the view, or is not wanted, is empty.
+DF_INLINE Ints first_pixels(const LookArgs& args, Ints row, Ints column, Ints wanted) {
+    const int length = args.stored_columns + 2 * kMargin;
+    const Ints place = stored(args, column);
+    // Sections may begin just before the view.
+    const Ints from = place < args.stored_columns ? place : place - args.columns;
+    const Ints kept = wanted & (from >= -kMargin);
+    return kept ? row * length + kMargin + from : Ints{} + args.rows * length;
+}
+DF_INLINE Ints pixels_at(const LookArgs& args, Ints first) {
+    Ints pixels;
+    for (int k = 0; k < kLanes; ++k) pixels[k] = static_cast<std::int32_t>(args.pixels[first[k]]);
+    return pixels;
+}
+
+/// Four pixels in a row for each place: read along the rows, then turned.
+struct Section {
+    Ints pixels[4];
+};
+DF_INLINE Section section_at(const LookArgs& args, Ints first) {
+    using Four = std::int32_t __attribute__((vector_size(16)));
+    Four turned[4][kLanes / 4];
+    for (int k = 0; k < kLanes; k += 4) {
+        Four in[4];
+        for (int i = 0; i < 4; ++i) __builtin_memcpy(&in[i], args.pixels + first[k + i], 16);
+        const Four low01 = __builtin_shufflevector(in[0], in[1], 0, 4, 1, 5);
+        const Four low23 = __builtin_shufflevector(in[2], in[3], 0, 4, 1, 5);
+        const Four high01 = __builtin_shufflevector(in[0], in[1], 2, 6, 3, 7);
+        const Four high23 = __builtin_shufflevector(in[2], in[3], 2, 6, 3, 7);
+        turned[0][k / 4] = __builtin_shufflevector(low01, low23, 0, 1, 4, 5);
+        turned[1][k / 4] = __builtin_shufflevector(low01, low23, 2, 3, 6, 7);
+        turned[2][k / 4] = __builtin_shufflevector(high01, high23, 0, 1, 4, 5);
+        turned[3][k / 4] = __builtin_shufflevector(high01, high23, 2, 3, 6, 7);
+    }
+    Section out;
+    for (int i = 0; i < 4; ++i) {
+        const auto low =
+            __builtin_shufflevector(turned[i][0], turned[i][1], 0, 1, 2, 3, 4, 5, 6, 7);
+        const auto high =
+            __builtin_shufflevector(turned[i][2], turned[i][3], 0, 1, 2, 3, 4, 5, 6, 7);
+        out.pixels[i] = __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12,
+                                                13, 14, 15);
+    }
+    return out;
+}
+
 /// One beam for each place.
 struct Beams {
     Ints there;  // and near enough to matter
     Floats right, up, range;
     Ints touches, blocks;
 };
-DF_INLINE Beams beams_at(const LookArgs& args, const Places& p, Ints row, Ints column,
-                         Ints in_window) {
-    const Ints place = stored(args, column);
-    const Ints kept = in_window & (place < args.stored_columns);
-    const Ints index = kept & (row * args.stored_columns + place);
-    Ints pixel;
-    for (int k = 0; k < kLanes; ++k) pixel[k] = static_cast<std::int32_t>(args.pixels[index[k]]);
+DF_INLINE Beams beams_of(const LookArgs& args, const Places& p, Ints pixel, Ints row, Ints column) {
     const Ints range_cm = pixel & 0xFFFF;
     const auto part = [&](int shift) {
         return (to_floats(pixel >> shift & 0xFF) + 0.5F) * (1.0F / 256.0F);
@@ -130,7 +173,7 @@ DF_INLINE Beams beams_at(const LookArgs& args, const Places& p, Ints row, Ints c
     b.up = to_floats(row) + part(24) - p.row;
     b.range = 0.01F * to_floats(range_cm);
     const Floats columns = magnitude(b.right), rows = magnitude(b.up);
-    b.there = kept & (range_cm != 0) & (columns <= p.reach_columns) & (rows <= p.reach_rows);
+    b.there = (range_cm != 0) & (columns <= p.reach_columns) & (rows <= p.reach_rows);
     const Ints own = b.there & (columns <= p.own_columns) & (rows <= p.own_rows);
     const Floats gap = b.range - p.range;
     const Floats across = p.range * p.column_width * columns;
@@ -147,7 +190,8 @@ constexpr int kUndecided = 4;
 DF_INLINE Ints glance(const LookArgs& args, const Places& p) {
     const Ints row = floored(p.row), column = floored(p.column);
     const Ints inside = p.in_range & (row >= 0) & (row < args.rows);
-    const Ints touched = beams_at(args, p, row, column, inside).touches;
+    const Ints pixels = pixels_at(args, first_pixels(args, row, column, inside));
+    const Ints touched = beams_of(args, p, pixels, row, column).touches;
     constexpr float kWidest = 4.0F;  // columns that three looks into the pooled image cover
     const Ints covered = inside & (p.reach_rows <= 1.0F) & (p.reach_columns <= kWidest);
     Ints farthest_cm{};
@@ -214,8 +258,9 @@ DF_INLINE Around look_around_small(const LookArgs& args, const Places& p) {
     for (int down = -1; down <= 1; ++down) {
         const Ints r = row + down;
         const Ints in_image = p.in_range & (r >= 0) & (r < args.rows);
-        for (int along = -1; along <= 1; ++along) {
-            take_in(around, p, beams_at(args, p, r, column + along, in_image));
+        const Section section = section_at(args, first_pixels(args, r, column - 1, in_image));
+        for (int i = 0; i < 3; ++i) {
+            take_in(around, p, beams_of(args, p, section.pixels[i], r, column + (i - 1)));
         }
     }
     return around;
@@ -233,9 +278,13 @@ DF_INLINE Around look_around(const LookArgs& args, const Places& p) {
     for (int down = 0; down <= height; ++down) {
         const Ints r = first_row + down;
         const Ints row_active = active & (r <= last_row);
-        for (int along = 0; along <= width; ++along) {
+        for (int along = 0; along <= width; along += 4) {
             const Ints c = first_column + along;
-            take_in(around, p, beams_at(args, p, r, c, row_active & (c <= last_column)));
+            const Ints wanted = row_active & (c <= last_column);
+            const Section section = section_at(args, first_pixels(args, r, c, wanted));
+            for (int i = 0; i < 4 && along + i <= width; ++i) {
+                take_in(around, p, beams_of(args, p, section.pixels[i], r, c + i));
+            }
         }
         active &= ~around.touched;
         if (!any(active)) break;
@@ -280,30 +329,30 @@ DF_INLINE Ints judge(const LookArgs& args, const Places& p, const Around& around
     return p.in_range & ((occupied & 1) | (passed & 2));
 }
 
-/// Places that wait until there are sixteen of them.
+/// Places that wait until there are sixteen of them, by their number.
 struct Waiting {
-    float azimuth[2 * kLanes] = {}, elevation[2 * kLanes] = {}, range[2 * kLanes] = {};
     std::size_t index[2 * kLanes] = {};
     int count = 0;
 };
-DF_INLINE void add(Waiting& w, float azimuth, float elevation, float range, std::size_t index) {
-    w.azimuth[w.count] = azimuth;
-    w.elevation[w.count] = elevation;
-    w.range[w.count] = range;
-    w.index[w.count] = index;
-    ++w.count;
+/// Up to sixteen places, and nothing after them: a place at range 0 is not judged.
+struct Sixteen {
+    float azimuth[kLanes] = {}, elevation[kLanes] = {}, range[kLanes] = {};
+};
+DF_INLINE void put(Sixteen& into, int k, const LookArgs& args, std::size_t index) {
+    into.azimuth[k] = args.azimuth[index];
+    into.elevation[k] = args.elevation[index];
+    into.range[k] = args.range[index];
 }
 template <bool small>
 DF_INLINE void judge_sixteen(const LookArgs& args, Waiting& w) {
-    const Places p = places_at(args, w.azimuth, w.elevation, w.range);
-    const Ints sight = judge(args, p, small ? look_around_small(args, p) : look_around(args, p));
     const int done = w.count < kLanes ? w.count : kLanes;
+    Sixteen places;
+    for (int k = 0; k < done; ++k) put(places, k, args, w.index[k]);
+    const Places p = places_at(args, places.azimuth, places.elevation, places.range);
+    const Ints sight = judge(args, p, small ? look_around_small(args, p) : look_around(args, p));
     for (int k = 0; k < done; ++k) args.sights[w.index[k]] = static_cast<std::uint8_t>(sight[k]);
-    const int left = w.count - done;
-    w.count = 0;
-    for (int k = done; k < done + left; ++k) {
-        add(w, w.azimuth[k], w.elevation[k], w.range[k], w.index[k]);
-    }
+    w.count -= done;
+    for (int k = 0; k < w.count; ++k) w.index[k] = w.index[k + done];
 }
 
 }  // namespace
@@ -315,20 +364,24 @@ void look(const LookArgs& args) {
         const int count = left < kLanes ? static_cast<int>(left) : kLanes;
         const float *azimuth = args.azimuth + begin, *elevation = args.elevation + begin;
         const float* range = args.range + begin;
-        Waiting last;  // a place at range 0 is not judged
+        Sixteen last;
         if (count < kLanes) {
-            for (int k = 0; k < count; ++k) add(last, azimuth[k], elevation[k], range[k], 0);
+            for (int k = 0; k < count; ++k) put(last, k, args, begin + static_cast<std::size_t>(k));
             azimuth = last.azimuth;
             elevation = last.elevation;
             range = last.range;
         }
         const Places p = places_at(args, azimuth, elevation, range);
-        const Ints sight = glance(args, p), small = has_small_window(p);
-        for (int k = 0; k < count; ++k) {
+        const Ints sight = glance(args, p);
+        const Ints undecided = sight == kUndecided, small = has_small_window(p);
+        const Ints to_near = undecided & ~small & 1, to_far = undecided & small & 1;
+        for (int k = 0; k < count; ++k) {  // no branches: which way they go cannot be foreseen
             const std::size_t i = begin + static_cast<std::size_t>(k);
             args.sights[i] = static_cast<std::uint8_t>(sight[k]);
-            if (sight[k] != kUndecided) continue;
-            add(small[k] ? far : near, azimuth[k], elevation[k], range[k], i);
+            near.index[near.count] = i;
+            near.count += to_near[k];
+            far.index[far.count] = i;
+            far.count += to_far[k];
         }
         if (near.count >= kLanes) judge_sixteen<false>(args, near);
         if (far.count >= kLanes) judge_sixteen<true>(args, far);

@@ -11,9 +11,9 @@
 namespace dynamic_filter::kernel {
 
 struct LookArgs {
-    // The image: range [cm] in the low 16 bits, then the parts of the column and of the row.
+    // The image, as BeamImage::View has it.
     const std::uint32_t* pixels = nullptr;
-    const std::uint16_t* farthest_cm = nullptr;  // of each pixel and those that touch it
+    const std::uint16_t* farthest_cm = nullptr;
     int columns = 0, rows = 0, first_column = 0, stored_columns = 0;
     float azimuth_step = 0.0F, elevation_step = 0.0F, elevation_min = 0.0F;
     // SightMargins.

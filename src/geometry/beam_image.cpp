@@ -79,8 +79,8 @@ BeamImage::BeamImage(std::span<const Point> points, const BeamPattern& spacing) 
         if (at.range_cm[i] > 0) hit[static_cast<std::size_t>(at.column[i] >> 8)] = true;
     }
     find_view(hit);
-    pixels_.resize(static_cast<std::size_t>(grid_.rows) *
-                   static_cast<std::size_t>(stored_columns_));
+    if (empty()) return;
+    pixels_.resize(static_cast<std::size_t>(grid_.rows) * row_length() + kMargin + 1);
     farthest_cm_.resize(static_cast<std::size_t>(grid_.rows / kTile + 1) *
                         static_cast<std::size_t>(tile_columns()));
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -96,23 +96,33 @@ BeamImage::BeamImage(std::span<const Point> points, const BeamPattern& spacing) 
             farthest_cm_[static_cast<std::size_t>(row / kTile * tile_columns() + column / kTile)];
         farthest = std::max(farthest, static_cast<std::uint16_t>(range));
     }
+    fill_margins();
     pool();
 }
 
-/// Along the rows, then across them. Only a view that is the whole circle wraps around.
+void BeamImage::fill_margins() {
+    const int missing = grid_.columns - stored_columns_;  // of the circle
+    for (int row = 0; row < grid_.rows; ++row) {
+        std::uint32_t* const first =
+            pixels_.data() + static_cast<std::size_t>(row) * row_length() + kMargin;
+        for (int i = missing; i < kMargin; ++i) {
+            first[stored_columns_ + i] = first[i - missing];
+            first[-1 - i] = first[stored_columns_ - 1 - (i - missing)];
+        }
+    }
+}
+
+/// Along the rows, then across them.
 void BeamImage::pool() {
     const auto width = static_cast<std::size_t>(stored_columns_);
-    if (width == 0) return;
-    const bool wraps = stored_columns_ == grid_.columns;
-    std::vector<std::uint16_t> along(pixels_.size()), row(width + 2);
-    for (std::size_t begin = 0; begin < pixels_.size(); begin += width) {
-        for (std::size_t c = 0; c < width; ++c) {
-            row[c + 1] = static_cast<std::uint16_t>(pixels_[begin + c] & 0xFFFFU);
+    std::vector<std::uint16_t> along(static_cast<std::size_t>(grid_.rows) * width), row(width + 2);
+    for (std::size_t r = 0; r < along.size() / width; ++r) {
+        const std::uint32_t* const first = pixels_.data() + r * row_length() + kMargin;
+        for (std::size_t c = 0; c < row.size(); ++c) {
+            row[c] = static_cast<std::uint16_t>((first - 1)[c] & 0xFFFFU);
         }
-        row.front() = wraps ? row[width] : std::uint16_t{0};
-        row.back() = wraps ? row[1] : std::uint16_t{0};
         for (std::size_t c = 0; c < width; ++c) {
-            along[begin + c] = std::max({row[c], row[c + 1], row[c + 2]});
+            along[r * width + c] = std::max({row[c], row[c + 1], row[c + 2]});
         }
     }
     farthest_of_nine_cm_ = along;

@@ -23,4 +23,24 @@ std::uint32_t VoxelIndex::insert(VoxelKey key) {
     return block.ids[place];
 }
 
+std::vector<std::uint32_t> VoxelIndex::group_by_block(std::uint32_t first) {
+    const std::vector<VoxelKey> keys(keys_.begin() + first, keys_.end());
+    const std::vector<std::uint32_t> blocks(block_of_voxel_.begin() + first, block_of_voxel_.end());
+    std::vector<std::uint32_t> renumbered(keys.size(), kNoVoxel);
+    std::uint32_t next = first;
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        if (renumbered[i] != kNoVoxel) continue;
+        Block& block = blocks_[blocks[i]];
+        for (std::uint64_t left = block.present; left != 0; left &= left - 1) {
+            std::uint32_t& id = block.ids[static_cast<std::size_t>(std::countr_zero(left))];
+            if (id < first) continue;
+            renumbered[id - first] = next;
+            keys_[next] = keys[id - first];
+            block_of_voxel_[next] = blocks[i];
+            id = next++;
+        }
+    }
+    return renumbered;
+}
+
 }  // namespace dynamic_filter

@@ -146,16 +146,13 @@ void DynamicFilter::decide_voxels() {
 
 std::optional<Surface> DynamicFilter::contact_of(std::uint32_t voxel) const {
     if (label_of(decided_[voxel].probability) != Label::still) return std::nullopt;
-    const auto each_within = [&](int cells, const auto& use) {
-        voxels().each_within(cells, voxels().key(voxel), use);
-    };
     bool touches_dynamic = false;
-    each_within(1, [&](std::uint32_t v, int) {
+    evidence_.each_within(1, voxel, [&](std::uint32_t v, int) {
         touches_dynamic |= label_of(decided_[v].probability) == Label::dynamic;
     });
     if (!touches_dynamic) return std::nullopt;
     std::vector<VoxelVerdict> around;
-    each_within(2, [&](std::uint32_t v, int distance) {
+    evidence_.each_within(2, voxel, [&](std::uint32_t v, int distance) {
         around.push_back({evidence_.centroid(v), label_of(decided_[v].probability), distance});
     });
     return contact_surface(around);
@@ -311,8 +308,8 @@ void DynamicFilter::judge_contacts(const Points& map_points, const PointVoxels& 
     }
     for (const std::size_t i : above) {
         bool touches = false;
-        evidence_.voxels().each_within(1, evidence_.voxels().key(voxels[i]),
-                                       [&](std::uint32_t v, int) { touches |= moving[v]; });
+        evidence_.each_within(1, voxels[i],
+                              [&](std::uint32_t v, int) { touches |= moving[v]; });
         if (touches) labels[i] = Label::dynamic;
     }
 }

@@ -96,8 +96,12 @@ std::vector<std::uint8_t> look_with(const Level& level, const BeamImage& image,
 
 TEST(SightKernel, EveryLevelAgreesWithTheReferenceAndBitByBitWithTheOthers) {
     test::Random random(5);
-    for (const auto& [step, view] :
-         {std::pair{1.0, 360.0}, {0.3, 360.0}, {0.5, 70.0}, {0.5, 8.0}}) {
+    for (const auto& [step, view] : {std::pair{1.0, 360.0},
+                                     {1.0, 359.0},
+                                     {1.0, 357.0},
+                                     {0.3, 360.0},
+                                     {0.5, 70.0},
+                                     {0.5, 8.0}}) {
         const BeamImage image = scan(step, view, random);
         Directions asked = places(20001, random);  // no whole number of vectors
         if (view < 20.0) {  // what is seen lies on both sides of where the circle closes

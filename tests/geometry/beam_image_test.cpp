@@ -111,8 +111,8 @@ TEST(BeamImage, KeepsPixelsForTheFieldOfViewOnly) {
         }
         const BeamImage image(points, spacing(1.0));
         EXPECT_EQ(beams_of(image).size(), points.size());
-        EXPECT_GE(image.bytes(), 4 * points.size());
-        EXPECT_LE(image.bytes(), 4 * points.size() * 12 / 10);
+        EXPECT_GE(image.bytes(), 6 * points.size());
+        EXPECT_LE(image.bytes(), 6 * points.size() * 13 / 10);
     }
 }
 

@@ -4,10 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <map>
 #include <vector>
 
-#include "support/random.hpp"
+#include "support/cells.hpp"
 
 namespace dynamic_filter {
 namespace {
@@ -30,63 +29,39 @@ TEST(VoxelIndex, NumbersVoxelsInTheOrderTheyAreMet) {
     }
 }
 
-/// Cells of a cube around `corner`, a third of them.
-std::vector<Cell> scattered(const Cell& corner, int width, std::uint64_t seed) {
-    test::Random random(seed);
-    std::vector<Cell> cells;
-    for (int i = 0; i < width * width * width / 3; ++i) {
-        const auto step = [&] {
-            return static_cast<int>(random.below(static_cast<std::uint32_t>(width)));
-        };
-        const Cell cell = corner + Cell(step(), step(), step());
-        if (fits(cell)) cells.push_back(cell);
+TEST(VoxelIndex, GroupsNewVoxelsByBlockAndLeavesTheOldOnesAlone) {
+    VoxelIndex index;
+    const auto cells = test::scattered({-9, -9, -9}, 16, 7);
+    std::vector<std::uint32_t> before;
+    std::uint32_t first = 0;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        if (i == cells.size() / 3) first = static_cast<std::uint32_t>(index.size());
+        before.push_back(index.insert(pack(cells[i])));
     }
-    return cells;
-}
-
-TEST(VoxelIndex, EachWithinIsTheCubeAroundACell) {
-    const Cell last = Cell::Constant(kCellLimit - 1), first = Cell::Constant(-kCellLimit);
-    for (const Cell& corner : {Cell(-7, -6, -5), Cell(100, -3, 8), Cell(last.array() - 6), first}) {
-        VoxelIndex index;
-        const auto cells = scattered(corner, 12, 3);
-        for (const Cell& cell : cells) index.insert(pack(cell));
-        for (std::size_t i = 0; i < cells.size(); i += 5) {
-            for (const int reach : {0, 1, 2, 4}) {
-                std::map<std::uint32_t, int> expected, found;
-                for (std::uint32_t v = 0; v < index.size(); ++v) {
-                    const int distance = (unpack(index.key(v)) - cells[i]).cwiseAbs().maxCoeff();
-                    if (distance <= reach) expected[v] = distance;
-                }
-                index.each_within(reach, pack(cells[i]), [&](std::uint32_t v, int distance) {
-                    EXPECT_TRUE(found.try_emplace(v, distance).second) << "twice";
-                });
-                ASSERT_EQ(found, expected) << cells[i].transpose() << ", reach " << reach;
-            }
-        }
+    const std::size_t size = index.size(), blocks = index.blocks();
+    const auto renumbered = index.group_by_block(first);
+    ASSERT_EQ(renumbered.size(), size - first);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        const std::uint32_t now = before[i] < first ? before[i] : renumbered[before[i] - first];
+        EXPECT_EQ(index.find(pack(cells[i])), now);
+        EXPECT_EQ(index.insert(pack(cells[i])), now);
+        EXPECT_EQ(index.key(now), pack(cells[i]));
+        const Cell corner = cells[i].unaryExpr([](int c) { return c >> 2 << 2; });
+        EXPECT_EQ(index.corner(index.block_of_voxel(now)), corner);
     }
-}
-
-TEST(VoxelIndex, EachWithinGoesByPlaceNotById) {
-    VoxelIndex forth, back;
-    auto cells = scattered({-5, 2, 9}, 8, 5);
-    for (const Cell& cell : cells) forth.insert(pack(cell));
-    std::reverse(cells.begin(), cells.end());
-    for (const Cell& cell : cells) back.insert(pack(cell));
-    const auto order = [&](const VoxelIndex& index) {
-        std::vector<VoxelKey> keys;
-        index.each_within(3, pack(cells.front()),
-                          [&](std::uint32_t v, int) { keys.push_back(index.key(v)); });
-        return keys;
-    };
-    EXPECT_GT(order(forth).size(), 10U);
-    EXPECT_EQ(order(forth), order(back));
+    std::size_t runs = 0;
+    for (std::uint32_t v = first; v < size; ++v) {
+        runs += v == first || index.block_of_voxel(v) != index.block_of_voxel(v - 1) ? 1 : 0;
+    }
+    EXPECT_LE(runs, blocks);
+    EXPECT_TRUE(index.group_by_block(static_cast<std::uint32_t>(size)).empty());
 }
 
 TEST(VoxelFinder, FindsWhatTheIndexFinds) {
     VoxelIndex index;
-    for (const Cell& cell : scattered({-9, -9, -9}, 14, 1)) index.insert(pack(cell));
+    for (const Cell& cell : test::scattered({-9, -9, -9}, 14, 1)) index.insert(pack(cell));
     VoxelFinder find(index);
-    for (const Cell& cell : scattered({-11, -11, -11}, 18, 2)) {
+    for (const Cell& cell : test::scattered({-11, -11, -11}, 18, 2)) {
         ASSERT_EQ(find(pack(cell)), index.find(pack(cell)).value_or(kNoVoxel));
     }
     EXPECT_EQ(VoxelFinder(VoxelIndex())(pack({0, 0, 0})), kNoVoxel);

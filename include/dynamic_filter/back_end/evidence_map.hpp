@@ -9,7 +9,9 @@
 
 #include "dynamic_filter/back_end/evidence.hpp"
 #include "dynamic_filter/config.hpp"
+#include "dynamic_filter/geometry/map_points.hpp"
 #include "dynamic_filter/geometry/voxel_index.hpp"
+#include "dynamic_filter/geometry/voxel_neighbors.hpp"
 #include "dynamic_filter/stage_times.hpp"
 #include "dynamic_filter/types.hpp"
 
@@ -64,6 +66,11 @@ public:
     /// Keyframes that have observed.
     [[nodiscard]] std::size_t observers() const { return all_observers_; }
     [[nodiscard]] const VoxelIndex& voxels() const { return voxels_; }
+    /// See VoxelNeighbors.
+    template <class Use>
+    void each_within(int cells, std::uint32_t voxel, const Use& use) const {
+        neighbors_.each_within(voxels_, cells, voxel, use);
+    }
     [[nodiscard]] const Evidence& evidence(std::uint32_t voxel) const {
         return states_[voxel].evidence;
     }
@@ -77,7 +84,11 @@ public:
 
 private:
     PointVoxels add_points(const Scan& scan);
+    class OwnVoxels;
     std::uint32_t own(VoxelKey key);
+    void number_by_block(std::size_t known, PointVoxels& voxels_of_points);
+    void find_centroids(std::size_t known, const MapPoints& in_map,
+                        const PointVoxels& voxels_of_points);
     bool add_observer(const Scan& scan);
     enum class Where { touched, elsewhere };
     void check_known(std::size_t known, Where where);
@@ -105,6 +116,7 @@ private:
     std::size_t rest_ = 0;  // voxels below this number, but those in blocks touched, are to look at
 
     VoxelIndex voxels_;
+    VoxelNeighbors neighbors_;
     std::vector<std::uint32_t> touched_;  // by block: the newest scan with a point in it
     struct State {
         Point centroid = Point::Zero();

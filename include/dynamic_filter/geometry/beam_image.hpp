@@ -42,10 +42,14 @@ public:
                                int last_column) const;
     /// The share of the pixels in the field of view that hold a beam; 0 if there are none.
     [[nodiscard]] float coverage() const {
-        return pixels_.empty() ? 0.0F
-                               : static_cast<float>(beams_) / static_cast<float>(pixels_.size());
+        const int pixels = grid_.rows * stored_columns_;
+        return pixels == 0 ? 0.0F : static_cast<float>(beams_) / static_cast<float>(pixels);
     }
-    [[nodiscard]] std::size_t bytes() const { return pixels_.size() * sizeof(std::uint32_t); }
+    [[nodiscard]] bool empty() const { return stored_columns_ == 0; }
+    [[nodiscard]] std::size_t bytes() const {
+        return pixels_.size() * sizeof(std::uint32_t) +
+               (farthest_of_nine_cm_.size() + farthest_cm_.size()) * sizeof(std::uint16_t);
+    }
     /// False where nothing returned.
     [[nodiscard]] bool has_beam(int row, int column) const {
         return is_stored(column) && (pixels_[pixel(row, column)] & 0xFFFFU) != 0;
@@ -62,16 +66,20 @@ public:
     }
     /// The pixels of the field of view, row by row: range [cm] in the low 16 bits (0: nothing
     /// returned), then the parts of the column and of the row in 1/256. Columns count from
-    /// `first_column` and wrap around. Nothing returned beside it. `farthest_cm`: the farthest
-    /// range of each pixel and the eight around it. Valid as long as the image.
+    /// `first_column` and wrap around. Nothing returned beside it. Before and after each row there
+    /// are kMargin pixels more, what follows on the circle; after the last, kMargin + 1 empty ones:
+    /// so as many pixels as that can be read at once, wherever they begin. `farthest_cm`, without
+    /// margins: the farthest range of each pixel and the eight around it. Valid as long as the
+    /// image.
     struct View {
-        const std::uint32_t* pixels;
+        const std::uint32_t* pixels;  // the first of all, in the margin
         const std::uint16_t* farthest_cm;
         int first_column, stored_columns;
     };
     [[nodiscard]] View view() const {
         return {pixels_.data(), farthest_of_nine_cm_.data(), first_column_, stored_columns_};
     }
+    static constexpr int kMargin = 3;
 
 private:
     static constexpr float kPi = 3.14159265358979F;
@@ -83,10 +91,14 @@ private:
         return stored_column(column) < stored_columns_;
     }
     [[nodiscard]] std::size_t pixel(int row, int column) const {
-        return static_cast<std::size_t>(row) * static_cast<std::size_t>(stored_columns_) +
-               static_cast<std::size_t>(stored_column(column));
+        return static_cast<std::size_t>(row) * row_length() +
+               static_cast<std::size_t>(kMargin + stored_column(column));
+    }
+    [[nodiscard]] std::size_t row_length() const {
+        return static_cast<std::size_t>(stored_columns_ + 2 * kMargin);
     }
     void find_view(const std::vector<bool>& hit);
+    void fill_margins();
     void pool();
 
     static constexpr int kTile = 8;  // pixels, both ways

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+/// The voxels around a voxel.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+#include "dynamic_filter/geometry/voxel_index.hpp"
+
+namespace dynamic_filter {
+
+/// Which blocks of an index touch which, so that one finds the voxels around a voxel without the
+/// hash table. Belongs to one index; update() it after voxels were inserted. Const members may run
+/// in several threads.
+class VoxelNeighbors {
+public:
+    /// Takes in the blocks that the index has met since. Cost: the new blocks.
+    void update(const VoxelIndex& index);
+
+    /// Calls use(id, distance) for every voxel in the cube of so many cells, at most four, around a
+    /// voxel, itself too, in an order that does not depend on the ids. Distance in cells, that of
+    /// the farthest axis.
+    template <class Use>
+    void each_within(const VoxelIndex& index, int cells, std::uint32_t voxel,
+                     const Use& use) const {
+        const Cell center = unpack(index.key(voxel));
+        each_in_box(index, index.block_of_voxel(voxel), center.array() - cells,
+                    center.array() + cells, [&](std::uint32_t id, const Cell& cell) {
+                        use(id, (cell - center).cwiseAbs().maxCoeff());
+                    });
+    }
+    /// Calls use(id, cell) for every voxel of a block and of the cells, at most four, around it, in
+    /// an order that does not depend on the ids.
+    template <class Use>
+    void each_around(const VoxelIndex& index, int cells, std::uint32_t block,
+                     const Use& use) const {
+        const Cell corner = index.corner(block);
+        each_in_box(index, block, corner.array() - cells, corner.array() + 3 + cells, use);
+    }
+
+private:
+    static constexpr std::uint32_t kNoBlock = UINT32_MAX;
+    /// [9 x + 3 y + z], each 0: one block lower, 1: the same, 2: one higher.
+    using Around = std::array<std::uint32_t, 27>;
+
+    /// Places of a block whose coordinate on the axis lies in [low, high]; bits of axis 0 are 16
+    /// apart, of axis 1 four, of axis 2 one.
+    static std::uint64_t slab(int axis, int low, int high);
+    /// The box lies within the block and those around it.
+    template <class Use>
+    void each_in_box(const VoxelIndex& index, std::uint32_t block, const Cell& low,
+                     const Cell& high, const Use& use) const;
+
+    std::vector<Around> around_;
+};
+
+inline std::uint64_t VoxelNeighbors::slab(int axis, int low, int high) {
+    constexpr std::array<std::uint64_t, 3> kOne = {0xFFFF, 0x000F'000F'000F'000F,
+                                                   0x1111'1111'1111'1111};
+    const int apart = 16 >> 2 * axis;
+    std::uint64_t places = 0;
+    for (int at = std::max(low, 0); at <= std::min(high, 3); ++at) {
+        places |= kOne[static_cast<std::size_t>(axis)] << apart * at;
+    }
+    return places;
+}
+
+template <class Use>
+void VoxelNeighbors::each_in_box(const VoxelIndex& index, std::uint32_t block, const Cell& low,
+                                 const Cell& high, const Use& use) const {
+    const Cell home = index.corner(block), from = low - home, to = high - home;
+    std::array<std::array<std::uint64_t, 3>, 3> parts;  // of the three blocks along each axis
+    for (int axis = 0; axis < 3; ++axis) {
+        for (int b = 0; b < 3; ++b) {
+            const int first = 4 * (b - 1);
+            parts[axis][b] = slab(axis, from[axis] - first, to[axis] - first);
+        }
+    }
+    const Around& around = around_[block];
+    for (std::size_t b = 0; b < around.size(); ++b) {
+        const std::size_t x = b / 9, y = b / 3 % 3, z = b % 3;
+        const std::uint64_t wanted = parts[0][x] & parts[1][y] & parts[2][z];
+        if (wanted == 0 || around[b] == kNoBlock) continue;
+        const Cell corner =
+            home +
+            4 * (Cell(static_cast<int>(x), static_cast<int>(y), static_cast<int>(z)).array() - 1)
+                    .matrix();
+        index.each_in_block(around[b], wanted, [&](std::uint32_t id, int place) {
+            use(id, Cell(corner + Cell(place >> 4, place >> 2 & 3, place & 3)));
+        });
+    }
+}
+
+}  // namespace dynamic_filter
