@@ -160,7 +160,7 @@ int main(int argc, char** argv) {
         return 2;
     }
     try {
-        const io::Sequence sequence = app::open(words[1], "", {});
+        const io::Sequence sequence = io::open_sequence(words[1]);
         if (!sequence.has_truth()) throw ConfigError("the recording has no ground truth");
         const Painter paint = words[0] == "errors" ? error_mark : by_submap(sequence);
         const std::filesystem::path labels = std::filesystem::path(words[2]) / "labels";

@@ -106,7 +106,9 @@ int main(int argc, char** argv) {
     try {
         const int stride = argc == 3 ? std::atoi(argv[2]) : 1;
         if (stride < 1) throw ConfigError("STRIDE must be a positive number");
-        const auto sequence = app::open(argv[1], "", {}, 0, {}, static_cast<std::size_t>(stride));
+        io::OpenOptions options;
+        options.stride = static_cast<std::size_t>(stride);
+        const auto sequence = io::open_sequence(argv[1], options);
         if (!sequence.has_truth()) throw ConfigError("the recording has no ground truth");
         fmt::print("{}", app::text_of(peer(sequence)));
         return 0;

@@ -179,7 +179,7 @@ int main(int argc, char** argv) {
         return 2;
     }
     try {
-        const auto sequence = app::open(argv[1], "", {});
+        const auto sequence = io::open_sequence(argv[1]);
         const double amount = std::stod(argv[3]);
         fmt::print("{}", app::text_of(what == "hours" ? hours(sequence, amount)
                                                       : overload(sequence, amount)));

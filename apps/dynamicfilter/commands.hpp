@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "dynamic_filter/eval/scores.hpp"
+#include "dynamic_filter/io/sequence.hpp"
 #include "dynamic_filter/sim/simulation.hpp"
 
 namespace dynamic_filter::app {
@@ -27,13 +28,17 @@ struct ConfigOptions {
     std::vector<std::string> assignments;  ///< "a.b=v"
 };
 
-struct RunOptions {
+/// A recording, and how to read it.
+struct DataOptions {
     std::filesystem::path data;
-    std::optional<std::filesystem::path> output, poses;
     std::string format;  ///< empty: recognised
+    io::OpenOptions open;
+};
+
+struct RunOptions {
+    DataOptions data;
+    std::optional<std::filesystem::path> output;
     ConfigOptions config;
-    std::size_t first = 0, stride = 1;
-    std::optional<std::size_t> last;
     int threads = 0;
     bool online = false;
     double speed = 1.0;  ///< of online: times the sensor's rate; 0: as fast as it can
@@ -41,9 +46,8 @@ struct RunOptions {
 };
 
 struct EvalOptions {
-    std::filesystem::path truth;
-    std::optional<std::filesystem::path> labels, map, poses, json;
-    std::string format;
+    DataOptions truth;
+    std::optional<std::filesystem::path> labels, map, json;
     double voxel = eval::kVoxelSize;
 };
 

@@ -44,7 +44,7 @@ int demo(const DemoOptions& o) {
     write_simulation(scene, recording);
 
     TopView view;
-    const io::Sequence sequence = open(recording, "kitti", {});
+    const io::Sequence sequence = open({.data = recording, .format = "kitti", .open = {}});
     const RunSummary summary = run_sequence(sequence, preset("default"), {}, result, &view);
     io::write_png(o.output / "before.png", view.draw(true));
     io::write_png(o.output / "after.png", view.draw(false));

@@ -54,9 +54,9 @@ Points read_map(const std::filesystem::path& file, const Eigen::Vector3d& origin
 }  // namespace
 
 int evaluate(const EvalOptions& o) {
-    const io::Sequence sequence = open(o.truth, o.format, o.poses);
+    const io::Sequence sequence = open(o.truth);
     if (!sequence.has_truth()) {
-        throw InputError(o.truth, "", "has no ground truth (labels/*.label, or 0/1 intensities)");
+        throw InputError(o.truth.data, "", "has no ground truth (labels/*.label, or 0/1 intensities)");
     }
     const Eigen::Vector3d origin = scoring_origin(sequence, o.voxel);
     std::vector<std::atomic<bool>> left_out(sequence.size());
@@ -68,8 +68,8 @@ int evaluate(const EvalOptions& o) {
                  : eval::score_map(sequence.size(), source, read_map(*o.map, origin), o.voxel);
     const auto missing = std::count(left_out.begin(), left_out.end(), true);
     if (missing == static_cast<std::ptrdiff_t>(sequence.size())) {
-        throw InputError(o.labels ? *o.labels : o.truth, "",
-                         "holds no label file of any readable scan in " + o.truth.string());
+        throw InputError(o.labels ? *o.labels : o.truth.data, "",
+                         "holds no label file of any readable scan in " + o.truth.data.string());
     }
     fmt::print("{}", table(scores));
     if (o.json) io::write_file(*o.json, text_of(to_json(scores)));

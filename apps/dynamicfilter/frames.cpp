@@ -15,10 +15,11 @@ namespace dynamic_filter::app {
 namespace {
 
 io::Format format_of(const std::string& name) {
-    for (const auto format : {io::Format::kitti, io::Format::benchmark, io::Format::folder}) {
+    for (const auto format :
+         {io::Format::kitti, io::Format::benchmark, io::Format::folder, io::Format::bag}) {
         if (io::to_string(format) == name) return format;
     }
-    throw ConfigError("unknown format '" + name + "'; choose kitti, benchmark or folder");
+    throw ConfigError("unknown format '" + name + "'; choose kitti, benchmark, folder or bag");
 }
 
 /// A ConfigError, because it is the pair of arguments that is wrong, and must not pass as a scan
@@ -33,13 +34,10 @@ void refuse_other_count(const io::Sequence& sequence, std::size_t i, std::size_t
 
 }  // namespace
 
-io::Sequence open(const std::filesystem::path& data, const std::string& format,
-                  const std::optional<std::filesystem::path>& poses, std::size_t first,
-                  std::optional<std::size_t> last, std::size_t stride) {
-    io::OpenOptions options{
-        .format = {}, .poses = poses, .first = first, .last = last, .stride = stride};
-    if (!format.empty()) options.format = format_of(format);
-    return io::open_sequence(data, options);
+io::Sequence open(const DataOptions& options) {
+    io::OpenOptions how = options.open;
+    if (!options.format.empty()) how.format = format_of(options.format);
+    return io::open_sequence(options.data, how);
 }
 
 void for_each_frame(const io::Sequence& sequence, const std::vector<std::size_t>& scans,

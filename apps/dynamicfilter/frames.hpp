@@ -7,15 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "commands.hpp"
 #include "dynamic_filter/eval/scores.hpp"
 #include "dynamic_filter/io/sequence.hpp"
 #include "dynamic_filter/types.hpp"
 
 namespace dynamic_filter::app {
 
-io::Sequence open(const std::filesystem::path& data, const std::string& format,
-                  const std::optional<std::filesystem::path>& poses, std::size_t first = 0,
-                  std::optional<std::size_t> last = {}, std::size_t stride = 1);
+io::Sequence open(const DataOptions& options);
 
 /// A frame, or why it cannot be used.
 struct MaybeFrame {

@@ -2,8 +2,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <map>
+
 #include "commands.hpp"
 #include "dynamic_filter/error.hpp"
+#include "dynamic_filter/io/bag.hpp"
 #include "dynamic_filter/io/cloud.hpp"
 #include "dynamic_filter/io/sequence.hpp"
 
@@ -59,11 +63,40 @@ void describe_sequence(const std::filesystem::path& folder) {
     describe_cloud(s.scan_files.front());
 }
 
+void describe_bag(const std::filesystem::path& path) {
+    struct Count {
+        io::Topic topic;
+        std::size_t messages = 0;
+    };
+    std::map<std::string, Count> topics;
+    std::int64_t first = INT64_MAX, last = INT64_MIN;
+    const io::Bag bag(path);
+    const auto notes = bag.for_each([&](const io::Message& message) {
+        Count& count = topics[message.topic.name];
+        count.topic = message.topic;
+        ++count.messages;
+        first = std::min(first, message.recorded_ns);
+        last = std::max(last, message.recorded_ns);
+    });
+    fmt::print("{}\n  format  bag\n", path.string());
+    if (!topics.empty()) {
+        fmt::print("  length  {:.1f} s\n", 1e-9 * static_cast<double>(last - first));
+    }
+    for (const auto& [name, count] : topics) {
+        fmt::print("  {:<28} {:<40} {:>7} messages\n", name, count.topic.type, count.messages);
+    }
+    for (const std::string& note : notes) fmt::print("  note    {}\n", note);
+}
+
 }  // namespace
 
 int info(const std::filesystem::path& file) {
     if (!std::filesystem::exists(file)) throw InputError(file, "", "does not exist");
-    std::filesystem::is_directory(file) ? describe_sequence(file) : describe_cloud(file);
+    if (io::Bag::recognises(file)) {
+        describe_bag(file);
+    } else {
+        std::filesystem::is_directory(file) ? describe_sequence(file) : describe_cloud(file);
+    }
     return kDone;
 }
 

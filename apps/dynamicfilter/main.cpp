@@ -19,17 +19,35 @@ void add_config_options(CLI::App& command, ConfigOptions& o) {
         ->expected(1);
 }
 
+void add_reading_options(CLI::App& command, DataOptions& o) {
+    command.add_option("--poses", o.open.poses, "pose file (default: the recording's own poses)");
+    command.add_option("--format", o.format,
+                       "kitti, benchmark, folder or bag (default: recognised)");
+    command.add_option("--topic", o.open.topic, "of a bag's scans (default: the only one)");
+    command.add_option("--pose-topic", o.open.pose_topic,
+                       "of a bag's poses, or /tf (default: chosen)");
+    command.add_flag("--deskew", o.open.deskew,
+                     "undo the sensor's motion during each scan, by the times of its points");
+}
+
+void add_selection_options(CLI::App& command, DataOptions& o) {
+    command.add_option("--first", o.open.first, "index of the first scan")
+        ->check(CLI::NonNegativeNumber);
+    command.add_option("--last", o.open.last, "index of the last scan")
+        ->check(CLI::NonNegativeNumber);
+    command.add_option("--stride", o.open.stride, "use every n-th scan")
+        ->check(CLI::PositiveNumber);
+}
+
 void add_run(CLI::App& app, std::function<int()>& chosen) {
     auto o = std::make_shared<RunOptions>();
     CLI::App& c = *app.add_subcommand("run", "Remove moving objects from a recording");
-    c.add_option("DATA", o->data, "folder with scans and poses")->required();
+    c.add_option("DATA", o->data.data, "bag (.mcap, .bag, .db3), or folder with scans and poses")
+        ->required();
     c.add_option("-o,--output", o->output, "output folder (default: results/<UTC stamp>)");
-    c.add_option("--poses", o->poses, "pose file (default: the one in DATA)");
-    c.add_option("--format", o->format, "kitti, benchmark or folder (default: recognised)");
+    add_reading_options(c, o->data);
     add_config_options(c, o->config);
-    c.add_option("--first", o->first, "index of the first scan")->check(CLI::NonNegativeNumber);
-    c.add_option("--last", o->last, "index of the last scan")->check(CLI::NonNegativeNumber);
-    c.add_option("--stride", o->stride, "use every n-th scan")->check(CLI::PositiveNumber);
+    add_selection_options(c, o->data);
     c.add_option("--threads", o->threads, "of each stage; 0: all cores")
         ->check(CLI::Range(0, 1024));
     CLI::Option* const online =
@@ -48,14 +66,13 @@ void add_run(CLI::App& app, std::function<int()>& chosen) {
 void add_eval(CLI::App& app, std::function<int()>& chosen) {
     auto o = std::make_shared<EvalOptions>();
     CLI::App& c = *app.add_subcommand("eval", "Score labels or a map against ground truth");
-    c.add_option("--truth", o->truth, "recording with ground truth")->required();
+    c.add_option("--truth", o->truth.data, "recording with ground truth")->required();
     CLI::Option_group& result = *c.add_option_group("result");
     result.add_option("--labels", o->labels,
                       "folder of label files, or the output folder of a run");
     result.add_option("--map", o->map, "clean map (.pcd or .ply) in the world frame");
     result.require_option(1);
-    c.add_option("--poses", o->poses, "pose file (default: the one in the recording)");
-    c.add_option("--format", o->format, "kitti, benchmark or folder (default: recognised)");
+    add_reading_options(c, o->truth);
     c.add_option("--voxel", o->voxel, "edge of a voxel [m]")
         ->check(CLI::Range(0.01, 10.0))
         ->capture_default_str();

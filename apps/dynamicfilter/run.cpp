@@ -11,10 +11,10 @@ namespace dynamic_filter::app {
 
 int run(const RunOptions& o) {
     const Config config = load_config(o.config);
-    const io::Sequence sequence = open(o.data, o.format, o.poses, o.first, o.last, o.stride);
+    const io::Sequence sequence = open(o.data);
     const bool named = o.output.has_value();
     if (named) {
-        refuse_same_folder(o.data, *o.output);
+        refuse_same_folder(o.data.data, *o.output);
         refuse_same_folder(sequence.scan_files.front().parent_path(), *o.output);
     }
     const OutputFolder output(named ? *o.output : default_output(), Contents::result, o.overwrite);

@@ -59,21 +59,32 @@ void allocate(Buffer& buffer, std::size_t size, const std::filesystem::path& fil
     }
 }
 
-template <typename Buffer>
-Buffer read_up_to(const std::filesystem::path& file, std::size_t most) {
+int open_for_reading(const std::filesystem::path& file) {
     // O_NONBLOCK: opening a pipe must not wait for a writer.
-    const Descriptor input(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-    if (input.number < 0) throw InputError(file, "", "cannot be opened: " + reason());
-    Buffer buffer;
-    allocate(buffer, std::min(regular_size(input.number, file), most), file);
+    const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (descriptor < 0) throw InputError(file, "", "cannot be opened: " + reason());
+    return descriptor;
+}
+
+template <typename Buffer>
+void fill(Buffer& buffer, int descriptor, std::uint64_t offset, const std::filesystem::path& file) {
     for (std::size_t done = 0; done < buffer.size();) {
-        const ssize_t got = ::read(input.number, buffer.data() + done, buffer.size() - done);
+        const ssize_t got = ::pread(descriptor, buffer.data() + done, buffer.size() - done,
+                                    static_cast<off_t>(offset + done));
         if (got < 0 && errno == EINTR) continue;
-        const std::string where = "byte " + std::to_string(done);
+        const std::string where = "byte " + std::to_string(offset + done);
         if (got < 0) throw InputError(file, where, "cannot be read: " + reason());
         if (got == 0) throw InputError(file, where, "became shorter while it was read; try again");
         done += static_cast<std::size_t>(got);
     }
+}
+
+template <typename Buffer>
+Buffer read_up_to(const std::filesystem::path& file, std::size_t most) {
+    const Descriptor input(open_for_reading(file));
+    Buffer buffer;
+    allocate(buffer, std::min(regular_size(input.number, file), most), file);
+    fill(buffer, input.number, 0, file);
     return buffer;
 }
 
@@ -126,6 +137,30 @@ std::string read_head(const std::filesystem::path& file, std::size_t most) {
 
 std::string read_file(const std::filesystem::path& file) {
     return read_up_to<std::string>(file, std::numeric_limits<std::size_t>::max());
+}
+
+InputFile::InputFile(std::filesystem::path path)
+    : path_(std::move(path)), descriptor_(open_for_reading(path_)) {
+    try {
+        size_ = regular_size(descriptor_, path_);
+    } catch (...) {
+        ::close(descriptor_);
+        throw;
+    }
+}
+
+InputFile::~InputFile() { ::close(descriptor_); }
+
+std::vector<std::byte> InputFile::read(std::uint64_t offset, std::uint64_t count) const {
+    if (offset > size_ || count > size_ - offset) {
+        throw InputError(path_, "byte " + std::to_string(offset),
+                         std::to_string(count) + " bytes should follow, but the file ends at " +
+                             std::to_string(size_));
+    }
+    std::vector<std::byte> bytes;
+    allocate(bytes, static_cast<std::size_t>(count), path_);
+    fill(bytes, descriptor_, offset, path_);
+    return bytes;
 }
 
 AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {

@@ -5,8 +5,10 @@
 #include <array>
 #include <cstring>
 
+#include "bag_scans.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/io/sequence.hpp"
+#include "frame.hpp"
 #include "input.hpp"
 
 namespace dynamic_filter::io {
@@ -83,27 +85,39 @@ Labels read_labels(const std::filesystem::path& file) {
     return labels;
 }
 
+Cloud read_scan(const Sequence& sequence, std::size_t i) {
+    return sequence.bag ? read_bag_cloud(*sequence.bag, sequence.bag_scans.at(i))
+                        : read_cloud(sequence.scan_files.at(i));
+}
+
 Frame read_frame(const Sequence& sequence, std::size_t i) {
     const std::filesystem::path& file = sequence.scan_files.at(i);
     const bool poses_in_files = sequence.T_world_sensor.empty();
     Frame frame;
     if (!poses_in_files) frame.T_world_sensor = sequence.T_world_sensor[i];
     if (!frame.T_world_sensor.matrix().allFinite()) {
-        throw InputError(file, "", "its pose is not finite (lost tracking?)");
+        throw InputError(file, "",
+                         sequence.bag ? "no pose is known at its time"
+                                      : "its pose is not finite (lost tracking?)");
     }
-    frame.cloud = read_cloud(file);
+    frame.cloud = read_scan(sequence, i);
     if (frame.cloud.size() == 0) throw InputError(file, "", "has no points");
     refuse_absurd(frame.T_world_sensor, file);
     if (poses_in_files) {
         frame.T_world_sensor = frame.cloud.viewpoint.value_or(Pose::Identity());
     }
-    frame.points = sequence.format == Format::benchmark
-                       ? into_sensor(frame.cloud, frame.T_world_sensor)
-                       : positions(frame.cloud);
+    const bool in_world =
+        sequence.bag ? sequence.bag->in_world : sequence.format == Format::benchmark;
+    frame.points =
+        in_world ? into_sensor(frame.cloud, frame.T_world_sensor) : positions(frame.cloud);
     if (std::none_of(frame.points.begin(), frame.points.end(), is_measured)) {
         throw InputError(file, "", "has no finite point away from the sensor");
     }
     frame.stamp = sequence.stamps[i];
+    if (sequence.deskew) {
+        undo_motion(frame.points, point_times(frame.cloud, frame.stamp), frame.stamp,
+                    sequence.trajectory);
+    }
     frame.truth = truth_of(sequence, i, frame.cloud);
     return frame;
 }

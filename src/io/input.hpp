@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -14,6 +15,26 @@ namespace dynamic_filter::io {
 std::vector<std::byte> read_bytes(const std::filesystem::path& file);
 /// At most `most` bytes from the beginning.
 std::string read_head(const std::filesystem::path& file, std::size_t most);
+
+/// A regular file of which parts are read. Thread-safe.
+class InputFile {
+public:
+    /// Throws InputError.
+    explicit InputFile(std::filesystem::path path);
+    InputFile(const InputFile&) = delete;
+    InputFile& operator=(const InputFile&) = delete;
+    ~InputFile();
+
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+    [[nodiscard]] std::uint64_t size() const { return size_; }
+    /// Throws InputError if the file does not hold all of them.
+    [[nodiscard]] std::vector<std::byte> read(std::uint64_t offset, std::uint64_t count) const;
+
+private:
+    std::filesystem::path path_;
+    int descriptor_;
+    std::uint64_t size_ = 0;
+};
 
 inline std::string_view as_text(std::span<const std::byte> bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};

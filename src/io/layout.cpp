@@ -101,9 +101,20 @@ void require_folder(const fs::path& data) {
     if (!present(data)) throw InputError(data, "", "does not exist; expected a recording's folder");
     if (!is_folder(data)) {
         throw InputError(data, "",
-                         "is a file; expected a folder with velodyne/*.bin, pcd/*.pcd, or scans "
-                         "and a pose file");
+                         "is a file; expected a bag (.mcap, .bag, .db3), or a folder with "
+                         "velodyne/*.bin, pcd/*.pcd, or scans and a pose file");
     }
+}
+
+const std::vector<std::string>& scan_folders() {
+    static const std::vector<std::string> names = {"Scans",  "scans",    "pcds", "pcd",
+                                                   "clouds", "velodyne", "."};
+    return names;
+}
+
+const std::set<std::string>& scan_kinds() {
+    static const std::set<std::string> kinds = {".bin", ".pcd", ".ply"};
+    return kinds;
 }
 
 Format recognise(const fs::path& data) {
@@ -116,11 +127,10 @@ Format recognise(const fs::path& data) {
 
 /// Scans of one kind, in the usual subfolder or in the folder itself (which may also hold maps).
 void find_folder_scans(Layout& layout, const fs::path& data) {
-    const std::set<std::string> kinds = {".bin", ".pcd", ".ply"};
-    for (const char* name : {"Scans", "scans", "pcds", "pcd", "clouds", "velodyne", "."}) {
-        layout.scan_folder = name == std::string(".") ? data : data / name;
+    for (const std::string& name : scan_folders()) {
+        layout.scan_folder = name == "." ? data : data / name;
         if (!is_folder(layout.scan_folder)) continue;
-        layout.scans = list_files(layout.scan_folder, kinds);
+        layout.scans = list_files(layout.scan_folder, scan_kinds());
         if (!layout.scans.empty()) break;
     }
     if (layout.scans.empty()) {
@@ -184,6 +194,14 @@ void find_poses(Layout& layout, const Paths& folders, const OpenOptions& options
 }
 
 }  // namespace
+
+bool has_scans(const fs::path& data) {
+    std::error_code ignored;
+    return std::any_of(scan_folders().begin(), scan_folders().end(), [&](const std::string& name) {
+        const fs::path folder = data / name;
+        return is_folder(folder) && !list_files(folder, scan_kinds(), ignored).empty();
+    });
+}
 
 Layout find_layout(const fs::path& data, const OpenOptions& options) {
     require_folder(data);

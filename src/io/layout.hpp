@@ -24,6 +24,9 @@ struct Layout {
 /// Throws InputError when nothing usable is there, with what was looked for.
 Layout find_layout(const std::filesystem::path& data, const OpenOptions& options);
 
+/// True if a folder holds scans as files, in it or in one of the usual folders below.
+bool has_scans(const std::filesystem::path& data);
+
 /// One label file per scan, or none if there is no labels folder. Throws InputError for a missing
 /// and for an extra one.
 Paths find_labels(const Layout& layout);

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <functional>
 
+#include "bag_scans.hpp"
 #include "benchmark.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/io/poses.hpp"
+#include "frame.hpp"
 #include "layout.hpp"
 #include "matching.hpp"
 
@@ -106,6 +108,50 @@ void select(Sequence& sequence, const OpenOptions& options) {
     keep(sequence.label_files, options.first, last, options.stride);
     keep(sequence.T_world_sensor, options.first, last, options.stride);
     keep(sequence.stamps, options.first, last, options.stride);
+    keep(sequence.bag_scans, options.first, last, options.stride);
+}
+
+/// Poses between the scans are of no use without times within them.
+void prepare_deskew(Sequence& sequence) {
+    if (sequence.trajectory.stamps.empty() && sequence.measured_stamps) {
+        sequence.trajectory = {sequence.stamps, sequence.T_world_sensor};
+        put_in_order(sequence.trajectory);
+    }
+    if (sequence.trajectory.stamps.size() < 2) {
+        sequence.notes.push_back("no poses over time: the scans' motion is not undone");
+        return;
+    }
+    const Cloud first = read_scan(sequence, 0);
+    if (point_times(first, sequence.stamps.front()).empty()) {
+        sequence.notes.push_back(
+            "the points have no times of their own (no field t, time, timestamp or offset_time "
+            "that varies): the scans' motion is not undone");
+        return;
+    }
+    sequence.deskew = true;
+}
+
+Sequence open_folder(const std::filesystem::path& data, const OpenOptions& options) {
+    if (!options.topic.empty() || !options.pose_topic.empty()) {
+        throw ConfigError("--topic and --pose-topic are for bags; " + data.string() + " is none");
+    }
+    const Layout layout = find_layout(data, options);
+    Sequence sequence;
+    sequence.format = layout.format;
+    sequence.root = data;
+    sequence.scan_files = layout.scans;
+    sequence.notes = layout.notes;
+    sequence.label_files = find_labels(layout);
+    assign_stamps(sequence, assign_poses(sequence, layout));
+    if (layout.format == Format::benchmark && !layout.poses) require_viewpoints(sequence);
+    select(sequence, options);
+    if (layout.format == Format::benchmark) find_intensity_truth(sequence, layout);
+    return sequence;
+}
+
+bool is_bag(const std::filesystem::path& data, const OpenOptions& options) {
+    if (options.format) return *options.format == Format::bag;
+    return Bag::recognises(data) && !has_scans(data);
 }
 
 }  // namespace
@@ -118,23 +164,22 @@ std::string to_string(Format format) {
             return "benchmark";
         case Format::folder:
             return "folder";
+        case Format::bag:
+            return "bag";
     }
     return "?";
 }
 
 Sequence open_sequence(const std::filesystem::path& data, const OpenOptions& options) {
     check_selection(options);
-    const Layout layout = find_layout(data, options);
     Sequence sequence;
-    sequence.format = layout.format;
-    sequence.root = data;
-    sequence.scan_files = layout.scans;
-    sequence.notes = layout.notes;
-    sequence.label_files = find_labels(layout);
-    assign_stamps(sequence, assign_poses(sequence, layout));
-    if (layout.format == Format::benchmark && !layout.poses) require_viewpoints(sequence);
-    select(sequence, options);
-    if (layout.format == Format::benchmark) find_intensity_truth(sequence, layout);
+    if (is_bag(data, options)) {
+        sequence = open_bag(data, options);
+        select(sequence, options);
+    } else {
+        sequence = open_folder(data, options);
+    }
+    if (options.deskew) prepare_deskew(sequence);
     return sequence;
 }
 

@@ -10,7 +10,7 @@ using LayoutTest = Recording;
 
 TEST_F(LayoutTest, NothingThere) {
     EXPECT_HAS(error_of([&] { (void)open_sequence(data / "none"); }), "does not exist");
-    EXPECT_HAS(error_of([&] { (void)open_sequence(data.put("a.bag", "")); }), "is a file");
+    EXPECT_HAS(error_of([&] { (void)open_sequence(data.put("a.txt", "")); }), "is a file");
     EXPECT_HAS(open_error(), "holds no scans");
     std::filesystem::create_directories(data / "velodyne");
     EXPECT_HAS(open_error(), "no *.bin");

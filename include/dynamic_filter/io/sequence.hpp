@@ -4,18 +4,22 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "dynamic_filter/io/cloud.hpp"
+#include "dynamic_filter/io/trajectory.hpp"
 #include "dynamic_filter/types.hpp"
 
 namespace dynamic_filter::io {
 
-enum class Format { kitti, benchmark, folder };
+enum class Format { kitti, benchmark, folder, bag };
 
-std::string to_string(Format format);  ///< "kitti", "benchmark", "folder"
+std::string to_string(Format format);  ///< "kitti", "benchmark", "folder", "bag"
+
+struct BagScans;
 
 struct OpenOptions {
     std::optional<Format> format;                ///< empty: recognised by looking at the folder
@@ -23,19 +27,27 @@ struct OpenOptions {
     std::size_t first = 0;                       ///< index of the first scan used
     std::optional<std::size_t> last;             ///< index of the last scan used; empty: the end
     std::size_t stride = 1;
+    std::string topic;       ///< of a bag's scans; empty: the only one
+    std::string pose_topic;  ///< of a bag's poses, or "/tf"; empty: chosen, and a note says how
+    bool deskew = false;     ///< undo the sensor's motion during each scan
 };
 
 /// What is known without reading the scans. Immutable after open_sequence; thread-safe.
 struct Sequence {
     Format format = Format::folder;
     std::filesystem::path root;
-    std::vector<std::filesystem::path> scan_files;   ///< in natural order of their names
+    std::vector<std::filesystem::path> scan_files;   ///< in natural order of their names; of a bag
+                                                     ///< not files, but numbers below its path
     std::vector<std::filesystem::path> label_files;  ///< parallel to scan_files, or empty
     std::vector<Pose> T_world_sensor;  ///< parallel; empty for `benchmark` (poses are in the files)
     std::vector<double> stamps;        ///< parallel [s]; made up at 10 Hz where not measured
     bool measured_stamps = false;
-    bool intensity_is_truth = false;  ///< `benchmark` with ground truth in the intensity
-    std::vector<std::string> notes;   ///< for the user: what was assumed
+    Trajectory trajectory;  ///< poses as dense in time as the recording has them; may be empty
+    bool deskew = false;
+    std::shared_ptr<const BagScans> bag;  ///< of format `bag`
+    std::vector<std::size_t> bag_scans;   ///< parallel to scan_files: places in it
+    bool intensity_is_truth = false;      ///< `benchmark` with ground truth in the intensity
+    std::vector<std::string> notes;       ///< for the user: what was assumed
 
     [[nodiscard]] std::size_t size() const { return scan_files.size(); }
     [[nodiscard]] bool has_truth() const { return intensity_is_truth || !label_files.empty(); }
@@ -44,14 +56,15 @@ struct Sequence {
 /// One scan as read: the record's own fields, and the points in the sensor frame.
 struct Frame {
     Cloud cloud;    ///< as in the file (`benchmark`: x y z in the world frame)
-    Points points;  ///< sensor frame, same order
+    Points points;  ///< sensor frame, same order, their motion undone if that was asked for
     Pose T_world_sensor = Pose::Identity();
     double stamp = 0.0;
     Labels truth;  ///< empty without ground truth; otherwise one per point
 };
 
 /// Recognises the layout, checks that scans, poses, stamps and labels agree in number.
-/// Throws InputError (nothing there, counts that differ, pose file missing, bad rotation).
+/// Throws InputError (nothing there, counts that differ, pose file missing, bad rotation) and
+/// ConfigError (topics to choose from).
 Sequence open_sequence(const std::filesystem::path& data, const OpenOptions& options = {});
 
 /// Reads scan i. Throws InputError if the scan cannot be used (truncated, no points, a non-finite

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+/// Poses over time.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "dynamic_filter/io/cloud.hpp"
+#include "dynamic_filter/types.hpp"
+
+namespace dynamic_filter::io {
+
+struct Trajectory {
+    std::vector<double> stamps;  ///< [s], increasing
+    std::vector<Pose> poses;     ///< parallel
+};
+
+/// Sorts by time; of equal stamps the first is kept.
+void put_in_order(Trajectory& trajectory);
+
+/// Between the two poses around that time: translation in a line, rotation by the shortest way.
+/// Empty before the first and after the last (but for `beyond` [s], where the end's motion goes
+/// on), and in gaps of more than `gap` [s]. Thread-safe.
+std::optional<Pose> pose_at(const Trajectory& trajectory, double stamp, double gap = 1.0,
+                            double beyond = 0.0);
+
+/// When each point was measured, [s] from the scan's stamp, from the field that says so ("t",
+/// "time", "timestamp", "offset_time", "time_offset"); seconds, milliseconds, microseconds or
+/// nanoseconds, from the stamp or absolute. Empty if there is none that spans up to a second, or if
+/// all are equal.
+std::vector<float> point_times(const Cloud& cloud, double stamp);
+
+/// The points as if all had been measured at the scan's stamp: each is moved by what the sensor
+/// moved since or until then. Points whose time lies beyond the trajectory stay where they are.
+/// Sensor frame in, sensor frame out.
+void undo_motion(Points& points, const std::vector<float>& times, double stamp,
+                 const Trajectory& T_world_sensor);
+
+}  // namespace dynamic_filter::io

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+// The format: https://mcap.dev/spec. The index at the end is not needed, so a file that was never
+// closed reads as well as any.
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <array>
+#include <map>
+
+#include "dynamic_filter/error.hpp"
+#include "io/bag/bag_file.hpp"
+#include "io/bag/chunk_cache.hpp"
+#include "io/bag/decompress.hpp"
+#include "io/byte_reader.hpp"
+
+namespace dynamic_filter::io {
+namespace {
+
+enum Opcode : std::uint8_t { kFooter = 0x02, kSchema, kChannel, kMessage, kChunk };
+
+constexpr std::array<unsigned char, 8> kMagic = {0x89, 'M', 'C', 'A', 'P', '0', '\r', '\n'};
+constexpr std::uint64_t kNoChunk = UINT64_MAX;
+constexpr std::size_t kRecordHead = 9;  // opcode and length
+
+struct Record {
+    std::uint8_t opcode = 0;
+    std::span<const std::byte> content;
+};
+Record take_record(ByteReader& in) {
+    const auto opcode = in.number<std::uint8_t>();
+    return {opcode, in.take(in.number<std::uint64_t>())};
+}
+
+struct ChunkRecord {
+    std::uint64_t size = 0;
+    std::uint32_t crc = 0;
+    std::string_view compression;
+    std::span<const std::byte> bytes;  // as many as there are
+    bool whole = false;
+};
+ChunkRecord parse_chunk(std::span<const std::byte> content) {
+    ByteReader in(content);
+    in.take(16);  // first and last time
+    ChunkRecord chunk;
+    chunk.size = in.number<std::uint64_t>();
+    chunk.crc = in.number<std::uint32_t>();
+    chunk.compression = in.text();
+    const auto stored = in.number<std::uint64_t>();
+    chunk.whole = stored <= in.left();
+    chunk.bytes = in.take(std::min<std::uint64_t>(stored, in.left()));
+    return chunk;
+}
+
+/// Schemas and channels met so far, and the messages on the channels that can be used.
+class Reader {
+public:
+    Reader(const UseMessage& use, std::vector<std::string>& notes) : use_(use), notes_(notes) {}
+
+    void take(const Record& record, std::uint64_t chunk, std::uint64_t offset) {
+        try {
+            ByteReader in(record.content);
+            if (record.opcode == kSchema) take_schema(in);
+            if (record.opcode == kChannel) take_channel(in);
+            if (record.opcode == kMessage) take_message(in, chunk, offset);
+        } catch (const Malformed& error) {
+            notes_.push_back(fmt::format("a record at byte {}: {}", offset, error.what()));
+        }
+    }
+
+private:
+    void take_schema(ByteReader& in) {
+        const auto id = in.number<std::uint16_t>();
+        schemas_[id] = std::string(in.text());
+    }
+    void take_channel(ByteReader& in) {
+        const auto id = in.number<std::uint16_t>();
+        const auto schema = in.number<std::uint16_t>();
+        const std::string name(in.text()), encoding(in.text());
+        const auto found = schemas_.find(schema);
+        if (found == schemas_.end() || (encoding != "cdr" && encoding != "ros1")) return;
+        topics_.try_emplace(
+            id, Topic{name, plain_type(found->second),
+                      encoding == "cdr" ? MessageEncoding::cdr : MessageEncoding::ros1});
+    }
+    void take_message(ByteReader& in, std::uint64_t chunk, std::uint64_t offset) {
+        const auto channel = topics_.find(in.number<std::uint16_t>());
+        in.take(4);  // sequence
+        const auto recorded = static_cast<std::int64_t>(in.number<std::uint64_t>());
+        in.take(8);                            // published
+        if (channel == topics_.end()) return;  // JSON, protobuf, or never announced
+        use_({channel->second, recorded, chunk, offset, in.take(in.left())});
+    }
+
+    const UseMessage& use_;
+    std::vector<std::string>& notes_;
+    std::map<std::uint16_t, std::string> schemas_;
+    std::map<std::uint16_t, Topic> topics_;
+};
+
+class Mcap final : public BagFile {
+public:
+    explicit Mcap(const std::filesystem::path& path) : file_(path) {
+        const auto head =
+            file_.size() < kMagic.size() ? std::vector<std::byte>{} : file_.read(0, kMagic.size());
+        if (head.empty() || std::memcmp(head.data(), kMagic.data(), kMagic.size()) != 0) {
+            throw InputError(path, "byte 0", "is no MCAP file: its first eight bytes differ");
+        }
+    }
+
+    std::vector<std::string> for_each(const UseMessage& use) const override {
+        std::vector<std::string> notes;
+        Reader reader(use, notes);
+        std::uint64_t at = kMagic.size();
+        while (true) {
+            if (file_.size() - at < kRecordHead) {
+                notes.push_back(fmt::format("ends at byte {} without a footer", file_.size()));
+                break;
+            }
+            const auto head = file_.read(at, kRecordHead);
+            const auto opcode = std::to_integer<std::uint8_t>(head[0]);
+            const auto length = little_endian<std::uint64_t>(head.data() + 1);
+            const std::uint64_t there = file_.size() - at - kRecordHead;
+            if (opcode == kFooter) break;
+            const bool wanted = opcode >= kSchema && opcode <= kChunk;
+            if (length > there && opcode != kChunk) {
+                notes.push_back(fmt::format("a record at byte {} is cut off", at));
+                break;
+            }
+            if (wanted) {
+                const auto content = file_.read(at + kRecordHead, std::min(length, there));
+                if (opcode == kChunk) {
+                    take_chunk(content, at, reader, notes);
+                } else {
+                    reader.take({opcode, content}, kNoChunk, at);
+                }
+            }
+            if (length > there) break;
+            at += kRecordHead + length;
+        }
+        return notes;
+    }
+
+    std::vector<std::byte> read(std::uint64_t chunk, std::uint64_t offset) const override {
+        try {
+            if (chunk == kNoChunk) return message_in(record_at(offset), 0);
+            return message_in(*chunks_.at(chunk, [&] { return read_chunk(chunk); }), offset);
+        } catch (const Malformed& error) {
+            const std::uint64_t at = chunk == kNoChunk ? offset : chunk;
+            throw InputError(file_.path(), fmt::format("byte {}", at), error.what());
+        }
+    }
+
+private:
+    static std::vector<std::byte> message_in(std::span<const std::byte> bytes,
+                                             std::uint64_t offset) {
+        constexpr std::size_t kBeforeData = 22;
+        ByteReader record(bytes, static_cast<std::size_t>(offset));
+        ByteReader in(take_record(record).content);
+        in.take(kBeforeData);
+        const auto data = in.take(in.left());
+        return {data.begin(), data.end()};
+    }
+
+    /// The whole record, or as much of it as the file holds.
+    std::vector<std::byte> record_at(std::uint64_t at) const {
+        const auto length = little_endian<std::uint64_t>(file_.read(at + 1, 8).data());
+        const std::uint64_t there = file_.size() - at - kRecordHead;
+        return file_.read(at, kRecordHead + std::min(length, there));
+    }
+
+    std::vector<std::byte> read_chunk(std::uint64_t at) const {
+        const auto bytes = record_at(at);
+        const ChunkRecord chunk = parse_chunk(std::span(bytes).subspan(kRecordHead));
+        return decompress(chunk.compression, chunk.bytes, chunk.size).bytes;
+    }
+
+    static void take_chunk(std::span<const std::byte> content, std::uint64_t at, Reader& reader,
+                           std::vector<std::string>& notes) {
+        const auto note = [&](const std::string& what) {
+            notes.push_back(fmt::format("the chunk at byte {} {}", at, what));
+        };
+        try {
+            const ChunkRecord chunk = parse_chunk(content);
+            const Decompressed inner = decompress(chunk.compression, chunk.bytes, chunk.size);
+            if (!inner.complete) {
+                note(fmt::format("should hold {} bytes, but gave only {}", chunk.size,
+                                 inner.bytes.size()));
+            } else if (chunk.crc != 0 && crc_of(inner.bytes) != chunk.crc) {
+                return note("is damaged (its checksum differs) and was left out");
+            }
+            ByteReader in(inner.bytes);
+            while (in.left() > 0) {
+                const std::size_t offset = in.at();
+                const Record record = take_record(in);
+                if (record.opcode != kChunk) reader.take(record, at, offset);  // chunks do not nest
+            }
+        } catch (const Malformed& error) {
+            note(error.what());
+        }
+    }
+
+    static std::uint32_t crc_of(std::span<const std::byte> bytes) {
+        return static_cast<std::uint32_t>(
+            crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+    }
+
+    InputFile file_;
+    ChunkCache chunks_;
+};
+
+}  // namespace
+
+std::unique_ptr<BagFile> open_mcap(const std::filesystem::path& file) {
+    return std::make_unique<Mcap>(file);
+}
+
+}  // namespace dynamic_filter::io

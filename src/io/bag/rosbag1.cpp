@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+// The format: ROS bag 2.0. Records one after the other; the index is not needed, so .bag.active and
+// truncated files are read, too.
+#include <fmt/format.h>
+
+#include <map>
+#include <optional>
+
+#include "dynamic_filter/error.hpp"
+#include "io/bag/bag_file.hpp"
+#include "io/bag/chunk_cache.hpp"
+#include "io/bag/decompress.hpp"
+#include "io/byte_reader.hpp"
+
+namespace dynamic_filter::io {
+namespace {
+
+enum Opcode : std::uint8_t { kMessage = 0x02, kChunk = 0x05, kConnection = 0x07 };
+
+constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
+constexpr std::uint64_t kNoChunk = UINT64_MAX;
+
+/// name=value, each behind its length.
+class Header {
+public:
+    explicit Header(std::span<const std::byte> bytes) {
+        ByteReader in(bytes);
+        while (in.left() > 0) {
+            const std::string_view field = in.text();
+            const std::size_t equals = field.find('=');
+            if (equals == std::string_view::npos) throw Malformed("has a header without '='");
+            fields_[field.substr(0, equals)] = field.substr(equals + 1);
+        }
+    }
+    [[nodiscard]] std::string_view text(std::string_view name) const {
+        const auto found = fields_.find(name);
+        if (found == fields_.end()) throw Malformed("has no '" + std::string(name) + "'");
+        return found->second;
+    }
+    template <class T>
+    [[nodiscard]] T number(std::string_view name) const {
+        const std::string_view value = text(name);
+        if (value.size() != sizeof(T)) {
+            throw Malformed("'" + std::string(name) + "' is " + std::to_string(value.size()) +
+                            " bytes long");
+        }
+        return little_endian<T>(reinterpret_cast<const std::byte*>(value.data()));
+    }
+
+private:
+    std::map<std::string_view, std::string_view> fields_;
+};
+
+struct Record {
+    Header header;
+    std::span<const std::byte> data;  // as many bytes as there are
+    bool whole;
+};
+Record take_record(ByteReader& in) {
+    const auto head = in.block();
+    const auto length = in.number<std::uint32_t>();
+    const bool whole = length <= in.left();
+    return {Header(head), in.take(whole ? length : in.left()), whole};
+}
+
+class Reader {
+public:
+    explicit Reader(const UseMessage& use) : use_(use) {}
+
+    void take(const Record& record, std::uint64_t chunk, std::uint64_t offset) {
+        if (!record.whole) throw Malformed("is cut off");
+        const auto opcode = record.header.number<std::uint8_t>("op");
+        if (opcode == kConnection) take_connection(record);
+        if (opcode == kMessage) take_message(record, chunk, offset);
+    }
+
+private:
+    void take_connection(const Record& record) {
+        const Header connection(record.data);
+        topics_.try_emplace(record.header.number<std::uint32_t>("conn"),
+                            Topic{std::string(record.header.text("topic")),
+                                  std::string(connection.text("type")), MessageEncoding::ros1});
+    }
+    void take_message(const Record& record, std::uint64_t chunk, std::uint64_t offset) {
+        const auto topic = topics_.find(record.header.number<std::uint32_t>("conn"));
+        if (topic == topics_.end()) throw Malformed("is a message of a connection never announced");
+        const auto time = record.header.number<std::uint64_t>("time");
+        constexpr std::int64_t kSecond = 1'000'000'000;
+        const auto seconds = static_cast<std::int64_t>(time & 0xFFFFFFFFU);
+        const auto nanoseconds = static_cast<std::int64_t>(time >> 32U);
+        use_({topic->second, seconds * kSecond + nanoseconds, chunk, offset, record.data});
+    }
+
+    const UseMessage& use_;
+    std::map<std::uint32_t, Topic> topics_;
+};
+
+class Rosbag1 final : public BagFile {
+public:
+    explicit Rosbag1(const std::filesystem::path& path) : file_(path) {
+        const auto head = file_.read(0, std::min<std::uint64_t>(file_.size(), kMagic.size()));
+        if (as_text(head) == kMagic) return;
+        const bool other = as_text(head).starts_with("#ROSBAG V1");
+        throw InputError(path, "byte 0",
+                         other ? "is a ROS bag of version 1; convert it with `rosbag fix`"
+                               : "is no ROS bag: it does not begin with '#ROSBAG V2.0'");
+    }
+
+    std::vector<std::string> for_each(const UseMessage& use) const override {
+        std::vector<std::string> notes;
+        Reader reader(use);
+        for (std::uint64_t at = kMagic.size(); at < file_.size();) {
+            try {
+                const auto bytes = record_at(at);
+                ByteReader in(bytes);
+                const Record record = take_record(in);
+                if (record.header.number<std::uint8_t>("op") == kChunk) {
+                    take_chunk(record, at, reader, notes);
+                } else {
+                    reader.take(record, kNoChunk, at);
+                }
+                at += bytes.size();
+            } catch (const Malformed& error) {  // where the next begins is not known, then
+                notes.push_back(fmt::format("the record at byte {} {}", at, error.what()));
+                break;
+            }
+        }
+        return notes;
+    }
+
+    std::vector<std::byte> read(std::uint64_t chunk, std::uint64_t offset) const override {
+        try {
+            if (chunk == kNoChunk) return message_in(record_at(offset), 0);
+            return message_in(*chunks_.at(chunk, [&] { return read_chunk(chunk); }), offset);
+        } catch (const Malformed& error) {
+            throw InputError(file_.path(), fmt::format("byte {}", chunk), error.what());
+        }
+    }
+
+private:
+    static std::vector<std::byte> message_in(std::span<const std::byte> bytes,
+                                             std::uint64_t offset) {
+        ByteReader in(bytes, static_cast<std::size_t>(offset));
+        const auto data = take_record(in).data;
+        return {data.begin(), data.end()};
+    }
+
+    /// The whole record, or as much of it as the file holds.
+    std::vector<std::byte> record_at(std::uint64_t at) const {
+        const std::uint64_t there = file_.size() - at;
+        const auto length_at = [&](std::uint64_t offset) -> std::uint64_t {
+            if (offset + 4 > there) throw Malformed("is cut off");
+            return little_endian<std::uint32_t>(file_.read(at + offset, 4).data());
+        };
+        const std::uint64_t head = length_at(0);
+        const std::uint64_t size = 4 + head + 4 + length_at(4 + head);
+        return file_.read(at, std::min(size, there));
+    }
+
+    static Decompressed content_of(const Record& chunk) {
+        return decompress(chunk.header.text("compression"), chunk.data,
+                          chunk.header.number<std::uint32_t>("size"));
+    }
+
+    std::vector<std::byte> read_chunk(std::uint64_t at) const {
+        const auto bytes = record_at(at);
+        ByteReader in(bytes);
+        return content_of(take_record(in)).bytes;
+    }
+
+    static void take_chunk(const Record& chunk, std::uint64_t at, Reader& reader,
+                           std::vector<std::string>& notes) {
+        const auto note = [&](const std::string& what) {
+            notes.push_back(fmt::format("the chunk at byte {} {}", at, what));
+        };
+        try {
+            const Decompressed content = content_of(chunk);
+            if (!content.complete) note("is damaged or cut off; what could be had of it was read");
+            ByteReader in(content.bytes);
+            while (in.left() > 0) {
+                const std::size_t offset = in.at();
+                reader.take(take_record(in), at, offset);
+            }
+        } catch (const Malformed& error) {
+            note(error.what());
+        }
+    }
+
+    InputFile file_;
+    ChunkCache chunks_;
+};
+
+}  // namespace
+
+std::unique_ptr<BagFile> open_rosbag1(const std::filesystem::path& file) {
+    return std::make_unique<Rosbag1>(file);
+}
+
+}  // namespace dynamic_filter::io

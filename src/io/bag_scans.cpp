@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: MIT
+#include "io/bag_scans.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <map>
+
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/io/poses.hpp"
+#include "io/byte_reader.hpp"
+#include "io/rigid.hpp"
+#include "io/ros/frame_tree.hpp"
+#include "io/ros/messages.hpp"
+
+namespace dynamic_filter::io {
+namespace {
+
+struct FoundScan {
+    double stamp = 0.0;
+    std::int64_t recorded_ns = 0;
+    MessageRef ref;
+};
+struct CloudTopic {
+    Topic topic;
+    std::string frame;  // of its first message
+    std::vector<FoundScan> scans;
+};
+struct PoseTopic {
+    std::string parent, child;
+    Trajectory trajectory;
+};
+
+/// What one pass over the bag finds.
+struct Contents {
+    std::map<std::string, CloudTopic> clouds;
+    std::map<std::string, PoseTopic> poses;
+    FrameTree frames;
+    std::vector<std::string> notes;
+};
+
+void take(Contents& contents, const Message& message) {
+    switch (kind_of(message.topic.type)) {
+        case MessageKind::cloud:
+        case MessageKind::livox: {
+            const MessageHeader header = read_header(message);
+            CloudTopic& found = contents.clouds[message.topic.name];
+            if (found.scans.empty()) {
+                found.topic = message.topic;
+                found.frame = header.frame;
+            }
+            found.scans.push_back({header.stamp, message.recorded_ns, message.ref});
+            break;
+        }
+        case MessageKind::odometry:
+        case MessageKind::pose: {
+            const StampedPose pose = read_pose_message(message);
+            PoseTopic& found = contents.poses[message.topic.name];
+            found.parent = pose.parent;
+            found.child = pose.child;
+            if (!pose.T_parent_child.matrix().allFinite()) break;
+            found.trajectory.stamps.push_back(pose.stamp);
+            found.trajectory.poses.push_back(pose.T_parent_child);
+            break;
+        }
+        case MessageKind::transforms: {
+            const bool is_static = message.topic.name.ends_with("tf_static");
+            for (const StampedPose& transform : read_transforms(message)) {
+                if (transform.T_parent_child.matrix().allFinite()) {
+                    contents.frames.add(transform, is_static);
+                }
+            }
+            break;
+        }
+        case MessageKind::other:
+            break;
+    }
+}
+
+Contents contents_of(const Bag& bag) {
+    Contents contents;
+    std::size_t malformed = 0;
+    std::string first;
+    contents.notes = bag.for_each([&](const Message& message) {
+        try {
+            take(contents, message);
+        } catch (const Malformed& error) {
+            if (malformed++ == 0) first = message.topic.name + ": " + error.what();
+        }
+    });
+    if (malformed > 0) {
+        contents.notes.push_back(fmt::format(
+            "{} messages cannot be read and are left out; the first is of {}", malformed, first));
+    }
+    contents.frames.put_in_order();
+    for (auto& [name, topic] : contents.poses) put_in_order(topic.trajectory);
+    return contents;
+}
+
+template <class Topics>
+std::string names_of(const Topics& topics) {
+    std::string names;
+    for (const auto& [name, topic] : topics) names += (names.empty() ? "" : ", ") + name;
+    return names.empty() ? "none" : names;
+}
+
+const CloudTopic& choose_clouds(const Contents& contents, const std::filesystem::path& data,
+                                const OpenOptions& options) {
+    const auto& clouds = contents.clouds;
+    if (!options.topic.empty()) {
+        const auto found = clouds.find(options.topic);
+        if (found != clouds.end()) return found->second;
+        throw ConfigError(fmt::format("no point clouds on topic {}; there are: {}", options.topic,
+                                      names_of(clouds)));
+    }
+    if (clouds.empty()) {
+        std::string why = contents.notes.empty() ? "" : " (" + contents.notes.front() + ")";
+        throw InputError(
+            data, "", "holds no point clouds (sensor_msgs/PointCloud2 or Livox's CustomMsg)" + why);
+    }
+    if (clouds.size() > 1) {
+        std::string names;
+        for (const auto& [name, topic] : clouds) {
+            names +=
+                fmt::format("{}{} ({} scans)", names.empty() ? "" : ", ", name, topic.scans.size());
+        }
+        throw ConfigError("point clouds on several topics: " + names + "; choose one with --topic");
+    }
+    return clouds.begin()->second;
+}
+
+/// Header stamps; where a driver left them at zero, when the message was recorded.
+std::vector<FoundScan> in_order(CloudTopic topic, std::vector<std::string>& notes) {
+    const bool unset = std::all_of(topic.scans.begin(), topic.scans.end(),
+                                   [](const FoundScan& s) { return s.stamp == 0.0; });
+    if (unset) {
+        for (FoundScan& scan : topic.scans)
+            scan.stamp = 1e-9 * static_cast<double>(scan.recorded_ns);
+        notes.push_back("headers have no stamps; the times of recording are used");
+    }
+    std::stable_sort(topic.scans.begin(), topic.scans.end(),
+                     [](const FoundScan& a, const FoundScan& b) { return a.stamp < b.stamp; });
+    return std::move(topic.scans);
+}
+
+/// Where the sensor is at a time, and when that was said.
+struct PoseSource {
+    std::function<std::optional<Pose>(double stamp)> T_world_sensor;
+    std::vector<double> stamps;
+    bool points_in_world = false;
+    std::string note;
+};
+
+PoseSource from_frames(const FrameTree& frames, const std::string& sensor) {
+    const std::string root = frames.above(sensor).back();
+    return {[&frames, sensor, root](double stamp) { return frames.pose(sensor, root, stamp); },
+            frames.stamps_above(sensor), false,
+            fmt::format("poses from /tf: frame '{}' in '{}'", sensor, root)};
+}
+
+PoseSource from_topic(const std::string& name, const PoseTopic& topic, const FrameTree& frames,
+                      const std::string& sensor) {
+    const Trajectory& trajectory = topic.trajectory;
+    const auto body_pose = [&trajectory](double stamp) {
+        return pose_at(trajectory, stamp, 1.0, 0.2);
+    };
+    if (sensor == topic.parent) {
+        return {body_pose, trajectory.stamps, true,
+                fmt::format("poses from {}; its frame '{}' is that of the points, too, so they are "
+                            "taken back into the sensor's",
+                            name, sensor)};
+    }
+    const bool linked = !topic.child.empty() && sensor != topic.child &&
+                        frames.above(topic.child).back() == frames.above(sensor).back();
+    if (linked) {
+        return {[=, &frames, child = topic.child](double stamp) -> std::optional<Pose> {
+                    const auto T_world_body = body_pose(stamp);
+                    const auto T_body_sensor = frames.pose(sensor, child, stamp);
+                    if (!T_world_body || !T_body_sensor) return std::nullopt;
+                    return *T_world_body * *T_body_sensor;
+                },
+                trajectory.stamps, false,
+                fmt::format("poses from {}, from its frame '{}' to '{}' by /tf", name, topic.child,
+                            sensor)};
+    }
+    const bool same = topic.child.empty() || sensor == topic.child;
+    return {body_pose, trajectory.stamps, false,
+            same ? fmt::format("poses from {}", name)
+                 : fmt::format("poses from {}; nothing links its frame '{}' to the scans' '{}', so "
+                               "they are taken for the same",
+                               name, topic.child, sensor)};
+}
+
+PoseSource choose_poses(const Contents& contents, const CloudTopic& clouds,
+                        const std::filesystem::path& data, const OpenOptions& options) {
+    const FrameTree& frames = contents.frames;
+    const bool by_frames = frames.moves(clouds.frame);
+    const auto named = contents.poses.find(options.pose_topic);
+    const auto source = [&](const auto& topic) {
+        return from_topic(topic.first, topic.second, frames, clouds.frame);
+    };
+    if (!options.pose_topic.empty()) {
+        if (options.pose_topic == "/tf" && by_frames) return from_frames(frames, clouds.frame);
+        if (named != contents.poses.end()) return source(*named);
+        throw ConfigError(fmt::format("no poses on topic {}; there are: {}{}", options.pose_topic,
+                                      names_of(contents.poses), by_frames ? ", /tf" : ""));
+    }
+    if (by_frames) return from_frames(frames, clouds.frame);
+    if (contents.poses.empty()) {
+        throw InputError(
+            data, "",
+            fmt::format("has no poses of the frame '{}' (looked for /tf that leads to it, "
+                        "nav_msgs/Odometry, geometry_msgs/PoseStamped); give a file with --poses",
+                        clouds.frame));
+    }
+    PoseSource first = source(*contents.poses.begin());
+    if (contents.poses.size() > 1) {
+        first.note += fmt::format(" (of {}; choose with --pose-topic)", names_of(contents.poses));
+    }
+    return first;
+}
+
+/// A file with stamps, interpolated; or one row for each scan.
+void assign_file_poses(Sequence& sequence, const std::filesystem::path& file) {
+    PoseFile poses = read_poses(file);
+    if (poses.stamps.empty()) {
+        if (poses.poses.size() != sequence.stamps.size()) {
+            throw InputError(file, "",
+                             fmt::format("{} poses without stamps for {} scans", poses.poses.size(),
+                                         sequence.stamps.size()));
+        }
+        sequence.T_world_sensor = std::move(poses.poses);
+        sequence.trajectory = {sequence.stamps, sequence.T_world_sensor};
+        sequence.notes.push_back("poses matched to the scans by their order");
+        return;
+    }
+    sequence.trajectory = {std::move(poses.stamps), std::move(poses.poses)};
+    put_in_order(sequence.trajectory);
+    for (const double stamp : sequence.stamps) {
+        sequence.T_world_sensor.push_back(
+            pose_at(sequence.trajectory, stamp, 1.0, 0.2).value_or(lost_pose()));
+    }
+    sequence.notes.push_back("poses interpolated at the scans' stamps, from " + file.string());
+}
+
+void assign_poses(Sequence& sequence, const PoseSource& source) {
+    for (const double stamp : sequence.stamps) {
+        sequence.T_world_sensor.push_back(source.T_world_sensor(stamp).value_or(lost_pose()));
+    }
+    for (const double stamp : source.stamps) {
+        const auto pose = source.T_world_sensor(stamp);
+        if (!pose) continue;
+        sequence.trajectory.stamps.push_back(stamp);
+        sequence.trajectory.poses.push_back(*pose);
+    }
+    put_in_order(sequence.trajectory);
+    sequence.notes.push_back(source.note);
+}
+
+void refuse_if_all_lost(const Sequence& sequence, const std::filesystem::path& data) {
+    const bool all_lost =
+        std::all_of(sequence.T_world_sensor.begin(), sequence.T_world_sensor.end(),
+                    [](const Pose& pose) { return !pose.matrix().allFinite(); });
+    if (!all_lost) return;
+    const auto& of = sequence.trajectory.stamps;
+    throw InputError(
+        data, "",
+        fmt::format("no scan has a pose: scans are from {:.3f} to {:.3f} s, poses {}; poses of "
+                    "another recording, or another clock or unit of time?",
+                    sequence.stamps.front(), sequence.stamps.back(),
+                    of.empty() ? "at no time"
+                               : fmt::format("from {:.3f} to {:.3f} s", of.front(), of.back())));
+}
+
+}  // namespace
+
+Sequence open_bag(const std::filesystem::path& data, const OpenOptions& options) {
+    auto scans = std::make_shared<BagScans>(BagScans{Bag(data), {}, {}, false});
+    const Contents contents = contents_of(scans->bag);
+    const CloudTopic& clouds = choose_clouds(contents, data, options);
+    Sequence sequence;
+    sequence.format = Format::bag;
+    sequence.root = data;
+    sequence.notes = contents.notes;
+    sequence.notes.push_back("scans from " + clouds.topic.name);
+    for (const FoundScan& scan : in_order(clouds, sequence.notes)) {
+        sequence.stamps.push_back(scan.stamp);
+        scans->messages.push_back(scan.ref);
+    }
+    sequence.measured_stamps = true;
+    scans->topic = clouds.topic;
+    if (options.poses) {
+        assign_file_poses(sequence, *options.poses);
+    } else {
+        const PoseSource source = choose_poses(contents, clouds, data, options);
+        assign_poses(sequence, source);
+        scans->in_world = source.points_in_world;
+    }
+    refuse_if_all_lost(sequence, data);
+    const std::size_t digits =
+        std::max<std::size_t>(6, fmt::format("{}", scans->messages.size()).size());
+    for (std::size_t i = 0; i < scans->messages.size(); ++i) {
+        sequence.scan_files.push_back(data / fmt::format("{:0{}}", i, digits));
+        sequence.bag_scans.push_back(i);
+    }
+    sequence.bag = std::move(scans);
+    return sequence;
+}
+
+Cloud read_bag_cloud(const BagScans& scans, std::size_t i) {
+    const MessageRef& message = scans.messages.at(i);
+    const auto data = scans.bag.read(message);
+    try {
+        return read_cloud_message(data, scans.topic).cloud;
+    } catch (const Malformed& error) {
+        throw InputError(scans.bag.files().at(message.file),
+                         fmt::format("scan {} of {}", i, scans.topic.name), error.what());
+    }
+}
+
+}  // namespace dynamic_filter::io

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+/// The scans of a bag, with poses from its own topics or from a file.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <vector>
+
+#include "dynamic_filter/io/bag.hpp"
+#include "dynamic_filter/io/sequence.hpp"
+
+namespace dynamic_filter::io {
+
+struct BagScans {
+    Bag bag;
+    Topic topic;                       ///< of the scans
+    std::vector<MessageRef> messages;  ///< in the order of the scans
+    bool in_world = false;             ///< points are in the frame of the poses already
+};
+
+/// Everything but the selection of scans. Throws InputError and ConfigError.
+Sequence open_bag(const std::filesystem::path& data, const OpenOptions& options);
+
+/// The scan as the message has it. Throws InputError.
+Cloud read_bag_cloud(const BagScans& scans, std::size_t i);
+
+}  // namespace dynamic_filter::io

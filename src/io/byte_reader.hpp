@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+/// Little-endian bytes of untrusted files, never read beyond their end.
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "input.hpp"
+
+namespace dynamic_filter::io {
+
+/// What is wrong, without the file: whoever knows the file makes an InputError of it.
+struct Malformed : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+template <class T>
+requires std::integral<T> || std::floating_point<T> T little_endian(const std::byte* bytes) {
+    T value{};
+    std::memcpy(&value, bytes, sizeof value);
+    return value;  // as all machines are that this is built for
+}
+
+class ByteReader {
+public:
+    explicit ByteReader(std::span<const std::byte> bytes, std::size_t at = 0)
+        : bytes_(bytes), at_(at) {}
+
+    [[nodiscard]] std::size_t at() const { return at_; }
+    [[nodiscard]] std::size_t left() const { return bytes_.size() - at_; }
+
+    std::span<const std::byte> take(std::uint64_t count) {
+        if (count > left()) {
+            throw Malformed("ends at byte " + std::to_string(bytes_.size()) + ", but " +
+                            std::to_string(count) + " bytes should follow byte " +
+                            std::to_string(at_));
+        }
+        const auto taken = bytes_.subspan(at_, static_cast<std::size_t>(count));
+        at_ += taken.size();
+        return taken;
+    }
+    template <class T>
+    T number() {
+        return little_endian<T>(take(sizeof(T)).data());
+    }
+    std::string_view text(std::uint64_t length) { return as_text(take(length)); }
+    /// Behind its length in 32 bits.
+    std::span<const std::byte> block() { return take(number<std::uint32_t>()); }
+    std::string_view text() { return as_text(block()); }
+
+private:
+    std::span<const std::byte> bytes_;
+    std::size_t at_;
+};
+
+}  // namespace dynamic_filter::io

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "io/ros/frame_tree.hpp"
+
+#include <algorithm>
+
+namespace dynamic_filter::io {
+
+void FrameTree::add(const StampedPose& transform, bool is_static) {
+    const auto [it, fresh] = links_.try_emplace(transform.child);
+    Link& link = it->second;
+    if (fresh) {
+        link.parent = transform.parent;
+        link.is_static = is_static;
+    }
+    if (link.parent != transform.parent) return;
+    link.T_parent_child.stamps.push_back(transform.stamp);
+    link.T_parent_child.poses.push_back(transform.T_parent_child);
+}
+
+void FrameTree::put_in_order() {
+    for (auto& [child, link] : links_) io::put_in_order(link.T_parent_child);
+}
+
+std::vector<std::string> FrameTree::above(const std::string& frame) const {
+    std::vector<std::string> chain{frame};
+    for (auto it = links_.find(frame); it != links_.end(); it = links_.find(it->second.parent)) {
+        const std::string& parent = it->second.parent;
+        if (std::find(chain.begin(), chain.end(), parent) != chain.end()) break;  // a circle
+        chain.push_back(parent);
+    }
+    return chain;
+}
+
+std::optional<Pose> FrameTree::in_root(const std::string& frame, double stamp) const {
+    Pose pose = Pose::Identity();
+    const std::vector<std::string> chain = above(frame);
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+        const Link& link = links_.at(chain[i]);
+        const auto step = link.is_static ? std::optional(link.T_parent_child.poses.front())
+                                         : pose_at(link.T_parent_child, stamp, 1.0, 0.2);
+        if (!step) return std::nullopt;
+        pose = *step * pose;
+    }
+    return pose;
+}
+
+std::optional<Pose> FrameTree::pose(const std::string& of, const std::string& in,
+                                    double stamp) const {
+    if (above(of).back() != above(in).back()) return std::nullopt;
+    const auto T_root_of = in_root(of, stamp), T_root_in = in_root(in, stamp);
+    if (!T_root_of || !T_root_in) return std::nullopt;
+    return T_root_in->inverse() * *T_root_of;
+}
+
+bool FrameTree::moves(const std::string& frame) const { return !stamps_above(frame).empty(); }
+
+std::vector<double> FrameTree::stamps_above(const std::string& frame) const {
+    std::vector<double> most;
+    for (const std::string& child : above(frame)) {
+        const auto link = links_.find(child);
+        if (link == links_.end() || link->second.is_static) continue;
+        const auto& stamps = link->second.T_parent_child.stamps;
+        if (stamps.size() > 1 && stamps.size() > most.size()) most = stamps;
+    }
+    return most;
+}
+
+}  // namespace dynamic_filter::io
