@@ -32,6 +32,7 @@ struct ConfigOptions {
 struct DataOptions {
     std::filesystem::path data;
     std::string format;  ///< empty: recognised
+    std::string pose_fix = "none", time_unit = "s";
     io::OpenOptions open;
 };
 
@@ -65,6 +66,7 @@ int run(const RunOptions& options);
 int evaluate(const EvalOptions& options);
 int simulate(const SimulateOptions& options);
 int demo(const DemoOptions& options);
+int check(const DataOptions& options);
 int info(const std::filesystem::path& file);
 int show_config(const ConfigOptions& options);
 

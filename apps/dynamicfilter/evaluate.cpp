@@ -56,7 +56,8 @@ Points read_map(const std::filesystem::path& file, const Eigen::Vector3d& origin
 int evaluate(const EvalOptions& o) {
     const io::Sequence sequence = open(o.truth);
     if (!sequence.has_truth()) {
-        throw InputError(o.truth.data, "", "has no ground truth (labels/*.label, or 0/1 intensities)");
+        throw InputError(o.truth.data, "",
+                         "has no ground truth (labels/*.label, or 0/1 intensities)");
     }
     const Eigen::Vector3d origin = scoring_origin(sequence, o.voxel);
     std::vector<std::atomic<bool>> left_out(sequence.size());

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <future>
+#include <map>
 
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/geometry/pose.hpp"
@@ -22,6 +23,19 @@ io::Format format_of(const std::string& name) {
     throw ConfigError("unknown format '" + name + "'; choose kitti, benchmark, folder or bag");
 }
 
+io::PoseFix pose_fix_of(const std::string& name) {
+    for (const io::PoseFix fix : io::pose_fixes()) {
+        if (io::to_string(fix) == name) return fix;
+    }
+    return io::PoseFix::none;
+}
+
+double seconds_of(const std::string& unit) {
+    static const std::map<std::string, double> units = {
+        {"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}};
+    return units.at(unit);
+}
+
 /// A ConfigError, because it is the pair of arguments that is wrong, and must not pass as a scan
 /// that cannot be read.
 void refuse_other_count(const io::Sequence& sequence, std::size_t i, std::size_t labels,
@@ -37,6 +51,8 @@ void refuse_other_count(const io::Sequence& sequence, std::size_t i, std::size_t
 io::Sequence open(const DataOptions& options) {
     io::OpenOptions how = options.open;
     if (!options.format.empty()) how.format = format_of(options.format);
+    how.pose_fix = pose_fix_of(options.pose_fix);
+    how.time_unit = seconds_of(options.time_unit);
     return io::open_sequence(options.data, how);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 
@@ -26,6 +27,17 @@ void add_reading_options(CLI::App& command, DataOptions& o) {
     command.add_option("--topic", o.open.topic, "of a bag's scans (default: the only one)");
     command.add_option("--pose-topic", o.open.pose_topic,
                        "of a bag's poses, or /tf (default: chosen)");
+    std::vector<std::string> fixes{"none"};
+    for (const io::PoseFix fix : io::pose_fixes()) fixes.push_back(io::to_string(fix));
+    command
+        .add_option("--pose-fix", o.pose_fix,
+                    fmt::format("put poses right: {}; `check` says which", fmt::join(fixes, ", ")))
+        ->check(CLI::IsMember(fixes));
+    command.add_flag("--points-in-world", o.open.points_in_world,
+                     "scans are in the frame of the poses, not in the sensor's");
+    command.add_option("--time-unit", o.time_unit, "of the stamps: s, ms, us, ns")
+        ->check(CLI::IsMember({"s", "ms", "us", "ns"}))
+        ->capture_default_str();
     command.add_flag("--deskew", o.open.deskew,
                      "undo the sensor's motion during each scan, by the times of its points");
 }
@@ -108,6 +120,14 @@ void add_others(CLI::App& app, std::function<int()>& chosen) {
     CLI::App& d = *app.add_subcommand("demo", "Simulate, filter, score and draw: no data needed");
     d.add_option("-o,--output", demo_options->output, "output folder")->capture_default_str();
     d.callback([=, &chosen] { chosen = [=] { return demo(*demo_options); }; });
+
+    auto data = std::make_shared<DataOptions>();
+    CLI::App& check_command =
+        *app.add_subcommand("check", "Look for mistakes in a recording's poses, frames and stamps");
+    check_command.add_option("DATA", data->data, "recording")->required();
+    add_reading_options(check_command, *data);
+    add_selection_options(check_command, *data);
+    check_command.callback([=, &chosen] { chosen = [=] { return check(*data); }; });
 
     auto file = std::make_shared<std::filesystem::path>();
     CLI::App& i = *app.add_subcommand("info", "Describe a point cloud file or a recording");

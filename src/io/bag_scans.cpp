@@ -276,7 +276,7 @@ void refuse_if_all_lost(const Sequence& sequence, const std::filesystem::path& d
 }  // namespace
 
 Sequence open_bag(const std::filesystem::path& data, const OpenOptions& options) {
-    auto scans = std::make_shared<BagScans>(BagScans{Bag(data), {}, {}, false});
+    auto scans = std::make_shared<BagScans>(BagScans{Bag(data), {}, {}});
     const Contents contents = contents_of(scans->bag);
     const CloudTopic& clouds = choose_clouds(contents, data, options);
     Sequence sequence;
@@ -295,7 +295,7 @@ Sequence open_bag(const std::filesystem::path& data, const OpenOptions& options)
     } else {
         const PoseSource source = choose_poses(contents, clouds, data, options);
         assign_poses(sequence, source);
-        scans->in_world = source.points_in_world;
+        sequence.points_in_world = source.points_in_world;
     }
     refuse_if_all_lost(sequence, data);
     const std::size_t digits =

@@ -15,7 +15,6 @@ struct BagScans {
     Bag bag;
     Topic topic;                       ///< of the scans
     std::vector<MessageRef> messages;  ///< in the order of the scans
-    bool in_world = false;             ///< points are in the frame of the poses already
 };
 
 /// Everything but the selection of scans. Throws InputError and ConfigError.

@@ -104,12 +104,11 @@ Frame read_frame(const Sequence& sequence, std::size_t i) {
     if (frame.cloud.size() == 0) throw InputError(file, "", "has no points");
     refuse_absurd(frame.T_world_sensor, file);
     if (poses_in_files) {
-        frame.T_world_sensor = frame.cloud.viewpoint.value_or(Pose::Identity());
+        frame.T_world_sensor =
+            fixed(sequence.pose_fix, frame.cloud.viewpoint.value_or(Pose::Identity()));
     }
-    const bool in_world =
-        sequence.bag ? sequence.bag->in_world : sequence.format == Format::benchmark;
-    frame.points =
-        in_world ? into_sensor(frame.cloud, frame.T_world_sensor) : positions(frame.cloud);
+    frame.points = sequence.points_in_world ? into_sensor(frame.cloud, frame.T_world_sensor)
+                                            : positions(frame.cloud);
     if (std::none_of(frame.points.begin(), frame.points.end(), is_measured)) {
         throw InputError(file, "", "has no finite point away from the sensor");
     }

@@ -64,7 +64,13 @@ std::vector<double> assign_poses(Sequence& sequence, const Layout& layout) {
     Match match = match_poses(layout, file, times);
     sequence.T_world_sensor = std::move(match.poses);
     sequence.notes.push_back(match.note);
-    if (layout.calib && file.stamps.empty()) from_camera_poses(sequence, *layout.calib);
+    if (layout.calib && file.stamps.empty()) {
+        if (sequence.pose_fix == PoseFix::lidar) {
+            sequence.pose_fix = PoseFix::none;
+        } else {
+            from_camera_poses(sequence, *layout.calib);
+        }
+    }
     return match.stamps;
 }
 
@@ -138,6 +144,7 @@ Sequence open_folder(const std::filesystem::path& data, const OpenOptions& optio
     const Layout layout = find_layout(data, options);
     Sequence sequence;
     sequence.format = layout.format;
+    sequence.pose_fix = options.pose_fix;
     sequence.root = data;
     sequence.scan_files = layout.scans;
     sequence.notes = layout.notes;
@@ -147,6 +154,16 @@ Sequence open_folder(const std::filesystem::path& data, const OpenOptions& optio
     select(sequence, options);
     if (layout.format == Format::benchmark) find_intensity_truth(sequence, layout);
     return sequence;
+}
+
+void apply_fixes(Sequence& sequence, const OpenOptions& options) {
+    for (auto* poses : {&sequence.T_world_sensor, &sequence.trajectory.poses}) {
+        for (Pose& pose : *poses) pose = fixed(sequence.pose_fix, pose);
+    }
+    if (!sequence.measured_stamps) return;
+    for (auto* stamps : {&sequence.stamps, &sequence.trajectory.stamps}) {
+        for (double& stamp : *stamps) stamp *= options.time_unit;
+    }
 }
 
 bool is_bag(const std::filesystem::path& data, const OpenOptions& options) {
@@ -175,10 +192,15 @@ Sequence open_sequence(const std::filesystem::path& data, const OpenOptions& opt
     Sequence sequence;
     if (is_bag(data, options)) {
         sequence = open_bag(data, options);
+        sequence.pose_fix = options.pose_fix;
         select(sequence, options);
     } else {
         sequence = open_folder(data, options);
     }
+    if (options.points_in_world || sequence.format == Format::benchmark) {
+        sequence.points_in_world = true;
+    }
+    apply_fixes(sequence, options);
     if (options.deskew) prepare_deskew(sequence);
     return sequence;
 }

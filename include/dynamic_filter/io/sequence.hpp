@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "dynamic_filter/io/cloud.hpp"
+#include "dynamic_filter/io/pose_fix.hpp"
 #include "dynamic_filter/io/trajectory.hpp"
 #include "dynamic_filter/types.hpp"
 
@@ -30,6 +31,9 @@ struct OpenOptions {
     std::string topic;       ///< of a bag's scans; empty: the only one
     std::string pose_topic;  ///< of a bag's poses, or "/tf"; empty: chosen, and a note says how
     bool deskew = false;     ///< undo the sensor's motion during each scan
+    PoseFix pose_fix = PoseFix::none;
+    bool points_in_world = false;  ///< scans are in the poses' frame, not in the sensor's
+    double time_unit = 1.0;        ///< [s] of the stamps of scans and poses
 };
 
 /// What is known without reading the scans. Immutable after open_sequence; thread-safe.
@@ -44,6 +48,8 @@ struct Sequence {
     bool measured_stamps = false;
     Trajectory trajectory;  ///< poses as dense in time as the recording has them; may be empty
     bool deskew = false;
+    bool points_in_world = false;
+    PoseFix pose_fix = PoseFix::none;     ///< of the poses in the scans' files; all others have it
     std::shared_ptr<const BagScans> bag;  ///< of format `bag`
     std::vector<std::size_t> bag_scans;   ///< parallel to scan_files: places in it
     bool intensity_is_truth = false;      ///< `benchmark` with ground truth in the intensity
