@@ -3,6 +3,7 @@
 
 #include "commands.hpp"
 #include "config_file.hpp"
+#include "dynamic_filter/io/preflight.hpp"
 #include "frames.hpp"
 #include "progress.hpp"
 #include "run_sequence.hpp"
@@ -19,6 +20,10 @@ int run(const RunOptions& o) {
     }
     const OutputFolder output(named ? *o.output : default_output(), Contents::result, o.overwrite);
     for (const std::string& note : sequence.notes) fmt::print(stderr, "note: {}\n", note);
+    for (const io::Finding& finding : io::check_recording(sequence, io::Depth::quick).findings) {
+        fmt::print(stderr, "warning: {}; try {} (`dynamicfilter check` looks closer)\n",
+                   finding.what, finding.advice);
+    }
 
     catch_interrupts();
     const Pace pace{.threads = o.threads,

@@ -29,8 +29,12 @@ struct Preflight {
     std::size_t scans = 0;          ///< that were read
 };
 
-/// Looks at about five scans at each of so many places of the recording. Scans that cannot be read
-/// are left out. Reads them one by one; 12 places of a 64-beam recording take a second.
-Preflight check_recording(const Sequence& sequence, std::size_t places);
+/// Quick: about 15 scans; finds what makes the scans overlay badly as a whole. Thorough: 60, and
+/// looks whether moving them about makes them fit better.
+enum class Depth { quick, thorough };
+
+/// Looks at a few scans at each of some places of the recording. Scans that cannot be read are left
+/// out. Thorough takes a second or two for 64 beams, quick a tenth of one.
+Preflight check_recording(const Sequence& sequence, Depth depth);
 
 }  // namespace dynamic_filter::io

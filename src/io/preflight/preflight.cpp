@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+#include "dynamic_filter/io/preflight.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "overlay.hpp"
+#include "samples.hpp"
+
+namespace dynamic_filter::io {
+namespace {
+
+double share_of(const std::vector<Overlay>& overlays, const std::string& reading) {
+    const auto found = std::find_if(overlays.begin(), overlays.end(),
+                                    [&](const Overlay& o) { return o.reading == reading; });
+    return found == overlays.end() ? 0.0 : found->share;
+}
+
+/// Clearly more than what chance and a moving scene make of it.
+bool clearly_better(double share, double than) { return share > 1.1 * than + 0.02; }
+
+bool all_equal(const Samples& samples) {
+    return std::all_of(samples.begin(), samples.end(), [&](const auto& sample) {
+        return sample.second.T_world_sensor.isApprox(samples.begin()->second.T_world_sensor, 1e-9);
+    });
+}
+
+/// Scans in the world's frame have their ground where the pose is, not at the origin.
+bool lie_in_world(const Samples& samples) {
+    constexpr double kAway = 10.0;  // [m]
+    std::size_t near_origin = 0, near_pose = 0;
+    for (const auto& [i, sample] : samples) {
+        if (sample.T_world_sensor.translation().norm() < kAway) continue;
+        near_origin += sample.near_origin;
+        near_pose += sample.near_pose;
+    }
+    return near_pose > 2 * near_origin + 100;
+}
+
+/// The sensors of robots stand upright, as long as they do not fly.
+bool hang_upside_down(const Samples& samples, const Reading& reading) {
+    return std::all_of(samples.begin(), samples.end(), [&](const auto& sample) {
+        return reading.pose(sample.second.T_world_sensor)(2, 2) < -0.5;
+    });
+}
+
+std::string meaning_of(const std::string& reading) {
+    static const std::map<std::string, std::string> meanings = {
+        {"inverse", "the poses are inverse (T_sensor_world)"},
+        {"camera", "the poses are a camera's, not the LiDAR's"},
+        {"lidar", "the poses are the LiDAR's already, but calib.txt makes them a camera's"},
+        {"wxyz", "the quaternions are w x y z, but were read as x y z w"},
+        {"xyzw", "the quaternions are x y z w, but were read as w x y z"},
+        {"mm", "the poses are in millimetres"},
+    };
+    return meanings.at(reading);
+}
+
+std::string fits_better(const std::vector<Overlay>& overlays, const std::string& reading) {
+    return fmt::format("scans overlay by {:.0f} % so, by {:.0f} % as given",
+                       100.0 * share_of(overlays, reading), 100.0 * share_of(overlays, kAsGiven));
+}
+
+Finding pose_finding(const std::vector<Overlay>& overlays, const std::string& reading) {
+    return {meaning_of(reading) + ": " + fits_better(overlays, reading), "--pose-fix " + reading};
+}
+
+/// While the sensor stands still, scans far apart overlay as well as neighbours do.
+bool stands_still(const Samples& samples, const std::vector<Pair>& pairs) {
+    std::vector<Pair> near, far;
+    for (const Pair& pair : pairs) (pair.apart == kApart.front() ? near : far).push_back(pair);
+    return share_of(compare(samples, far), kInWorld) >
+           0.8 * share_of(compare(samples, near), kInWorld);
+}
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+/// Poses that fit cannot be bettered by moving scans about.
+std::optional<Finding> misfit(const Samples& samples, const std::vector<Pair>& pairs) {
+    std::vector<double> given, best, offset;
+    for (const Pair& pair : pairs) {
+        const auto a = samples.find(pair.from), b = samples.find(pair.from + pair.apart);
+        if (pair.apart != kApart[1] || a == samples.end() || b == samples.end()) continue;
+        const Search search = search_around(a->second, b->second);
+        given.push_back(search.given);
+        best.push_back(search.best);
+        offset.push_back(search.offset);
+    }
+    constexpr double kFar = 0.7;  // [m]
+    if (given.empty() || median(offset) < kFar || median(best) < 1.5 * median(given) + 0.02) {
+        return std::nullopt;
+    }
+    return Finding{
+        fmt::format("the poses do not fit the scans: those {} scans apart overlay by "
+                    "{:.0f} %, but by {:.0f} % if moved by {:.1f} m",
+                    kApart[1], 100.0 * median(given), 100.0 * median(best), median(offset)),
+        "look whether they are of this recording, and of the same times; give others "
+        "with --poses"};
+}
+
+void judge_poses(Preflight& result, const Sequence& sequence, const Samples& samples,
+                 const std::vector<Pair>& pairs) {
+    const auto& overlays = result.overlays;
+    const double given = share_of(overlays, kAsGiven);
+    if (all_equal(samples)) {
+        if (stands_still(samples, pairs)) return;
+        result.findings.push_back(
+            {"all poses are equal, but what the scans show moves",
+             "give the trajectory with --poses; if the scans are in the world's frame, too"});
+        return;
+    }
+    const bool files_in_world = sequence.format == Format::benchmark;
+    if (!files_in_world && lie_in_world(samples)) {
+        result.findings.push_back(
+            {"the points are in the world's frame already: " + fits_better(overlays, kInWorld),
+             "--points-in-world"});
+        return;
+    }
+    const auto best =
+        std::max_element(overlays.begin(), overlays.end(),
+                         [](const Overlay& a, const Overlay& b) { return a.share < b.share; });
+    const bool much = clearly_better(best->share, given);
+    const bool is_fix =
+        best->reading != kAsGiven && best->reading != kInWorld && best->reading != kInSensor;
+    if (is_fix) {
+        const auto& all = readings();
+        const auto& as_best = all[static_cast<std::size_t>(best - overlays.begin())];
+        const bool upright_instead =
+            hang_upside_down(samples, all.front()) && !hang_upside_down(samples, as_best);
+        if (much || upright_instead) {
+            result.findings.push_back(pose_finding(overlays, best->reading));
+            return;
+        }
+    }
+    if (much && best->reading == kInSensor && files_in_world) {
+        result.findings.push_back(
+            {"the points are in the sensor's frame, but this format has them in the world's: " +
+                 fits_better(overlays, kInSensor),
+             "--format folder with a pose file"});
+    }
+}
+
+void judge_points(Preflight& result, const Samples& samples) {
+    constexpr double kSuspicious = 0.2;
+    std::vector<double> doubled;
+    for (const auto& [i, sample] : samples) doubled.push_back(sample.doubled);
+    if (doubled.empty() || lie_in_world(samples)) return;  // seen from elsewhere
+    const double typical = median(std::move(doubled));
+    if (typical < kSuspicious) return;
+    result.findings.push_back(
+        {fmt::format("{:.0f} % of the points that lie in one direction are at different ranges: "
+                     "several sensors or several sweeps are merged into one scan",
+                     100.0 * typical),
+         "use the scans of one sensor, each with its own pose"});
+}
+
+void judge_stamps(Preflight& result, const Sequence& sequence) {
+    if (!sequence.measured_stamps || sequence.size() < 3) return;
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < sequence.size(); ++i) {
+        steps.push_back(sequence.stamps[i] - sequence.stamps[i - 1]);
+    }
+    const double step = median(std::move(steps));
+    constexpr double kLongest = 20.0, kShortest = 1e-3;  // [s] between scans
+    if (step < kLongest && step > kShortest) return;
+    for (const auto& [unit, seconds] : {std::pair{"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}}) {
+        if (step * seconds > 0.5 * kLongest || step * seconds < 10.0 * kShortest) continue;
+        result.findings.push_back({fmt::format("the stamps are not in seconds: scans are {:.4g} "
+                                               "apart, which are {:.3g} s if it is {}",
+                                               step, step * seconds, unit),
+                                   fmt::format("--time-unit {}", unit)});
+        return;
+    }
+    result.findings.push_back({fmt::format("scans are {:.3g} s apart", step),
+                               "look at the stamps; they should be in seconds"});
+}
+
+}  // namespace
+
+Preflight check_recording(const Sequence& sequence, Depth depth) {
+    const std::size_t places = depth == Depth::thorough ? 12 : 3;
+    const std::vector<Pair> pairs = choose_pairs(sequence.size(), places);
+    const Samples samples = read_samples(sequence, pairs);
+    Preflight result;
+    result.scans = samples.size();
+    result.overlays = compare(samples, pairs);
+    judge_stamps(result, sequence);
+    judge_points(result, samples);
+    if (result.overlays.empty()) return result;
+    judge_poses(result, sequence, samples, pairs);
+    if (!result.findings.empty() || depth == Depth::quick) return result;
+    if (auto finding = misfit(samples, pairs)) result.findings.push_back(std::move(*finding));
+    return result;
+}
+
+}  // namespace dynamic_filter::io

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include "samples.hpp"
+
+#include <tsl/robin_map.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/geometry/voxel.hpp"
+
+namespace dynamic_filter::io {
+namespace {
+
+constexpr float kNearest = 2.0F, kFarthest = 30.0F;  // [m]
+
+/// What stands upright. The ground is left out: the rings on it look the same from everywhere, as
+/// if nothing had moved.
+Points upright(const Points& points) {
+    constexpr float kColumn = 0.6F, kTall = 0.5F;  // [m]
+    struct Extent {
+        float low, high;
+    };
+    tsl::robin_map<VoxelKey, Extent, VoxelHash> columns;
+    const auto column_of = [&](const Point& p) -> std::optional<VoxelKey> {
+        const bool usable = is_measured(p) && p.norm() > kNearest && p.norm() < kFarthest;
+        const auto cell = usable ? cell_of({p.x(), p.y(), 0.0F}, 1.0F / kColumn) : std::nullopt;
+        return cell ? std::optional(pack(*cell)) : std::nullopt;
+    };
+    for (const Point& p : points) {
+        if (const auto column = column_of(p)) {
+            Extent& e = columns.try_emplace(*column, Extent{p.z(), p.z()}).first.value();
+            e = {std::min(e.low, p.z()), std::max(e.high, p.z())};
+        }
+    }
+    Points kept;
+    for (const Point& p : points) {
+        const auto column = column_of(p);
+        if (!column) continue;
+        const Extent& e = columns.at(*column);
+        if (e.high - e.low > kTall && p.z() > e.low + 0.5F * kTall) kept.push_back(p);
+    }
+    return kept;
+}
+
+/// Of the pairs of points in nearly the same direction, how many are not at the same range: from
+/// one place one sees one thing. Two returns of one beam have exactly one direction.
+double share_of_doubles(const Points& points) {
+    constexpr float kPixel = 0.2F * 3.14159265F / 180.0F, kSame = 0.02F * kPixel;
+    struct Direction {
+        float azimuth, elevation, range;
+    };
+    tsl::robin_map<VoxelKey, Direction, VoxelHash> first;
+    std::size_t pairs = 0, doubles = 0;
+    for (const Point& p : points) {
+        const float range = p.norm();
+        if (!is_measured(p) || range < kNearest || range > kFarthest) continue;
+        const Direction d{std::atan2(p.y(), p.x()), std::asin(p.z() / range), range};
+        const auto cell = cell_of({d.azimuth, d.elevation, 0.0F}, 1.0F / kPixel);
+        const auto [it, fresh] = first.try_emplace(pack(*cell), d);
+        if (fresh) continue;
+        const Direction& other = it->second;
+        const bool one_beam = std::abs(d.azimuth - other.azimuth) < kSame &&
+                              std::abs(d.elevation - other.elevation) < kSame;
+        if (one_beam) continue;
+        ++pairs;
+        doubles += std::abs(range - other.range) > std::max(0.5F, 0.1F * range) ? 1 : 0;
+    }
+    constexpr double kEnough = 0.015;  // a seam, edges and a window make some
+    const bool many = static_cast<double>(doubles) > kEnough * static_cast<double>(points.size());
+    return many ? static_cast<double>(doubles) / static_cast<double>(pairs) : 0.0;
+}
+
+std::size_t count_near(const Points& points, const Point& place) {
+    constexpr float kNear = 6.0F;  // [m] a LiDAR on a car or robot sees the ground there
+    return static_cast<std::size_t>(std::count_if(
+        points.begin(), points.end(),
+        [&](const Point& p) { return is_measured(p) && (p - place).norm() < kNear; }));
+}
+
+std::optional<Sample> read_sample(const Sequence& sequence, std::size_t i) {
+    try {
+        const Frame frame = read_frame(sequence, i);
+        const Point said = frame.T_world_sensor.translation().cast<float>();
+        return Sample{upright(frame.points), frame.T_world_sensor, share_of_doubles(frame.points),
+                      count_near(frame.points, Point::Zero()), count_near(frame.points, said)};
+    } catch (const InputError&) {
+        return std::nullopt;
+    }
+}
+
+}  // namespace
+
+std::vector<Pair> choose_pairs(std::size_t scans, std::size_t places) {
+    std::vector<Pair> pairs;
+    for (std::size_t k = 0; k < places; ++k) {
+        const std::size_t from = k * scans / places;
+        for (const std::size_t apart : kApart) {
+            if (from + apart < scans) pairs.push_back({from, apart});
+        }
+    }
+    return pairs;
+}
+
+Samples read_samples(const Sequence& sequence, const std::vector<Pair>& pairs) {
+    Samples samples;
+    for (const Pair& pair : pairs) {
+        for (const std::size_t i : {pair.from, pair.from + pair.apart}) {
+            if (samples.contains(i)) continue;
+            if (auto sample = read_sample(sequence, i)) samples.emplace(i, std::move(*sample));
+        }
+    }
+    return samples;
+}
+
+}  // namespace dynamic_filter::io
