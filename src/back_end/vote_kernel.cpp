@@ -39,7 +39,7 @@ float vote(const VoteArgs& args) {
             smaller(last, zero + args.own_last) - larger(first, zero + args.own_first) + 1.0F;
         const Floats either =
             larger(last, zero + args.own_last) - smaller(first, zero + args.own_first) + 1.0F;
-        const Floats together = votes & (both > 0.0F) ? both / either : zero;
+        const Floats together = (votes & (both > 0.0F)) ? both / either : zero;
         company += together * opinion;
         companions += together;
         const Floats weight = votes ? (distance > 1.5F ? zero + kFar : zero + 1.0F) : zero;

@@ -72,17 +72,16 @@ template <class Use>
 void VoxelNeighbors::each_in_box(const VoxelIndex& index, std::uint32_t block, const Cell& low,
                                  const Cell& high, const Use& use) const {
     const Cell home = index.corner(block), from = low - home, to = high - home;
-    std::array<std::array<std::uint64_t, 3>, 3> parts;  // of the three blocks along each axis
-    for (int axis = 0; axis < 3; ++axis) {
-        for (int b = 0; b < 3; ++b) {
-            const int first = 4 * (b - 1);
-            parts[axis][b] = slab(axis, from[axis] - first, to[axis] - first);
-        }
-    }
+    // Places along an axis in the block below, the block itself and the one above.
+    const auto parts = [&](int axis) {
+        const auto of = [&](int first) { return slab(axis, from[axis] - first, to[axis] - first); };
+        return std::array{of(-4), of(0), of(4)};
+    };
+    const auto in_x = parts(0), in_y = parts(1), in_z = parts(2);
     const Around& around = around_[block];
     for (std::size_t b = 0; b < around.size(); ++b) {
         const std::size_t x = b / 9, y = b / 3 % 3, z = b % 3;
-        const std::uint64_t wanted = parts[0][x] & parts[1][y] & parts[2][z];
+        const std::uint64_t wanted = in_x[x] & in_y[y] & in_z[z];
         if (wanted == 0 || around[b] == kNoBlock) continue;
         const Cell corner =
             home +
