@@ -1,4 +1,4 @@
-foreach(unit config_file map_files output_folder report top_view)
+foreach(unit check config_file map_files output_folder report top_view)
   df_test(apps/${unit} dynamic_filter_app)
 endforeach()
 df_test(apps/command dynamic_filter_app)

@@ -13,6 +13,9 @@
 namespace dynamic_filter::io {
 namespace {
 
+constexpr const char* kOtherPoses =
+    "look whether they are of this recording, and of the same times; give others with --poses";
+
 double share_of(const std::vector<Overlay>& overlays, const std::string& reading) {
     const auto found = std::find_if(overlays.begin(), overlays.end(),
                                     [&](const Overlay& o) { return o.reading == reading; });
@@ -101,8 +104,7 @@ std::optional<Finding> misfit(const Samples& samples, const std::vector<Pair>& p
         fmt::format("the poses do not fit the scans: those {} scans apart overlay by "
                     "{:.0f} %, but by {:.0f} % if moved by {:.1f} m",
                     kApart[1], 100.0 * median(given), 100.0 * median(best), median(offset)),
-        "look whether they are of this recording, and of the same times; give others "
-        "with --poses"};
+        kOtherPoses};
 }
 
 void judge_poses(Preflight& result, const Sequence& sequence, const Samples& samples,
@@ -127,23 +129,33 @@ void judge_poses(Preflight& result, const Sequence& sequence, const Samples& sam
         std::max_element(overlays.begin(), overlays.end(),
                          [](const Overlay& a, const Overlay& b) { return a.share < b.share; });
     const bool much = clearly_better(best->share, given);
-    const bool is_fix =
-        best->reading != kAsGiven && best->reading != kInWorld && best->reading != kInSensor;
-    if (is_fix) {
-        const auto& all = readings();
-        const auto& as_best = all[static_cast<std::size_t>(best - overlays.begin())];
-        const bool upright_instead =
-            hang_upside_down(samples, all.front()) && !hang_upside_down(samples, as_best);
-        if (much || upright_instead) {
-            result.findings.push_back(pose_finding(overlays, best->reading));
-            return;
+    if (best->reading == kAsGiven) return;
+    if (best->reading == kInSensor && files_in_world) {
+        if (much) {
+            result.findings.push_back(
+                {"the points are in the sensor's frame, but this format has them in the world's: " +
+                     fits_better(overlays, kInSensor),
+                 "--format folder with a pose file"});
         }
+        return;
     }
-    if (much && best->reading == kInSensor && files_in_world) {
-        result.findings.push_back(
-            {"the points are in the sensor's frame, but this format has them in the world's: " +
-                 fits_better(overlays, kInSensor),
-             "--format folder with a pose file"});
+    // A thousandth of any motion is as good as none.
+    const bool as_if_still = best->share < 1.02 * share_of(overlays, kInWorld);
+    if (as_if_still || best->reading == kInSensor) {
+        if (much) {
+            result.findings.push_back(
+                {"the poses do not fit the scans: " + fits_better(overlays, kInWorld) +
+                     ", as if nothing moved",
+                 kOtherPoses});
+        }
+        return;
+    }
+    const auto& all = readings();
+    const auto& as_best = all[static_cast<std::size_t>(best - overlays.begin())];
+    const bool upright_instead =
+        hang_upside_down(samples, all.front()) && !hang_upside_down(samples, as_best);
+    if (much || upright_instead) {
+        result.findings.push_back(pose_finding(overlays, best->reading));
     }
 }
 

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// check on copies of a simulated recording, each with a mistake that users make.
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "dynamic_filter/io/preflight.hpp"
+#include "dynamic_filter/io/writers.hpp"
+#include "support/temporary_folder.hpp"
+#include "write_simulation.hpp"
+
+namespace dynamic_filter::io {
+namespace {
+
+class Check : public testing::Test {
+protected:
+    static void SetUpTestSuite() {
+        folder = std::make_unique<test::TemporaryFolder>();
+        sim::SimulationOptions options;
+        options.scene = "square";
+        options.sensor = "vlp16";
+        options.frames = 60;
+        app::write_simulation(options, folder->path());
+    }
+    static void TearDownTestSuite() { folder.reset(); }
+
+    static Preflight after(const std::function<void(Sequence&)>& mistake,
+                           const OpenOptions& options = {}) {
+        Sequence sequence = open_sequence(folder->path(), options);
+        mistake(sequence);
+        return check_recording(sequence, Depth::thorough);
+    }
+    /// The recording with other points.
+    static std::unique_ptr<test::TemporaryFolder> write_copy(
+        const std::function<Points(const Frame&)>& points_of) {
+        auto copy = std::make_unique<test::TemporaryFolder>();
+        const Sequence sequence = open_sequence(folder->path());
+        std::filesystem::create_directories(copy->path() / "velodyne");
+        for (std::size_t i = 0; i < sequence.size(); ++i) {
+            const Points points = points_of(read_frame(sequence, i));
+            write_bin(copy->path() / "velodyne" / (stem(sequence, i) + ".bin"), points,
+                      std::vector<float>(points.size()));
+        }
+        write_poses_kitti(copy->path() / "poses.txt", sequence.T_world_sensor);
+        return copy;
+    }
+    static void change_poses(Sequence& sequence, const std::function<Pose(const Pose&)>& change) {
+        for (Pose& pose : sequence.T_world_sensor) pose = change(pose);
+    }
+    static std::unique_ptr<test::TemporaryFolder> folder;
+};
+std::unique_ptr<test::TemporaryFolder> Check::folder;
+
+void expect_only(const Preflight& result, const std::string& what, const std::string& advice) {
+    ASSERT_EQ(result.findings.size(), 1U) << what;
+    EXPECT_NE(result.findings[0].what.find(what), std::string::npos) << result.findings[0].what;
+    EXPECT_NE(result.findings[0].advice.find(advice), std::string::npos);
+}
+
+TEST_F(Check, FindsNothingInTheOriginal) {
+    const Preflight result = after([](Sequence&) {});
+    EXPECT_TRUE(result.findings.empty()) << result.findings[0].what;
+    EXPECT_EQ(result.overlays.front().reading, "as given");
+    EXPECT_GT(result.overlays.front().share, 0.4);
+}
+
+TEST_F(Check, NamesTheReadingOfThePosesThatFits) {
+    const std::vector<std::pair<PoseFix, PoseFix>> undone_by = {
+        {PoseFix::inverse, PoseFix::inverse},
+        {PoseFix::camera, PoseFix::lidar},
+        {PoseFix::lidar, PoseFix::camera},
+        {PoseFix::wxyz, PoseFix::xyzw},
+        {PoseFix::xyzw, PoseFix::wxyz}};
+    for (const auto& [mistake, fix] : undone_by) {
+        const Preflight result = after([&, m = mistake](Sequence& sequence) {
+            change_poses(sequence, [m](const Pose& pose) { return fixed(m, pose); });
+        });
+        expect_only(result, "overlay", "--pose-fix " + to_string(fix));
+    }
+    const auto thousandfold = [](Sequence& sequence) {
+        change_poses(sequence, [](Pose pose) {
+            pose.translation() *= 1000.0;
+            return pose;
+        });
+    };
+    expect_only(after(thousandfold), "millimetres", "--pose-fix mm");
+}
+
+TEST_F(Check, NamesPosesThatDoNotMoveAndThoseOfAnotherWay) {
+    expect_only(after([](Sequence& sequence) {
+                    change_poses(sequence, [first = sequence.T_world_sensor[0]](const Pose&) {
+                        return first;
+                    });
+                }),
+                "all poses are equal", "--poses");
+    expect_only(after([](Sequence& sequence) {
+                    for (std::size_t i = 0; i < sequence.size(); ++i) {
+                        const double angle = 0.3 * static_cast<double>(i);
+                        sequence.T_world_sensor[i] =
+                            Eigen::Translation3d(30.0 * std::cos(angle), 30.0 * std::sin(angle), 0);
+                    }
+                }),
+                "do not fit", "--poses");
+}
+
+TEST_F(Check, NamesPointsInTheWorldAndMergedSensors) {
+    const auto in_world = write_copy([](const Frame& frame) {
+        Points points = frame.points;
+        for (Point& p : points) p = (frame.T_world_sensor * p.cast<double>()).cast<float>();
+        return points;
+    });
+    const Sequence world = open_sequence(in_world->path());
+    expect_only(check_recording(world, Depth::thorough), "world's frame", "--points-in-world");
+    OpenOptions as_they_are;
+    as_they_are.points_in_world = true;
+    EXPECT_TRUE(check_recording(open_sequence(in_world->path(), as_they_are), Depth::thorough)
+                    .findings.empty());
+
+    const auto merged = write_copy([](const Frame& frame) {
+        Points points = frame.points;
+        const Eigen::Isometry3f other =
+            Eigen::Translation3f(1.2F, 0.5F, -0.3F) * Eigen::AngleAxisf(0.02F, Point::UnitZ());
+        for (const Point& p : frame.points) points.push_back(other * p);
+        return points;
+    });
+    expect_only(check_recording(open_sequence(merged->path()), Depth::thorough), "merged", "one");
+}
+
+TEST_F(Check, NamesTheUnitOfTime) {
+    for (const auto& [unit, factor] : {std::pair{"ms", 1e3}, {"us", 1e6}, {"ns", 1e9}}) {
+        const Preflight result = after([&, f = factor](Sequence& sequence) {
+            for (double& stamp : sequence.stamps) stamp *= f;
+        });
+        expect_only(result, "not in seconds", std::string("--time-unit ") + unit);
+    }
+}
+
+TEST_F(Check, EveryFixUndoesItsMistake) {
+    EXPECT_EQ(pose_fixes().size(), 6U);
+    Pose pose = Pose(Eigen::Translation3d(1, 2, 3)) *
+                Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, -1).normalized());
+    EXPECT_TRUE(fixed(PoseFix::inverse, fixed(PoseFix::inverse, pose)).isApprox(pose, 1e-12));
+    EXPECT_TRUE(fixed(PoseFix::camera, fixed(PoseFix::lidar, pose)).isApprox(pose, 1e-12));
+    EXPECT_TRUE(fixed(PoseFix::wxyz, fixed(PoseFix::xyzw, pose)).isApprox(pose, 1e-12));
+    EXPECT_TRUE(fixed(PoseFix::none, pose).isApprox(pose, 0.0));
+}
+
+}  // namespace
+}  // namespace dynamic_filter::io
