@@ -1,5 +1,5 @@
-foreach(unit benchmark cloud file frame layout lzf matching natural_order pcd pcd_header ply
-             ply_header png pose_table poses records rigid sequence text writers)
+foreach(unit bag_writer benchmark cloud file frame layout lzf matching messages natural_order pcd
+             pcd_header ply ply_header png pose_table poses records rigid sequence text writers)
   df_test(io/${unit} dynamic_filter_io)
   # Units behind the public headers are tested too.
   target_include_directories(io_${unit}_test PRIVATE ${PROJECT_SOURCE_DIR}/src)

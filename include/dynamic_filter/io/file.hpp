@@ -27,6 +27,8 @@ public:
     void write(std::string_view text);
     void rewrite(std::size_t offset, std::string_view text);  ///< overwrites bytes already written
     void commit();                                            ///< flushes, fsyncs, renames
+    /// What it is called until then, for libraries that write by name.
+    [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
 
 private:
     void flush();

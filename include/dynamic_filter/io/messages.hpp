@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+/// ROS messages as bytes, for BagWriter. Stamps [s], rounded to nanoseconds; they and the text must
+/// fit the message, else Error. Covariances and velocities are zero. All are thread-safe.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "dynamic_filter/io/bag.hpp"
+#include "dynamic_filter/io/cloud.hpp"
+#include "dynamic_filter/types.hpp"
+
+namespace dynamic_filter::io {
+
+/// Rounded; exact where the double is. Throws Error if not in [0, 2^31 s), which is all that both
+/// generations of ROS can say.
+std::int64_t to_nanoseconds(double stamp);
+
+/// sensor_msgs/PointCloud2 with the cloud's fields in their order. It knows no 64-bit integers:
+/// those become float64. Throws Error if x, y or z is missing.
+std::vector<std::byte> cloud_message(const Cloud& cloud, double stamp, const std::string& frame,
+                                     MessageEncoding encoding);
+
+/// tf2_msgs/TFMessage with one transform.
+std::vector<std::byte> transform_message(const std::string& parent, const std::string& child,
+                                         const Pose& T_parent_child, double stamp,
+                                         MessageEncoding encoding);
+
+/// nav_msgs/Odometry.
+std::vector<std::byte> odometry_message(const std::string& parent, const std::string& child,
+                                        const Pose& T_parent_child, double stamp,
+                                        MessageEncoding encoding);
+
+/// geometry_msgs/PoseStamped.
+std::vector<std::byte> pose_message(const std::string& frame, const Pose& pose, double stamp,
+                                    MessageEncoding encoding);
+
+}  // namespace dynamic_filter::io

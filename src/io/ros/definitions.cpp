@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include "io/ros/definitions.hpp"
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+#include <string_view>
+#include <vector>
+
+namespace dynamic_filter::io {
+namespace {
+
+struct Part {
+    std::string_view type, fields;
+};
+
+constexpr std::array kParts = {
+    Part{"geometry_msgs/Point", "float64 x\nfloat64 y\nfloat64 z\n"},
+    Part{"geometry_msgs/Pose",
+         "geometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n"},
+    Part{"geometry_msgs/PoseStamped", "std_msgs/Header header\ngeometry_msgs/Pose pose\n"},
+    Part{"geometry_msgs/PoseWithCovariance", "geometry_msgs/Pose pose\nfloat64[36] covariance\n"},
+    Part{"geometry_msgs/Quaternion", "float64 x\nfloat64 y\nfloat64 z\nfloat64 w\n"},
+    Part{"geometry_msgs/Transform",
+         "geometry_msgs/Vector3 translation\ngeometry_msgs/Quaternion rotation\n"},
+    Part{"geometry_msgs/TransformStamped",
+         "std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/Transform transform\n"},
+    Part{"geometry_msgs/Twist", "geometry_msgs/Vector3 linear\ngeometry_msgs/Vector3 angular\n"},
+    Part{"geometry_msgs/TwistWithCovariance",
+         "geometry_msgs/Twist twist\nfloat64[36] covariance\n"},
+    Part{"geometry_msgs/Vector3", "float64 x\nfloat64 y\nfloat64 z\n"},
+    Part{"nav_msgs/Odometry",
+         "std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/PoseWithCovariance pose\n"
+         "geometry_msgs/TwistWithCovariance twist\n"},
+    Part{"sensor_msgs/PointCloud2",
+         "std_msgs/Header header\nuint32 height\nuint32 width\nsensor_msgs/PointField[] fields\n"
+         "bool is_bigendian\nuint32 point_step\nuint32 row_step\nuint8[] data\nbool is_dense\n"},
+    Part{"sensor_msgs/PointField",
+         "uint8 INT8=1\nuint8 UINT8=2\nuint8 INT16=3\nuint8 UINT16=4\nuint8 INT32=5\n"
+         "uint8 UINT32=6\nuint8 FLOAT32=7\nuint8 FLOAT64=8\nstring name\nuint32 offset\n"
+         "uint8 datatype\nuint32 count\n"},
+    Part{"tf2_msgs/TFMessage", "geometry_msgs/TransformStamped[] transforms\n"},
+};
+
+constexpr std::array kOfRos1 = {
+    Part{"std_msgs/Header", "uint32 seq\ntime stamp\nstring frame_id\n"},
+};
+constexpr std::array kOfRos2 = {
+    Part{"builtin_interfaces/Time", "int32 sec\nuint32 nanosec\n"},
+    Part{"std_msgs/Header", "builtin_interfaces/Time stamp\nstring frame_id\n"},
+};
+
+std::string_view fields_in(std::span<const Part> parts, std::string_view type) {
+    const auto found = std::find_if(parts.begin(), parts.end(),
+                                    [&](const Part& part) { return part.type == type; });
+    return found == parts.end() ? std::string_view{} : found->fields;
+}
+
+std::string fields_of(std::string_view type, MessageEncoding encoding) {
+    const std::string_view shared = fields_in(kParts, type);
+    if (!shared.empty()) return std::string(shared);
+    return std::string(encoding == MessageEncoding::ros1 ? fields_in(kOfRos1, type)
+                                                         : fields_in(kOfRos2, type));
+}
+
+/// The types with a package's name among the fields.
+std::vector<std::string> types_in(const std::string& fields) {
+    std::vector<std::string> types;
+    std::istringstream lines(fields);
+    for (std::string type, rest; lines >> type && std::getline(lines, rest);) {
+        if (type.find('/') != std::string::npos) types.push_back(type.substr(0, type.find('[')));
+    }
+    return types;
+}
+
+}  // namespace
+
+const Definition* find_definition(const std::string& type) {
+    static const std::array definitions = {
+        Definition{"geometry_msgs/PoseStamped", "d3812c3cbc69362b77dc0b19b345f8f5"},
+        Definition{"nav_msgs/Odometry", "cd5e73d190d741a2f92e81eda573aca7"},
+        Definition{"sensor_msgs/PointCloud2", "1158d486dd51d683ce2f1be655c3c181"},
+        Definition{"tf2_msgs/TFMessage", "94810edda583a504dfda3829e70d7eec"},
+    };
+    const auto found = std::find_if(definitions.begin(), definitions.end(),
+                                    [&](const Definition& d) { return d.type == type; });
+    return found == definitions.end() ? nullptr : &*found;
+}
+
+std::string full_definition(const std::string& type, MessageEncoding encoding) {
+    constexpr std::size_t kRule = 80;  // what parsers look for between the types
+    std::vector<std::string> types{type};
+    std::string text;
+    for (std::size_t i = 0; i < types.size(); ++i) {
+        const std::string fields = fields_of(types[i], encoding);
+        if (i > 0) text += std::string(kRule, '=') + "\nMSG: " + types[i] + "\n";
+        text += fields;
+        for (const std::string& part : types_in(fields)) {
+            if (std::find(types.begin(), types.end(), part) == types.end()) types.push_back(part);
+        }
+    }
+    return text;
+}
+
+std::string ros2_type(const std::string& type) {
+    const std::size_t slash = type.find('/');
+    return type.substr(0, slash) + "/msg" + type.substr(slash);
+}
+
+}  // namespace dynamic_filter::io
