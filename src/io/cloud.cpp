@@ -145,12 +145,44 @@ Cloud read_bin(const std::filesystem::path& file) {
     return cloud;
 }
 
-Cloud read_cloud(const std::filesystem::path& file) {
+namespace {
+
+using Reader = Cloud (*)(const std::filesystem::path&);
+
+const std::vector<std::pair<std::string, Reader>>& readers() {
+    static const std::vector<std::pair<std::string, Reader>> all = {
+        {".pcd", read_pcd},        {".ply", read_ply},        {".bin", read_bin},
+        {".las", read_las},        {".laz", read_las},        {".npy", read_npy},
+        {".xyz", read_text_cloud}, {".txt", read_text_cloud}, {".csv", read_text_cloud}};
+    return all;
+}
+
+Reader reader_of(const std::filesystem::path& file) {
     const std::string extension = to_lower(file.extension().string());
-    if (extension == ".pcd") return read_pcd(file);
-    if (extension == ".ply") return read_ply(file);
-    if (extension == ".bin") return read_bin(file);
-    throw InputError(file, "", "unknown kind of cloud; expected .pcd, .ply or .bin");
+    for (const auto& [known, reader] : readers()) {
+        if (extension == known) return reader;
+    }
+    return nullptr;
+}
+
+}  // namespace
+
+bool is_cloud(const std::filesystem::path& file) { return reader_of(file) != nullptr; }
+
+std::string cloud_kinds() {
+    std::string kinds;
+    for (const auto& [extension, reader] : readers()) {
+        if (extension != ".laz") kinds += (kinds.empty() ? "" : ", ") + extension;
+    }
+    return kinds;
+}
+
+Cloud read_cloud(const std::filesystem::path& file) {
+    const Reader reader = reader_of(file);
+    if (reader == nullptr) {
+        throw InputError(file, "", "unknown kind of cloud; expected " + cloud_kinds());
+    }
+    return reader(file);
 }
 
 }  // namespace dynamic_filter::io

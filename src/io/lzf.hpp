@@ -17,4 +17,7 @@ constexpr std::size_t lzf_most_expansion = 88;
 std::optional<std::vector<std::byte>> lzf_expand(std::span<const std::byte> input,
                                                  std::size_t size);
 
+/// What lzf_expand makes `input` of again; up to 1/32 longer than it. At most 2^32 - 1 bytes.
+std::vector<std::byte> lzf_pack(std::span<const std::byte> input);
+
 }  // namespace dynamic_filter::io

@@ -189,7 +189,8 @@ PcdHeader parse_pcd_header(Lines& lines) { return HeaderParser(lines).parse(); }
 std::string pcd_count(std::size_t count) { return fmt::format("{:<{}}", count, pcd_count_width); }
 
 PcdHeaderText pcd_header_text(const std::vector<Field>& fields, std::size_t points,
-                              const Pose& viewpoint) {
+                              const Pose& viewpoint, PcdData data) {
+    constexpr std::array kinds = {"ascii", "binary", "binary_compressed"};
     std::string names = "FIELDS", sizes = "SIZE", types = "TYPE", counts = "COUNT";
     for (const Field& field : fields) {
         names += " " + field.name;
@@ -206,7 +207,7 @@ PcdHeaderText pcd_header_text(const std::vector<Field>& fields, std::size_t poin
     header.text += fmt::format("{}\nHEIGHT 1\nVIEWPOINT {} {} {} {} {} {} {}\nPOINTS ",
                                pcd_count(points), t.x(), t.y(), t.z(), q.w(), q.x(), q.y(), q.z());
     header.points_at = header.text.size();
-    header.text += pcd_count(points) + "\nDATA binary\n";
+    header.text += pcd_count(points) + "\nDATA " + kinds[static_cast<std::size_t>(data)] + "\n";
     return header;
 }
 

@@ -13,8 +13,6 @@
 
 namespace dynamic_filter::io {
 
-enum class PcdData : std::uint8_t { ascii, binary, compressed };
-
 struct PcdHeader {
     std::vector<Column> columns;
     std::uint64_t points = 0;
@@ -32,9 +30,9 @@ struct PcdHeaderText {
 };
 constexpr std::size_t pcd_count_width = 20;
 
-/// The header of a binary PCD with contiguous fields.
+/// The header of a PCD with contiguous fields.
 PcdHeaderText pcd_header_text(const std::vector<Field>& fields, std::size_t points,
-                              const Pose& viewpoint);
+                              const Pose& viewpoint, PcdData data = PcdData::binary);
 
 /// A count as the header holds it, padded behind.
 std::string pcd_count(std::size_t count);

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/io/cloud.hpp"
@@ -65,16 +64,6 @@ private:
     const std::filesystem::path& file_;
     bool big_;
 };
-
-void swap_bytes(Cloud& cloud) {
-    for (const Field& field : cloud.fields) {
-        const auto size = static_cast<std::ptrdiff_t>(size_of(field.type));
-        auto* value = cloud.data.data() + field.offset;
-        for (std::size_t i = 0; i < cloud.size(); ++i, value += cloud.point_bytes) {
-            std::reverse(value, value + size);
-        }
-    }
-}
 
 void read_ascii_body(Cloud& cloud, const PlyHeader& header, Lines& lines) {
     for (const PlyElement& element : header.before) {

@@ -14,6 +14,8 @@
 namespace dynamic_filter::io {
 namespace {
 
+constexpr std::size_t matrix_columns = 13;
+
 enum Role : std::size_t { x, y, z, qx, qy, qz, qw, time, role_count };
 
 constexpr std::array<const char*, role_count> role_names = {"x",  "y",  "z",  "qx",
@@ -124,30 +126,45 @@ bool begins_with_number(std::string_view line) {
     return parse_real(split_at(line, ',').front()).has_value();
 }
 
-/// The first line with commas names the columns, be it a comment or not.
-Columns read_header(Lines& lines) {
-    while (lines.next()) {
-        const std::string_view line = trim(lines.line());
-        if (line.find(',') == std::string_view::npos) continue;
-        if (begins_with_number(line)) {
-            lines.fail(
-                "a CSV of poses needs a header that names its columns, such as "
-                "timestamp,x,y,z,qx,qy,qz,qw");
-        }
-        return columns_of(line, lines);
+/// MulRan: nanoseconds, and a row-major 3x4 matrix.
+void append_matrix(PoseFile& file, std::string_view line, const Lines& lines) {
+    const auto cells = split_at(line, ',');
+    if (cells.size() != matrix_columns) {
+        lines.fail(fmt::format(
+            "{} columns and no header; a CSV of poses needs one that names its columns, such as "
+            "timestamp,x,y,z,qx,qy,qz,qw, or has 13: nanoseconds and a 3x4 matrix row by row",
+            cells.size()));
     }
-    throw InputError(lines.file(), "", "holds no CSV header");
+    std::array<double, matrix_columns> v{};
+    for (std::size_t i = 0; i < v.size(); ++i) {
+        const auto value = parse_real(cells[i]);
+        if (!value) lines.fail(quote(cells[i]) + " is no number");
+        v[i] = *value;
+    }
+    append_stamp(file, v[0] * 1e-9, lines);
+    const bool finite =
+        std::all_of(v.begin(), v.end(), [](double value) { return std::isfinite(value); });
+    file.poses.push_back(finite ? pose_from_rows(Eigen::Map<const Rows34>(v.data() + 1), lines)
+                                : lost_pose());
 }
 
 }  // namespace
 
 PoseFile read_pose_table(Lines& lines) {
-    const Columns columns = read_header(lines);
     PoseFile file;
+    std::optional<Columns> columns;  // of the header, the first line with commas, comment or not
     while (lines.next()) {
         const std::string_view line = trim(lines.line());
-        if (line.empty() || line.front() == '#') continue;
-        append_row(file, values_of(line, columns, lines), columns, lines);
+        const bool has_comma = line.find(',') != std::string_view::npos;
+        if (!columns && has_comma && !begins_with_number(line)) {
+            columns = columns_of(line, lines);
+        } else if (line.empty() || line.front() == '#') {
+            continue;
+        } else if (columns) {
+            append_row(file, values_of(line, *columns, lines), *columns, lines);
+        } else {
+            append_matrix(file, line, lines);
+        }
     }
     return file;
 }

@@ -6,7 +6,8 @@
 
 namespace dynamic_filter::io {
 
-/// CSV with a header that names its columns (EuRoC, ERASOR and the like). Throws InputError.
+/// CSV with a header that names its columns (EuRoC, ERASOR and the like), or without one and with
+/// MulRan's 13 columns. Throws InputError.
 PoseFile read_pose_table(Lines& lines);
 
 /// Throws InputError at the current line if the stamp is not finite or goes back.

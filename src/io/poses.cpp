@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <map>
 
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/io/file.hpp"
@@ -91,6 +93,51 @@ bool is_csv(const std::string& text, const std::filesystem::path& file) {
     return comment_has_comma;
 }
 
+bool is_g2o(const std::string& text, const std::filesystem::path& file) {
+    Lines lines(text, file);
+    while (lines.next()) {
+        const std::string_view line = trim(lines.line());
+        if (is_comment(line)) continue;
+        return line.starts_with("VERTEX_") || line.starts_with("EDGE_") ||
+               line.starts_with("PARAMS_") || line.starts_with("FIX ");
+    }
+    return false;
+}
+
+Pose vertex_pose(const std::vector<double>& row, const Lines& lines) {
+    if (row.size() != 7) {
+        lines.fail(fmt::format(
+            "{} numbers behind the id; a VERTEX_SE3:QUAT is id x y z qx qy qz qw", row.size()));
+    }
+    if (!is_finite(row)) return lost_pose();
+    return pose_from_quaternion({row[0], row[1], row[2]},
+                                Eigen::Quaterniond(row[6], row[3], row[4], row[5]),
+                                "id x y z qx qy qz qw (xyzw)", lines);
+}
+
+PoseFile read_g2o(Lines& lines) {
+    std::map<std::uint64_t, Pose> vertices;
+    while (lines.next()) {
+        std::string_view rest = lines.line();
+        if (take_token(rest) != "VERTEX_SE3:QUAT") continue;
+        const std::string_view token = take_token(rest);
+        const auto id = parse_count(token);
+        if (!id) lines.fail(quote(token) + " is no id of a vertex; expected plain digits");
+        if (!vertices.emplace(*id, vertex_pose(numbers(rest, lines), lines)).second) {
+            lines.fail(fmt::format("two vertices have the id {}", *id));
+        }
+    }
+    PoseFile file;
+    for (const auto& [id, pose] : vertices) file.poses.push_back(pose);
+    return file;
+}
+
+PoseFile read_any(const std::string& text, const std::filesystem::path& file) {
+    Lines lines(text, file);
+    if (is_g2o(text, file)) return read_g2o(lines);
+    return is_csv(text, file) ? read_pose_table(lines) : read_rows(lines);
+}
+
 }  // namespace
 
 void append_stamp(PoseFile& file, double stamp, const Lines& where) {
@@ -103,9 +150,7 @@ void append_stamp(PoseFile& file, double stamp, const Lines& where) {
 }
 
 PoseFile read_poses(const std::filesystem::path& file) {
-    const std::string text = read_file(file);
-    Lines lines(text, file);
-    PoseFile poses = is_csv(text, file) ? read_pose_table(lines) : read_rows(lines);
+    PoseFile poses = read_any(read_file(file), file);
     if (poses.poses.empty()) throw InputError(file, "", "holds no pose");
     return poses;
 }

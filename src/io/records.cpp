@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "records.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -215,6 +216,18 @@ void take_columns(Cloud& cloud, const std::vector<Column>& columns, std::size_t 
             to += bytes;
         }
         from += bytes * points;
+    }
+}
+
+void swap_bytes(Cloud& cloud) {
+    for (const Field& field : cloud.fields) {
+        const std::size_t size = size_of(field.type);
+        for (std::size_t i = 0; i < cloud.size(); ++i) {
+            std::byte* value = cloud.data.data() + i * cloud.point_bytes + field.offset;
+            for (std::uint32_t n = 0; n < field.count; ++n, value += size) {
+                std::reverse(value, value + size);
+            }
+        }
     }
 }
 

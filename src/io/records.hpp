@@ -42,4 +42,7 @@ void take_rows(Cloud& cloud, const std::vector<Column>& columns, std::size_t poi
 void take_columns(Cloud& cloud, const std::vector<Column>& columns, std::size_t points,
                   std::span<const std::byte> block);
 
+/// Turns the values of big-endian records round.
+void swap_bytes(Cloud& cloud);
+
 }  // namespace dynamic_filter::io

@@ -35,14 +35,6 @@ void PcdWriter::commit() {
     file_.commit();
 }
 
-void write_pcd(const std::filesystem::path& path, const Cloud& cloud) {
-    AtomicFile file(path);
-    const Pose viewpoint = cloud.viewpoint.value_or(Pose::Identity());
-    file.write(pcd_header_text(cloud.fields, cloud.size(), viewpoint).text);
-    file.write(cloud.data);
-    file.commit();
-}
-
 void write_bin(const std::filesystem::path& path, const Points& points,
                std::span<const float> intensity) {
     if (points.size() != intensity.size()) {
@@ -64,18 +56,6 @@ void write_labels(const std::filesystem::path& path, const Labels& labels) {
     for (std::size_t i = 0; i < labels.size(); ++i) wide[i] = static_cast<std::uint32_t>(labels[i]);
     file.write(std::as_bytes(std::span(wide)));
     file.commit();
-}
-
-void write_poses_kitti(const std::filesystem::path& path, std::span<const Pose> T_world_sensor) {
-    std::string text;
-    for (const Pose& pose : T_world_sensor) {
-        for (int i = 0; i < 12; ++i) {
-            // "{}" prints the fewest digits that read back as the same number.
-            fmt::format_to(std::back_inserter(text), "{}{}", pose.matrix()(i / 4, i % 4),
-                           i == 11 ? '\n' : ' ');
-        }
-    }
-    write_file(path, text);
 }
 
 void write_times(const std::filesystem::path& path, std::span<const double> stamps) {

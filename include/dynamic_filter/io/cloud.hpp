@@ -49,12 +49,26 @@ std::vector<double> values(const Cloud& cloud, const Field& field);
 /// x, y, z of each record as float (float64 is narrowed). Throws Error if a coordinate is missing.
 Points positions(const Cloud& cloud);
 
-/// Reads .pcd (ascii, binary, binary_compressed), .ply (ascii, little and big endian) or
-/// .bin (float32 x y z intensity), told apart by extension. Fields keep their file order and type.
-/// Throws InputError with the byte or line; allocates no more than the file's bytes justify.
+/// How a PCD file holds its points.
+enum class PcdData : std::uint8_t { ascii, binary, compressed };
+
+/// Reads a cloud, of the kind that its extension says (see below). Fields keep their file order and
+/// type. Lengths are in the file's unit, metres by custom. Thread-safe. Throws InputError with the
+/// byte or line; allocates no more than the file's bytes justify.
 Cloud read_cloud(const std::filesystem::path& file);
-Cloud read_pcd(const std::filesystem::path& file);
-Cloud read_ply(const std::filesystem::path& file);
-Cloud read_bin(const std::filesystem::path& file);
+bool is_cloud(const std::filesystem::path& file);  ///< by extension, in any case of letters
+std::string cloud_kinds();                         ///< ".pcd, .ply, ...", for messages
+
+Cloud read_pcd(const std::filesystem::path& file);  ///< ascii, binary, binary_compressed
+Cloud read_ply(const std::filesystem::path& file);  ///< ascii, little and big endian
+Cloud read_bin(const std::filesystem::path& file);  ///< float32 x y z intensity, as KITTI's
+/// LAS 1.0 to 1.4, all point formats, not compressed. x y z are float64 with scale and offset
+/// applied; colours, time, angle and Extra Bytes are fields. Flags and waveforms are left out.
+Cloud read_las(const std::filesystem::path& file);
+/// NumPy's array of float32 or float64, N x k with k >= 3: x y z intensity c4 c5 ...
+Cloud read_npy(const std::filesystem::path& file);
+/// .xyz, .txt, .csv: a point a line, columns parted by blanks, commas or semicolons, named by the
+/// first line if that is none of numbers; otherwise x y z intensity c4 c5 ... All are float64.
+Cloud read_text_cloud(const std::filesystem::path& file);
 
 }  // namespace dynamic_filter::io

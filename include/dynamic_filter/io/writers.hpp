@@ -31,7 +31,25 @@ private:
     std::size_t width_at_ = 0, points_at_ = 0;  // offsets of the counts in the header
 };
 
-void write_pcd(const std::filesystem::path& path, const Cloud& cloud);
+/// `compressed` is for clouds of less than 4 GiB.
+void write_pcd(const std::filesystem::path& path, const Cloud& cloud,
+               PcdData data = PcdData::binary);
+
+// The following return what the format could not hold, as a sentence for the user; empty if it held
+// all. Fields with several values become one field each, "n_0", "n_1" and so on.
+
+/// By extension: .pcd (binary), .ply, .las, .npy or .bin.
+std::string write_cloud(const std::filesystem::path& path, const Cloud& cloud);
+/// Binary little endian; 64-bit integers become doubles.
+std::string write_ply(const std::filesystem::path& path, const Cloud& cloud);
+/// LAS 1.4, point format 6: coordinates to 1 mm, other fields as Extra Bytes where the format has
+/// no place of that name and type. Points that are not finite are left out.
+std::string write_las(const std::filesystem::path& path, const Cloud& cloud);
+/// An array N x k, version 1.0, of x y z intensity and what else there is; float32 if that holds
+/// all values, otherwise float64.
+std::string write_npy(const std::filesystem::path& path, const Cloud& cloud);
+/// float32 x y z intensity (0 if there is none).
+std::string write_bin(const std::filesystem::path& path, const Cloud& cloud);
 /// float32 x y z intensity per point, as KITTI's velodyne/*.bin.
 void write_bin(const std::filesystem::path& path, const Points& points,
                std::span<const float> intensity);
@@ -39,6 +57,14 @@ void write_bin(const std::filesystem::path& path, const Points& points,
 void write_labels(const std::filesystem::path& path, const Labels& labels);
 /// One row-major 3x4 matrix T_world_sensor a line, 17 significant digits where needed.
 void write_poses_kitti(const std::filesystem::path& path, std::span<const Pose> T_world_sensor);
+/// t x y z qx qy qz qw a line; `stamps` [s] are parallel, to 1 ns.
+void write_poses_tum(const std::filesystem::path& path, std::span<const double> stamps,
+                     std::span<const Pose> T_world_sensor);
+/// As EuRoC: a CSV of ns, x y z, qw qx qy qz.
+void write_poses_csv(const std::filesystem::path& path, std::span<const double> stamps,
+                     std::span<const Pose> T_world_sensor);
+/// A vertex each, numbered from 0; poses that are not finite are left out and keep their number.
+void write_poses_g2o(const std::filesystem::path& path, std::span<const Pose> T_world_sensor);
 void write_times(const std::filesystem::path& path, std::span<const double> stamps);
 
 }  // namespace dynamic_filter::io

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dynamic_filter/io/cloud.hpp"
+
+namespace dynamic_filter::io {
+
+/// A value within a point's record, and how it is read.
+struct LasField {
+    std::string name;
+    FieldType stored = FieldType::u8;
+    std::size_t at = 0;  ///< [bytes] from the start of the record
+    FieldType type = FieldType::u8;
+    double scale = 1.0, offset = 0.0;      ///< used where `type` is not `stored`
+    std::uint8_t first_bit = 0, bits = 8;  ///< of a u8
+};
+
+struct LasHeader {
+    std::vector<LasField> fields;  ///< x, y, z first
+    std::size_t record_bytes = 0;
+    std::size_t begin = 0;     ///< [bytes] of the first record
+    std::uint64_t points = 0;  ///< as declared
+};
+
+/// Throws InputError (no LAS, a version or point format that is unknown, compressed, cut off within
+/// what comes before the points). Nothing is checked about the points.
+LasHeader parse_las_header(std::span<const std::byte> bytes, const std::filesystem::path& file);
+
+}  // namespace dynamic_filter::io
