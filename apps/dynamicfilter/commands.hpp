@@ -58,6 +58,14 @@ struct SimulateOptions {
     bool overwrite = false;
 };
 
+struct ConvertOptions {
+    DataOptions data;
+    std::filesystem::path output;
+    std::optional<std::filesystem::path> labels;
+    std::string to;  ///< layout of a folder: kitti or benchmark; empty: by the output's name
+    bool overwrite = false;
+};
+
 struct DemoOptions {
     std::filesystem::path output = "demo";
 };
@@ -67,6 +75,7 @@ int evaluate(const EvalOptions& options);
 int simulate(const SimulateOptions& options);
 int demo(const DemoOptions& options);
 int check(const DataOptions& options);
+int convert(const ConvertOptions& options);
 int info(const std::filesystem::path& file);
 int show_config(const ConfigOptions& options);
 

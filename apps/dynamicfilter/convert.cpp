@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <cmath>
+#include <array>
+#include <cstring>
 #include <memory>
+#include <numeric>
 #include <set>
 
 #include "commands.hpp"
 #include "dynamic_filter/error.hpp"
+#include "dynamic_filter/io/bag.hpp"
 #include "dynamic_filter/io/bag_writer.hpp"
 #include "dynamic_filter/io/messages.hpp"
 #include "dynamic_filter/io/writers.hpp"
@@ -32,6 +35,17 @@ public:
     virtual void append(const io::Frame& frame, const Labels& labels) = 0;
     virtual void commit() = 0;
 };
+
+/// What a format could not hold.
+void say(const std::string& loss) {
+    if (!loss.empty()) fmt::print(stderr, "note: {}\n", loss);
+}
+
+void append_record(std::vector<std::byte>& to, std::span<const std::byte> records, std::size_t i,
+                   std::size_t bytes) {
+    const auto record = records.subspan(i * bytes, bytes);
+    to.insert(to.end(), record.begin(), record.end());
+}
 
 /// SemanticKITTI's layout; poses are the LiDAR's.
 class KittiSink final : public Sink {
@@ -112,12 +126,10 @@ private:
 class BagSink final : public Sink {
 public:
     explicit BagSink(const fs::path& file)
-        : writer_(io::BagWriter::create(file)),
-          encoding_(file.extension() == ".bag" ? io::MessageEncoding::ros1
-                                               : io::MessageEncoding::cdr) {}
+        : writer_(io::BagWriter::create(file)), encoding_(writer_->encoding()) {}
 
     void append(const io::Frame& frame, const Labels& labels) override {
-        const auto time = std::llround(1e9 * frame.stamp);
+        const std::int64_t time = io::to_nanoseconds(frame.stamp);
         const auto write = [&](const char* name, const char* type,
                                const std::vector<std::byte>& message) {
             writer_->write({name, type, encoding_}, time, message);
@@ -151,9 +163,7 @@ private:
         io::Cloud result = cloud;
         result.data.clear();
         for (std::size_t i = 0; i < labels.size(); ++i) {
-            if (labels[i] != label) continue;
-            const auto record = cloud.data.begin() + static_cast<std::ptrdiff_t>(i * cloud.point_bytes);
-            result.data.insert(result.data.end(), record, record + static_cast<std::ptrdiff_t>(cloud.point_bytes));
+            if (labels[i] == label) append_record(result.data, cloud.data, i, cloud.point_bytes);
         }
         return result;
     }
@@ -177,14 +187,13 @@ public:
         const auto records = world_records(frame, layout_);
         for (std::size_t i = 0; i < frame.points.size(); ++i) {
             if (!is_measured(frame.points[i])) continue;
-            const auto record = records.begin() + static_cast<std::ptrdiff_t>(i * layout_.point_bytes);
-            map_.data.insert(map_.data.end(), record, record + static_cast<std::ptrdiff_t>(layout_.point_bytes));
+            append_record(map_.data, records, i, layout_.point_bytes);
             if (map_.point_bytes == layout_.point_bytes) continue;
             const bool dynamic = !labels.empty() && labels[i] == Label::dynamic;
             map_.data.push_back(dynamic ? std::byte{1} : std::byte{0});
         }
     }
-    void commit() override { io::write_cloud(file_, map_); }
+    void commit() override { say(io::write_cloud(file_, map_)); }
 
 private:
     fs::path file_;
@@ -209,13 +218,14 @@ std::unique_ptr<Sink> make_sink(const ConvertOptions& o) {
 Labels labels_of(const ConvertOptions& o, const io::Sequence& sequence, std::size_t i,
                  const io::Frame& frame) {
     if (!o.labels) return frame.truth;
-    const fs::path folder = fs::is_directory(*o.labels / "labels") ? *o.labels / "labels" : *o.labels;
+    const fs::path folder =
+        fs::is_directory(*o.labels / "labels") ? *o.labels / "labels" : *o.labels;
     Labels labels = io::read_labels(folder / (io::stem(sequence, i) + ".label"));
     if (labels.size() == frame.points.size()) return labels;
-    throw ConfigError(fmt::format("{}: {} labels for the {} points of scan {}; are they of another "
-                                  "recording?",
-                                  folder.string(), labels.size(), frame.points.size(),
-                                  io::stem(sequence, i)));
+    throw ConfigError(
+        fmt::format("{}: {} labels for the {} points of scan {}; are they of another "
+                    "recording?",
+                    folder.string(), labels.size(), frame.points.size(), io::stem(sequence, i)));
 }
 
 int convert_recording(const ConvertOptions& o) {
@@ -247,7 +257,7 @@ int convert_cloud(const ConvertOptions& o) {
         throw ConfigError(o.output.string() + ": exists; choose another, or --overwrite");
     }
     const io::Cloud cloud = io::read_cloud(o.data.data);
-    io::write_cloud(o.output, cloud);
+    say(io::write_cloud(o.output, cloud));
     fmt::print("written  {} ({} points)\n", o.output.string(), cloud.size());
     return kDone;
 }
@@ -256,7 +266,8 @@ int convert_cloud(const ConvertOptions& o) {
 
 int convert(const ConvertOptions& o) {
     std::error_code ignored;
-    const bool recording = fs::is_directory(o.data.data, ignored) || io::Bag::recognises(o.data.data);
+    const bool recording =
+        fs::is_directory(o.data.data, ignored) || io::Bag::recognises(o.data.data);
     return recording ? convert_recording(o) : convert_cloud(o);
 }
 

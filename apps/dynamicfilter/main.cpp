@@ -115,6 +115,25 @@ void add_simulate(CLI::App& app, std::function<int()>& chosen) {
     c.callback([o, &chosen] { chosen = [o] { return simulate(*o); }; });
 }
 
+void add_convert(CLI::App& app, std::function<int()>& chosen) {
+    auto o = std::make_shared<ConvertOptions>();
+    CLI::App& c = *app.add_subcommand("convert", "Write a recording or a cloud in another format");
+    c.add_option("IN", o->data.data, "recording or cloud file")->required();
+    c.add_option(
+         "OUT", o->output,
+         "bag (.mcap, .bag, .db3), folder, or cloud file (.pcd, .ply, .las, .npy, .bin): of "
+         "a recording, all its points in the world's frame")
+        ->required();
+    c.add_option("--to", o->to, "layout of a folder: kitti (default) or benchmark")
+        ->check(CLI::IsMember({"kitti", "benchmark"}));
+    c.add_option("--labels", o->labels,
+                 "output folder of a run, or its labels (default: the recording's ground truth)");
+    add_reading_options(c, o->data);
+    add_selection_options(c, o->data);
+    c.add_flag("--overwrite", o->overwrite, "replace what is there");
+    c.callback([o, &chosen] { chosen = [o] { return convert(*o); }; });
+}
+
 void add_others(CLI::App& app, std::function<int()>& chosen) {
     auto demo_options = std::make_shared<DemoOptions>();
     CLI::App& d = *app.add_subcommand("demo", "Simulate, filter, score and draw: no data needed");
@@ -155,6 +174,7 @@ int main(int argc, char** argv) {
     add_run(app, chosen);
     add_eval(app, chosen);
     add_simulate(app, chosen);
+    add_convert(app, chosen);
     add_others(app, chosen);
     try {
         app.parse(argc, argv);

@@ -17,8 +17,8 @@ bool is_coordinate(const io::Field& field) {
     return field.name == "x" || field.name == "y" || field.name == "z";
 }
 
-/// The frame's fields; float coordinates become double where the world's origin is so far away that
-/// a float would be off by a millimetre or more.
+}  // namespace
+
 io::Cloud layout_of(const io::Frame& frame, bool in_world) {
     constexpr double kFar = 1e4;  // [m]
     const bool far = !in_world && frame.T_world_sensor.translation().norm() > kFar;
@@ -29,8 +29,6 @@ io::Cloud layout_of(const io::Frame& frame, bool in_world) {
     }
     return layout;
 }
-
-}  // namespace
 
 std::vector<std::byte> world_records(const io::Frame& frame, const io::Cloud& layout) {
     const io::Cloud& cloud = frame.cloud;

@@ -28,6 +28,10 @@ private:
     std::optional<io::PcdWriter> still_, dynamic_;
 };
 
+/// The frame's fields; float coordinates become double where the world's origin is so far away that
+/// a float would be off by a millimetre or more. `in_world`: as they are.
+io::Cloud layout_of(const io::Frame& frame, bool in_world);
+
 /// The frame's records in the given layout (same fields, x y z perhaps wider), x y z in the world.
 std::vector<std::byte> world_records(const io::Frame& frame, const io::Cloud& layout);
 

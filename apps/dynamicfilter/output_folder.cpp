@@ -38,6 +38,8 @@ Names written_by(Contents contents) {
                     {{"labels", ".label"}}};
         case Contents::recording:
             return {{"poses.txt", "times.txt"}, {{"labels", ".label"}, {"velodyne", ".bin"}}};
+        case Contents::benchmark:
+            return {{"gt_cloud.pcd"}, {{"pcd", ".pcd"}}};
         case Contents::demo:
             break;  // its recording and its result are folders with contents of their own
     }

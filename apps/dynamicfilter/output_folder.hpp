@@ -7,7 +7,7 @@
 namespace dynamic_filter::app {
 
 /// What a command writes into its folder: all that --overwrite may remove.
-enum class Contents { result, recording, demo };
+enum class Contents { result, recording, benchmark, demo };
 
 /// A folder that one process fills. Creates it, refuses one that holds something (ConfigError)
 /// unless `overwrite`, which removes what such a command leaves there and nothing else. Locked

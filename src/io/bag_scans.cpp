@@ -105,6 +105,16 @@ std::string names_of(const Topics& topics) {
     return names.empty() ? "none" : names;
 }
 
+/// What `convert` made of the scans of another topic.
+bool is_part_of_another(const std::string& name, const std::map<std::string, CloudTopic>& clouds) {
+    for (const std::string_view part : {"_static", "_dynamic"}) {
+        if (name.ends_with(part) && clouds.contains(name.substr(0, name.size() - part.size()))) {
+            return true;
+        }
+    }
+    return false;
+}
+
 const CloudTopic& choose_clouds(const Contents& contents, const std::filesystem::path& data,
                                 const OpenOptions& options) {
     const auto& clouds = contents.clouds;
@@ -119,7 +129,11 @@ const CloudTopic& choose_clouds(const Contents& contents, const std::filesystem:
         throw InputError(
             data, "", "holds no point clouds (sensor_msgs/PointCloud2 or Livox's CustomMsg)" + why);
     }
-    if (clouds.size() > 1) {
+    std::vector<const CloudTopic*> whole;
+    for (const auto& [name, topic] : clouds) {
+        if (!is_part_of_another(name, clouds)) whole.push_back(&topic);
+    }
+    if (whole.size() > 1) {
         std::string names;
         for (const auto& [name, topic] : clouds) {
             names +=
@@ -127,7 +141,7 @@ const CloudTopic& choose_clouds(const Contents& contents, const std::filesystem:
         }
         throw ConfigError("point clouds on several topics: " + names + "; choose one with --topic");
     }
-    return clouds.begin()->second;
+    return *whole.front();
 }
 
 /// Header stamps; where a driver left them at zero, when the message was recorded.

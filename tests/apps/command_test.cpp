@@ -11,6 +11,7 @@
 
 #include "dynamic_filter/io/cloud.hpp"
 #include "dynamic_filter/io/sequence.hpp"
+#include "dynamic_filter/io/writers.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fs = std::filesystem;
@@ -320,6 +321,71 @@ TEST_F(Command, FirstLastAndStrideSelectScans) {
     }
     std::sort(names.begin(), names.end());
     EXPECT_EQ(names, (std::vector<std::string>{"000002.label", "000006.label", "000010.label"}));
+}
+
+TEST_F(Command, TheSameScansInEveryFormatGiveTheSameLabels) {
+    const std::string data = recording().string();
+    ASSERT_EQ(run("run " + data + " -o expected"), 0) << said();
+    const auto expected = bytes_of("expected/labels");
+    for (const std::string copy : {"copy.mcap", "copy.bag", "copy.db3", "copy"}) {
+        ASSERT_EQ(run("convert " + data + " " + copy), 0) << said();
+        ASSERT_EQ(run("run " + copy + " -o from_" + copy), 0) << said();
+        EXPECT_TRUE(bytes_of("from_" + copy + "/labels") == expected) << copy;
+        EXPECT_EQ(run("convert " + data + " " + copy), 2) << "what is there is not overwritten";
+    }
+    // The benchmark's scans are rounded in the world's frame.
+    ASSERT_EQ(run("convert " + data + " benchmark --to benchmark"), 0) << said();
+    ASSERT_EQ(run("run benchmark -o from_benchmark"), 0) << said();
+    const auto rounded = bytes_of("from_benchmark/labels");
+    ASSERT_EQ(rounded.size(), expected.size());
+    std::size_t other = 0, bytes = 0;
+    for (const auto& [name, labels] : expected) {
+        ASSERT_EQ(rounded.at(name).size(), labels.size());
+        for (std::size_t i = 0; i < labels.size(); i += 4) {
+            other += labels[i] != rounded.at(name)[i] ? 1 : 0;
+        }
+        bytes += labels.size();
+    }
+    EXPECT_LT(other * 4 * 1000, bytes);
+}
+
+TEST_F(Command, ConvertWritesMapsAndSplitScans) {
+    const std::string data = recording().string();
+    ASSERT_EQ(run("run " + data + " -o out"), 0) << said();
+    ASSERT_EQ(run("convert " + data + " map.las --labels out"), 0) << said();
+    const io::Cloud map = io::read_cloud(folder_ / "map.las");
+    ASSERT_NE(map.find("dynamic"), nullptr);
+    const io::Cloud still = io::read_cloud(folder_ / "out/static_map.pcd");
+    const io::Cloud moving = io::read_cloud(folder_ / "out/dynamic_points.pcd");
+    EXPECT_EQ(map.size(), still.size() + moving.size());
+    std::size_t dynamic = 0;
+    for (const double value : io::values(map, *map.find("dynamic")))
+        dynamic += value == 1.0 ? 1 : 0;
+    EXPECT_EQ(dynamic, moving.size());
+    ASSERT_EQ(run("convert out/static_map.pcd map.ply"), 0) << said();
+    EXPECT_EQ(io::read_cloud(folder_ / "map.ply").size(), still.size());
+    ASSERT_EQ(run("convert " + data + " split.mcap --labels out"), 0) << said();
+    ASSERT_EQ(run("info split.mcap"), 0);
+    for (const char* topic : {"/points ", "/points_static", "/points_dynamic", "/tf"}) {
+        expect_said(topic);
+    }
+    EXPECT_EQ(run("convert " + data + " x.pcx"), 2);
+    EXPECT_EQ(run("convert nothing.pcd x.pcd"), 3);
+    EXPECT_EQ(run("convert " + data + " y.mcap --labels " + data + "/velodyne"), 3);
+    EXPECT_FALSE(fs::exists(folder_ / "y.mcap"));
+}
+
+TEST_F(Command, CheckSaysWhatToTypeAndThatWorks) {
+    const std::string data = recording().string();
+    EXPECT_EQ(run("check " + data), 0) << said();
+    io::Sequence sequence = io::open_sequence(recording());
+    for (Pose& pose : sequence.T_world_sensor) pose = pose.inverse();
+    io::write_poses_kitti(folder_ / "inverse.txt", sequence.T_world_sensor);
+    EXPECT_EQ(run("check " + data + " --poses inverse.txt"), 4);
+    expect_said("--pose-fix inverse");
+    EXPECT_EQ(run("check " + data + " --poses inverse.txt --pose-fix inverse"), 0) << said();
+    EXPECT_EQ(run("run " + data + " --poses inverse.txt -o out"), 0);
+    expect_said("warning: the poses are inverse");
 }
 
 }  // namespace
