@@ -106,7 +106,7 @@ std::vector<float> point_times(const Cloud& cloud, double stamp) {
 void undo_motion(Points& points, const std::vector<float>& times, double stamp,
                  const Trajectory& T_world_sensor) {
     constexpr double kBeyond = 0.2, kGap = 1.0;  // [s]
-    constexpr float kStep = 1e-3F;               // [s] points so close in time share a pose
+    constexpr float kStep = 2e-5F;               // [s] points so close in time share a pose
     const auto at_stamp = pose_at(T_world_sensor, stamp, kGap, kBeyond);
     if (!at_stamp) return;
     float of = std::numeric_limits<float>::quiet_NaN();

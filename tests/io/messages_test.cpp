@@ -49,7 +49,9 @@ TEST(Messages, CloudsKeepAllFields) {
                     if (wide) continue;
                     EXPECT_EQ(std::memcmp(&cloud.data[at], &back.cloud.data[at], size), 0);
                 }
-                if (wide) EXPECT_EQ(values(back.cloud, got), values(cloud, field));
+                if (wide) {
+                    EXPECT_EQ(values(back.cloud, got), values(cloud, field));
+                }
             }
         }
     }

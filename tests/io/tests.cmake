@@ -1,4 +1,4 @@
-foreach(unit bag_writer benchmark cloud file frame layout lzf matching messages natural_order pcd
+foreach(unit bag bag_writer benchmark cloud file frame layout lzf matching messages natural_order pcd
              pcd_header ply ply_header png pose_table poses records rigid sequence text writers)
   df_test(io/${unit} dynamic_filter_io)
   # Units behind the public headers are tested too.

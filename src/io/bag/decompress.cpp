@@ -69,7 +69,8 @@ Decompressed unzstd(std::span<const std::byte> bytes, std::uint64_t size) {
 
 Decompressed unlz4_block(std::span<const std::byte> bytes, std::uint64_t size) {
     constexpr auto kMost = static_cast<std::uint64_t>(std::numeric_limits<int>::max());
-    const std::uint64_t most = most_output(bytes.size(), size);
+    constexpr std::uint64_t kRatio = 255;  // of the format: a byte repeats what was that often
+    const std::uint64_t most = std::min<std::uint64_t>(size, kRatio * bytes.size());
     if (most > kMost || bytes.size() > kMost) return {};
     Decompressed out{std::vector<std::byte>(static_cast<std::size_t>(most)), false};
     const int got = LZ4_decompress_safe_partial(

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <map>
+#include <set>
 
 #include "dynamic_filter/error.hpp"
 #include "io/bag/bag_file.hpp"
@@ -67,6 +68,12 @@ public:
         }
     }
 
+    void finish() {
+        if (unannounced_ == 0) return;
+        notes_.push_back(
+            fmt::format("{} messages of channels never announced are left out", unannounced_));
+    }
+
 private:
     void take_schema(ByteReader& in) {
         const auto id = in.number<std::uint16_t>();
@@ -76,18 +83,23 @@ private:
         const auto id = in.number<std::uint16_t>();
         const auto schema = in.number<std::uint16_t>();
         const std::string name(in.text()), encoding(in.text());
+        if (encoding != "cdr" && encoding != "ros1") others_.insert(id);
         const auto found = schemas_.find(schema);
-        if (found == schemas_.end() || (encoding != "cdr" && encoding != "ros1")) return;
+        if (found == schemas_.end() || others_.contains(id)) return;
         topics_.try_emplace(
             id, Topic{name, plain_type(found->second),
                       encoding == "cdr" ? MessageEncoding::cdr : MessageEncoding::ros1});
     }
     void take_message(ByteReader& in, std::uint64_t chunk, std::uint64_t offset) {
-        const auto channel = topics_.find(in.number<std::uint16_t>());
+        const auto id = in.number<std::uint16_t>();
+        const auto channel = topics_.find(id);
         in.take(4);  // sequence
         const auto recorded = static_cast<std::int64_t>(in.number<std::uint64_t>());
-        in.take(8);                            // published
-        if (channel == topics_.end()) return;  // JSON, protobuf, or never announced
+        in.take(8);  // published
+        if (channel == topics_.end()) {
+            if (!others_.contains(id)) ++unannounced_;
+            return;
+        }
         use_({channel->second, recorded, chunk, offset, in.take(in.left())});
     }
 
@@ -95,6 +107,8 @@ private:
     std::vector<std::string>& notes_;
     std::map<std::uint16_t, std::string> schemas_;
     std::map<std::uint16_t, Topic> topics_;
+    std::set<std::uint16_t> others_;  // channels of JSON, protobuf, ...
+    std::size_t unannounced_ = 0;
 };
 
 class Mcap final : public BagFile {
@@ -122,10 +136,9 @@ public:
             const std::uint64_t there = file_.size() - at - kRecordHead;
             if (opcode == kFooter) break;
             const bool wanted = opcode >= kSchema && opcode <= kChunk;
-            if (length > there && opcode != kChunk) {
-                notes.push_back(fmt::format("a record at byte {} is cut off", at));
-                break;
-            }
+            if (length > there)
+                notes.push_back(fmt::format("the record at byte {} is cut off", at));
+            if (length > there && opcode != kChunk) break;
             if (wanted) {
                 const auto content = file_.read(at + kRecordHead, std::min(length, there));
                 if (opcode == kChunk) {
@@ -137,6 +150,7 @@ public:
             if (length > there) break;
             at += kRecordHead + length;
         }
+        reader.finish();
         return notes;
     }
 

@@ -15,7 +15,7 @@
 namespace dynamic_filter::io {
 namespace {
 
-enum Opcode : std::uint8_t { kMessage = 0x02, kChunk = 0x05, kConnection = 0x07 };
+enum Opcode : std::uint8_t { kMessage = 0x02, kBagHeader, kChunk = 0x05, kConnection = 0x07 };
 
 constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
 constexpr std::uint64_t kNoChunk = UINT64_MAX;
@@ -70,8 +70,22 @@ public:
     void take(const Record& record, std::uint64_t chunk, std::uint64_t offset) {
         if (!record.whole) throw Malformed("is cut off");
         const auto opcode = record.header.number<std::uint8_t>("op");
+        if (opcode == kBagHeader) index_at_ = record.header.number<std::uint64_t>("index_pos");
         if (opcode == kConnection) take_connection(record);
         if (opcode == kMessage) take_message(record, chunk, offset);
+    }
+
+    /// What shows only at the end, `size` bytes behind the beginning.
+    void finish(std::uint64_t size, std::vector<std::string>& notes) const {
+        if (index_at_ == 0) notes.emplace_back("was never closed, so its end may be missing");
+        if (index_at_ > size) {
+            notes.push_back(
+                fmt::format("ends at byte {}, before its index at byte {}", size, index_at_));
+        }
+        if (unannounced_ > 0) {
+            notes.push_back(fmt::format("{} messages of connections never announced are left out",
+                                        unannounced_));
+        }
     }
 
 private:
@@ -83,7 +97,10 @@ private:
     }
     void take_message(const Record& record, std::uint64_t chunk, std::uint64_t offset) {
         const auto topic = topics_.find(record.header.number<std::uint32_t>("conn"));
-        if (topic == topics_.end()) throw Malformed("is a message of a connection never announced");
+        if (topic == topics_.end()) {
+            ++unannounced_;
+            return;
+        }
         const auto time = record.header.number<std::uint64_t>("time");
         constexpr std::int64_t kSecond = 1'000'000'000;
         const auto seconds = static_cast<std::int64_t>(time & 0xFFFFFFFFU);
@@ -93,6 +110,8 @@ private:
 
     const UseMessage& use_;
     std::map<std::uint32_t, Topic> topics_;
+    std::uint64_t index_at_ = 0;
+    std::size_t unannounced_ = 0;
 };
 
 class Rosbag1 final : public BagFile {
@@ -125,6 +144,7 @@ public:
                 break;
             }
         }
+        reader.finish(file_.size(), notes);
         return notes;
     }
 
@@ -133,7 +153,8 @@ public:
             if (chunk == kNoChunk) return message_in(record_at(offset), 0);
             return message_in(*chunks_.at(chunk, [&] { return read_chunk(chunk); }), offset);
         } catch (const Malformed& error) {
-            throw InputError(file_.path(), fmt::format("byte {}", chunk), error.what());
+            const std::uint64_t at = chunk == kNoChunk ? offset : chunk;
+            throw InputError(file_.path(), fmt::format("byte {}", at), error.what());
         }
     }
 

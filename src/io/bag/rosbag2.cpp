@@ -5,7 +5,6 @@
 #include <zstd.h>
 
 #include <map>
-#include <mutex>
 
 #include "dynamic_filter/error.hpp"
 #include "io/bag/bag_file.hpp"
@@ -59,6 +58,8 @@ public:
         statement_.reset(raw);
     }
     bool next() { return statement_ && (state_ = sqlite3_step(statement_.get())) == SQLITE_ROW; }
+    /// Not the database's, which another thread's statement may have set.
+    [[nodiscard]] const char* error() const { return sqlite3_errstr(state_); }
     [[nodiscard]] bool finished() const { return state_ == SQLITE_DONE; }
     void bind(std::int64_t value) { sqlite3_bind_int64(statement_.get(), 1, value); }
     [[nodiscard]] std::int64_t number(int column) const {
@@ -98,11 +99,10 @@ public:
         : path_(path), database_(open_database(path)) {}
 
     std::vector<std::string> for_each(const UseMessage& use) const override {
-        const std::lock_guard lock(mutex_);
         std::vector<std::string> notes;
-        const auto topics = read_topics();
+        const auto topics = read_topics(notes);
         Query query(database_.get(),
-                    "SELECT id, topic_id, timestamp, data FROM messages ORDER BY timestamp, id");
+                    "SELECT id, topic_id, timestamp, data FROM messages ORDER BY id");
         while (query.next()) {
             const auto topic = topics.find(query.number(1));
             if (topic == topics.end()) continue;
@@ -115,17 +115,16 @@ public:
             }
         }
         if (!query.finished()) {
-            notes.push_back(fmt::format("is damaged: {}", sqlite3_errmsg(database_.get())));
+            notes.push_back(fmt::format("its messages are damaged: {}", query.error()));
         }
         return notes;
     }
 
     std::vector<std::byte> read(std::uint64_t, std::uint64_t id) const override {
-        const std::lock_guard lock(mutex_);
         Query query(database_.get(), "SELECT data FROM messages WHERE id = ?");
         query.bind(static_cast<std::int64_t>(id));
         const std::string where = fmt::format("message {}", id);
-        if (!query.next()) throw InputError(path_, where, sqlite3_errmsg(database_.get()));
+        if (!query.next()) throw InputError(path_, where, query.error());
         try {
             return uncompressed(query.bytes(0));
         } catch (const Malformed& error) {
@@ -134,7 +133,7 @@ public:
     }
 
 private:
-    std::map<std::int64_t, Topic> read_topics() const {
+    std::map<std::int64_t, Topic> read_topics(std::vector<std::string>& notes) const {
         std::map<std::int64_t, Topic> topics;
         Query query(database_.get(), "SELECT id, name, type, serialization_format FROM topics");
         while (query.next()) {
@@ -142,11 +141,13 @@ private:
             topics[query.number(0)] = {query.text(1), plain_type(query.text(2)),
                                        MessageEncoding::cdr};
         }
+        if (!query.finished()) {
+            notes.push_back(fmt::format("its list of topics is damaged: {}", query.error()));
+        }
         return topics;
     }
 
     std::filesystem::path path_;
-    mutable std::mutex mutex_;  // a statement and its error message belong together
     Database database_;
 };
 

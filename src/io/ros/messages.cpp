@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "io/records.hpp"
 #include "io/ros/message_reader.hpp"
@@ -91,6 +92,7 @@ void repair(WireCloud& wire) {
 
 void check(const WireCloud& wire) {
     const auto number = [](std::uint64_t n) { return std::to_string(n); };
+    std::uint64_t field_bytes = 0;
     for (const WireField& field : wire.fields) {
         const std::uint64_t bytes = std::uint64_t{field.count} * size_of(field_type(field));
         if (field.offset + bytes > wire.point_step) {
@@ -98,6 +100,13 @@ void check(const WireCloud& wire) {
                             number(field.offset + bytes) + " of points of " +
                             number(wire.point_step));
         }
+        field_bytes += bytes;
+    }
+    // The same bytes may have two names, but must not become more without end.
+    constexpr std::uint64_t kMostNames = 8;
+    if (field_bytes > kMostNames * wire.point_step) {
+        throw Malformed("its fields overlap: they have " + number(field_bytes) +
+                        " bytes together, in points of " + number(wire.point_step));
     }
     const std::uint64_t row = std::uint64_t{wire.point_step} * wire.width;
     if (wire.height > 1 && wire.row_step < row) {
@@ -129,11 +138,16 @@ void put_value(std::byte* to, const std::byte* from, std::size_t size, bool swap
 /// Names that are taken already get a number; empty ones and "_" are padding.
 std::vector<WireField> named_fields(const WireCloud& wire) {
     std::vector<WireField> fields;
+    std::set<std::string> taken;
+    for (const WireField& field : wire.fields) taken.insert(field.name);
     std::map<std::string, int> seen;
     for (WireField field : wire.fields) {
         if (field.name.empty() || field.name == "_") continue;
-        const int before = seen[field.name]++;
-        if (before > 0) field.name += "_" + std::to_string(before + 1);
+        const std::string given = field.name;
+        for (int& count = ++seen[given]; count > 1; ++count) {
+            field.name = given + "_" + std::to_string(count);
+            if (taken.insert(field.name).second) break;
+        }
         fields.push_back(std::move(field));
     }
     return fields;

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// Writes a bag and prints what is in it, from what went in: a line per message, as the readers of
+// others beside this file print them.
+#include <fmt/format.h>
+
+#include <cstring>
+#include <filesystem>
+
+#include "dynamic_filter/io/bag_writer.hpp"
+#include "dynamic_filter/io/messages.hpp"
+#include "support/random.hpp"
+
+namespace dynamic_filter::io {
+namespace {
+
+std::uint32_t fnv1a(const std::vector<double>& values) {
+    std::uint32_t hash = 0x811c9dc5U;
+    for (const std::byte byte : std::as_bytes(std::span(values))) {
+        hash = (hash ^ std::to_integer<std::uint32_t>(byte)) * 0x01000193U;
+    }
+    return hash;
+}
+
+/// x, y, z as float32 or float64, intensity, and fields that others must step over.
+Cloud random_cloud(std::size_t points, FieldType type, test::Random& random) {
+    Cloud cloud;
+    add_field(cloud, "time", FieldType::u64);
+    for (const char* axis : {"x", "y", "z"}) add_field(cloud, axis, type);
+    add_field(cloud, "ring", FieldType::u16, 3);
+    add_field(cloud, "intensity", FieldType::f32);
+    cloud.data.resize(points * cloud.point_bytes);
+    for (std::size_t i = 0; i < points; ++i) {
+        for (const Field& field : cloud.fields) {
+            std::byte* to = cloud.data.data() + i * cloud.point_bytes + field.offset;
+            const double wide = random.uniform(-100.0, 100.0);
+            const auto narrow = static_cast<float>(wide);
+            if (field.type == FieldType::f64) std::memcpy(to, &wide, sizeof wide);
+            if (field.type == FieldType::f32) std::memcpy(to, &narrow, sizeof narrow);
+        }
+    }
+    return cloud;
+}
+
+std::vector<double> point_values(const Cloud& cloud) {
+    std::vector<double> all;
+    for (const char* name : {"x", "y", "z", "intensity"}) {
+        const std::vector<double> column = values(cloud, *cloud.find(name));
+        all.resize(4 * column.size());
+        const auto first = static_cast<std::size_t>(name[0] == 'i' ? 3 : name[0] - 'x');
+        for (std::size_t i = 0; i < column.size(); ++i) all[4 * i + first] = column[i];
+    }
+    return all;
+}
+
+std::vector<double> pose_values(const Pose& pose) {
+    const Eigen::Quaterniond turn(pose.linear());
+    const Eigen::Vector3d at = pose.translation();
+    return {at.x(), at.y(), at.z(), turn.x(), turn.y(), turn.z(), turn.w()};
+}
+
+void write(const std::filesystem::path& path) {
+    const auto writer = BagWriter::create(path);
+    const MessageEncoding encoding = writer->encoding();
+    test::Random random(11);
+    std::int64_t recorded = 1'600'000'000'000'000'000;
+    const auto put = [&](const char* topic, const char* type, double stamp, const char* frame,
+                         const std::vector<std::byte>& data, const std::vector<double>& inside) {
+        recorded += 12'345'678;
+        writer->write({topic, type, encoding}, recorded, data);
+        fmt::print("{} {} {} {} {} {} {:08x}\n", topic, type, recorded, to_nanoseconds(stamp),
+                   frame, inside.size(), fnv1a(inside));
+    };
+    for (std::size_t i = 0; i < 40; ++i) {
+        const double stamp = 1.6e9 + 0.1 * static_cast<double>(i);
+        const Pose pose = random.pose(100.0, 3.0);
+        const auto type = i % 2 == 0 ? FieldType::f32 : FieldType::f64;
+        const Cloud cloud = random_cloud(i == 3 ? 0 : 100 * i, type, random);
+        put("/points", "sensor_msgs/PointCloud2", stamp, "lidar",
+            cloud_message(cloud, stamp, "lidar", encoding), point_values(cloud));
+        put("/odom", "nav_msgs/Odometry", stamp, "odom",
+            odometry_message("odom", "base", pose, stamp, encoding), pose_values(pose));
+        put("/pose", "geometry_msgs/PoseStamped", stamp, "map",
+            pose_message("map", pose, stamp, encoding), pose_values(pose));
+        put("/tf", "tf2_msgs/TFMessage", stamp, "map",
+            transform_message("map", "base_link", pose, stamp, encoding), pose_values(pose));
+    }
+    writer->commit();
+}
+
+}  // namespace
+}  // namespace dynamic_filter::io
+
+int main(int argc, char** argv) {
+    if (argc != 2) return 2;
+    dynamic_filter::io::write(argv[1]);
+    return 0;
+}
