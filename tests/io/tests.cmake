@@ -1,4 +1,4 @@
-foreach(unit benchmark cloud cloud_writers file frame las layout lzf matching natural_order npy pcd
+foreach(unit benchmark cloud cloud_writers file frame las layout layouts lzf matching natural_order npy pcd
              pcd_header ply ply_header png pose_table poses records rigid sequence text text_cloud
              writers)
   df_test(io/${unit} dynamic_filter_io)
