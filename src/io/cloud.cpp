@@ -165,10 +165,6 @@ Reader reader_of(const std::filesystem::path& file) {
     return nullptr;
 }
 
-}  // namespace
-
-bool is_cloud(const std::filesystem::path& file) { return reader_of(file) != nullptr; }
-
 std::string cloud_kinds() {
     std::string kinds;
     for (const auto& [extension, reader] : readers()) {
@@ -176,6 +172,8 @@ std::string cloud_kinds() {
     }
     return kinds;
 }
+
+}  // namespace
 
 Cloud read_cloud(const std::filesystem::path& file) {
     const Reader reader = reader_of(file);

@@ -172,6 +172,7 @@ Layout find_layout(const fs::path& data, const OpenOptions& options) {
     refuse_inner_folder(data, options);
     if (!options.format && !options.poses) {
         if (auto layout = find_pairs(data)) return *std::move(layout);
+        if (auto layout = find_glim(data)) return *std::move(layout);
         if (auto layout = find_mulran(data)) return *std::move(layout);
     }
     if (!options.format && !has_scans(data)) refuse_several_recordings(data);

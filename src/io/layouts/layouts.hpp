@@ -13,6 +13,13 @@ namespace dynamic_filter::io {
 /// them. Empty if there is no .odom file; InputError for a half without its other half.
 std::optional<Layout> find_pairs(const std::filesystem::path& data);
 
+/// A folder that GLIM dumped: NNNNNN/ with data.txt (T_world_origin, the frames' stamps) and
+/// points_compact.bin. A scan is such a folder, for read_submap. Empty if it is no such folder.
+std::optional<Layout> find_glim(const std::filesystem::path& data);
+
+/// x y z, and intensity if there is intensities_compact.bin. Throws InputError.
+Cloud read_submap(const std::filesystem::path& folder);
+
 /// MulRan: Ouster/NANOSECONDS.bin, here or in sensor_data/, and global_pose.csv. Its poses are the
 /// vehicle's; those of the sensor follow from the data set's calibration. A scan without poses
 /// around it gets one that is not finite. Empty if it is no such folder; InputError if no scan gets

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <fmt/format.h>
-
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/io/file.hpp"
 #include "io/folders.hpp"
 #include "io/layouts/layouts.hpp"
-#include "io/rigid.hpp"
+#include "io/layouts/matrix.hpp"
 #include "io/text.hpp"
 
 namespace dynamic_filter::io {
@@ -13,34 +11,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Eigen::RowVector4d read_row(const Lines& lines) {
-    Eigen::RowVector4d row;
-    const auto tokens = split_tokens(lines.line());
-    if (tokens.size() != 4) {
-        lines.fail(fmt::format("{} numbers; expected 4, a row of a 4x4 matrix", tokens.size()));
-    }
-    for (std::size_t i = 0; i < tokens.size(); ++i) {
-        const auto value = parse_real(tokens[i]);
-        if (!value) lines.fail(quote(tokens[i]) + " is no number");
-        row[static_cast<Eigen::Index>(i)] = *value;
-    }
-    return row;
-}
-
 Pose read_odom(const fs::path& file) {
     const std::string text = read_file(file);
     Lines lines(text, file);
-    Eigen::Matrix4d matrix;
-    int rows = 0;
+    const Pose pose = read_matrix(lines);
     while (lines.next()) {
-        if (trim(lines.line()).empty()) continue;
-        if (rows == 4) lines.fail("more than the four rows of a 4x4 matrix");
-        matrix.row(rows++) = read_row(lines);
+        if (!trim(lines.line()).empty()) lines.fail("more than the four rows of a 4x4 matrix");
     }
-    if (rows != 4) throw InputError(file, "", fmt::format("{} rows; expected a 4x4 matrix", rows));
-    if (!matrix.allFinite()) return lost_pose();
-    if (matrix.row(3) != Eigen::RowVector4d(0, 0, 0, 1)) lines.fail("the last row is not 0 0 0 1");
-    return pose_from_rows(matrix.topRows<3>(), lines);
+    return pose;
 }
 
 /// "1500000000_200000000" as seconds and nanoseconds.
