@@ -112,6 +112,7 @@ Points positions(const Cloud& cloud) {
     const Field* axes[] = {&coordinate(cloud, "x"), &coordinate(cloud, "y"),
                            &coordinate(cloud, "z")};
     Points points(cloud.size());
+    if (points.empty()) return points;
     for (int axis = 0; axis < 3; ++axis) {
         const Field& field = *axes[axis];
         if (field.type == FieldType::f32) {
@@ -165,10 +166,6 @@ Reader reader_of(const std::filesystem::path& file) {
     return nullptr;
 }
 
-}  // namespace
-
-bool is_cloud(const std::filesystem::path& file) { return reader_of(file) != nullptr; }
-
 std::string cloud_kinds() {
     std::string kinds;
     for (const auto& [extension, reader] : readers()) {
@@ -176,6 +173,8 @@ std::string cloud_kinds() {
     }
     return kinds;
 }
+
+}  // namespace
 
 Cloud read_cloud(const std::filesystem::path& file) {
     const Reader reader = reader_of(file);

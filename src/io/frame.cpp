@@ -8,8 +8,10 @@
 #include "bag_scans.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/io/sequence.hpp"
+#include "folders.hpp"
 #include "frame.hpp"
 #include "input.hpp"
+#include "layouts/layouts.hpp"
 
 namespace dynamic_filter::io {
 namespace {
@@ -86,8 +88,9 @@ Labels read_labels(const std::filesystem::path& file) {
 }
 
 Cloud read_scan(const Sequence& sequence, std::size_t i) {
-    return sequence.bag ? read_bag_cloud(*sequence.bag, sequence.bag_scans.at(i))
-                        : read_cloud(sequence.scan_files.at(i));
+    if (sequence.bag) return read_bag_cloud(*sequence.bag, sequence.bag_scans.at(i));
+    const std::filesystem::path& file = sequence.scan_files.at(i);
+    return is_folder(file) ? read_submap(file) : read_cloud(file);
 }
 
 Frame read_frame(const Sequence& sequence, std::size_t i) {

@@ -8,49 +8,13 @@
 #include <set>
 
 #include "dynamic_filter/error.hpp"
-#include "text.hpp"
+#include "folders.hpp"
+#include "layouts/layouts.hpp"
 
 namespace dynamic_filter::io {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool is_folder(const fs::path& path) {
-    std::error_code ignored;
-    return fs::is_directory(path, ignored);
-}
-
-bool present(const fs::path& path) {
-    std::error_code ignored;
-    return fs::exists(path, ignored);
-}
-
-std::string extension_of(const fs::path& path) { return to_lower(path.extension().string()); }
-
-/// Visible files with one of the extensions, in natural order.
-Paths list_files(const fs::path& folder, const std::set<std::string>& extensions,
-                 std::error_code& error) {
-    Paths files;
-    for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
-         entry.increment(error)) {
-        const fs::path& path = entry->path();
-        const bool wanted = extensions.contains(extension_of(path));
-        if (wanted && !path.filename().string().starts_with('.') && !is_folder(path)) {
-            files.push_back(path);
-        }
-    }
-    std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
-        return natural_less(a.filename().string(), b.filename().string());
-    });
-    return files;
-}
-
-Paths list_files(const fs::path& folder, const std::set<std::string>& extensions) {
-    std::error_code error;
-    Paths files = list_files(folder, extensions, error);
-    if (error) throw InputError(folder, "", "cannot be listed: " + error.message());
-    return files;
-}
 
 fs::path without_slash(const fs::path& path) {
     const fs::path normal = path.lexically_normal();
@@ -113,7 +77,7 @@ const std::vector<std::string>& scan_folders() {
 }
 
 const std::set<std::string>& scan_kinds() {
-    static const std::set<std::string> kinds = {".bin", ".pcd", ".ply"};
+    static const std::set<std::string> kinds = {".bin", ".pcd", ".ply", ".las", ".npy"};
     return kinds;
 }
 
@@ -136,7 +100,7 @@ void find_folder_scans(Layout& layout, const fs::path& data) {
     if (layout.scans.empty()) {
         throw InputError(data, "",
                          "holds no scans; looked for velodyne/*.bin, pcd/*.pcd, and *.bin, *.pcd, "
-                         "*.ply here and in Scans/, scans/, pcds/, clouds/");
+                         "*.ply, *.las, *.npy here and in Scans/, scans/, pcds/, clouds/");
     }
     const std::string kind = extension_of(layout.scans[0]);
     for (const fs::path& scan : layout.scans) {
@@ -206,6 +170,12 @@ bool has_scans(const fs::path& data) {
 Layout find_layout(const fs::path& data, const OpenOptions& options) {
     require_folder(data);
     refuse_inner_folder(data, options);
+    if (!options.format && !options.poses) {
+        if (auto layout = find_pairs(data)) return *std::move(layout);
+        if (auto layout = find_glim(data)) return *std::move(layout);
+        if (auto layout = find_mulran(data)) return *std::move(layout);
+    }
+    if (!options.format && !has_scans(data)) refuse_several_recordings(data);
     Layout layout;
     layout.format = options.format.value_or(recognise(data));
     find_scans(layout, data);

@@ -58,6 +58,10 @@ void from_camera_poses(Sequence& sequence, const std::filesystem::path& calib) {
 
 /// Fills the poses, and returns the stamps as far as the recording has them.
 std::vector<double> assign_poses(Sequence& sequence, const Layout& layout) {
+    if (!layout.T_world_sensor.empty()) {
+        sequence.T_world_sensor = layout.T_world_sensor;
+        return layout.stamps;
+    }
     std::vector<double> times = times_of(layout);
     if (!layout.poses) return times;
     const PoseFile file = read_poses(*layout.poses);

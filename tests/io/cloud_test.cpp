@@ -78,7 +78,7 @@ TEST(Cloud, BinSizeIsExplained) {
 
 TEST(Cloud, KindsAreToldByExtension) {
     const TemporaryFolder folder;
-    EXPECT_HAS(error_of([&] { read_cloud(folder.put("a.las", "")); }), "unknown kind");
+    EXPECT_HAS(error_of([&] { read_cloud(folder.put("a.e57", "")); }), "unknown kind");
     EXPECT_HAS(error_of([&] { read_cloud(folder / "none.pcd"); }), "No such file");
     EXPECT_EQ(read_cloud(folder.put("a.BIN", floats({1, 2, 3, 4}))).size(), 1U);
 }

@@ -31,9 +31,21 @@ TEST(PoseTable, NamedColumnsInAnyOrder) {
     EXPECT_FALSE(read("x,y,z,qx,qy,qz,qw\nnan,0,0,0,0,0,1\n").poses.at(0).matrix().allFinite());
 }
 
+TEST(PoseTable, MatricesWithoutHeader) {
+    const PoseFile file = read(
+        "1500000000,1,0,0,7,0,1,0,8,0,0,1,9\n1600000000,nan,0,0,7,0,1,0,8,"
+        "0,0,1,9\n");
+    ASSERT_EQ(file.poses.size(), 2U);
+    EXPECT_DOUBLE_EQ(file.stamps[0], 1.5);
+    EXPECT_EQ(file.poses[0].translation(), Eigen::Vector3d(7, 8, 9));
+    EXPECT_FALSE(file.poses[1].matrix().allFinite());
+}
+
 TEST(PoseTable, FaultsAreNamed) {
     const auto error = [](const std::string& text) { return error_of([&] { read(text); }); };
     EXPECT_HAS(error("1,2,3,4,5,6,7,8\n"), "header");
+    EXPECT_HAS(error("1,2,0,0,7,0,1,0,8,0,0,1,9\n"), "orthogonal");
+    EXPECT_HAS(error("1,a,0,0,7,0,1,0,8,0,0,1,9\n"), "'a'");
     EXPECT_HAS(error("time,x,y,z,qx,qy,qz\n"), "'qw'");
     EXPECT_HAS(error("time,x,tx,y,z,qx,qy,qz,qw\n"), "two columns");
     EXPECT_HAS(error("time [h],x,y,z,qx,qy,qz,qw\n"), "unit");

@@ -52,8 +52,64 @@ TEST_F(Poses, BadRowsAreNamed) {
     EXPECT_HAS(error("0 1 2 3 0 0 0 0.9\n"), "line 1");
     EXPECT_HAS(error("2 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n"), "line 2");
     EXPECT_HAS(error("nan 0 0 0 0 0 0 1\n"), "not finite");
-    EXPECT_HAS(error("VERTEX_SE3:QUAT 0 0 0 0 0 0 0 1\n"), "VERTEX_SE3");
     error_of([&] { read_poses(folder_ / "none.txt"); });
+}
+
+TEST_F(Poses, G2oInTheOrderOfTheIds) {
+    const PoseFile file = read(
+        "# graph\nEDGE_SE3:QUAT 2 10 1 1 1 0 0 0 1\nVERTEX_SE3:QUAT 10 1 2 3 0 0 1 0\nFIX 2\n"
+        "VERTEX_TRACKXYZ 7 1 1 1\nVERTEX_SE3:QUAT 2 4 5 6 0 0 0 1\n"
+        "VERTEX_SE3:QUAT 6989586621679009792 nan 0 0 0 0 0 1\n");
+    ASSERT_EQ(file.poses.size(), 3U);
+    EXPECT_TRUE(file.stamps.empty());
+    EXPECT_EQ(file.poses[0].translation(), Eigen::Vector3d(4, 5, 6));
+    EXPECT_EQ(file.poses[1].linear()(0, 0), -1.0);  // half a turn about z
+    EXPECT_FALSE(file.poses[2].matrix().allFinite());
+    EXPECT_HAS(error("VERTEX_SE2 0 1 2 3\n"), "no pose");
+    EXPECT_HAS(error("VERTEX_SE3:QUAT a 0 0 0 0 0 0 1\n"), "'a'");
+    EXPECT_HAS(error("VERTEX_SE3:QUAT 0 0 0 0 0 0 0\n"), "6 numbers");
+    const std::string vertex = "VERTEX_SE3:QUAT 0 0 0 0 0 0 0 1\n";
+    EXPECT_HAS(error(vertex + vertex), "line 2");
+}
+
+std::vector<Pose> some_poses() {
+    std::vector<Pose> poses(3, Pose::Identity());
+    poses[1].linear() =
+        Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+    poses[1].translation() = Eigen::Vector3d(123456.789, -0.1, 1e-7);
+    poses[2].linear() = Eigen::AngleAxisd(3.1, Eigen::Vector3d::UnitY()).toRotationMatrix();
+    return poses;
+}
+
+void expect_same(const PoseFile& file, const std::vector<Pose>& poses) {
+    ASSERT_EQ(file.poses.size(), poses.size());
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        EXPECT_EQ(file.poses[i].translation(), poses[i].translation());
+        EXPECT_TRUE(file.poses[i].linear().isApprox(poses[i].linear(), 1e-14));
+    }
+}
+
+TEST_F(Poses, WrittenAndReadBack) {
+    const std::vector<Pose> poses = some_poses();
+    const std::vector<double> stamps = {0.0, 0.5, 1403636579.763555};
+    write_poses_tum(folder_ / "p.txt", stamps, poses);
+    expect_same(read_poses(folder_ / "p.txt"), poses);
+    EXPECT_EQ(read_poses(folder_ / "p.txt").stamps, stamps);
+    write_poses_csv(folder_ / "p.txt", stamps, poses);
+    expect_same(read_poses(folder_ / "p.txt"), poses);
+    EXPECT_NEAR(read_poses(folder_ / "p.txt").stamps[2], stamps[2], 5e-7);
+    write_poses_g2o(folder_ / "p.txt", poses);
+    expect_same(read_poses(folder_ / "p.txt"), poses);
+    EXPECT_THROW(write_poses_tum(folder_ / "p.txt", {}, poses), OutputError);
+}
+
+TEST_F(Poses, WrittenWithoutTracking) {
+    std::vector<Pose> poses = some_poses();
+    poses[1].matrix().topRows<3>().setConstant(std::nan(""));
+    write_poses_tum(folder_ / "p.txt", std::vector<double>{0, 1, 2}, poses);
+    EXPECT_FALSE(read_poses(folder_ / "p.txt").poses.at(1).matrix().allFinite());
+    write_poses_g2o(folder_ / "p.txt", poses);
+    EXPECT_EQ(read_poses(folder_ / "p.txt").poses.size(), 2U);
 }
 
 TEST_F(Poses, CalibTr) {

@@ -56,8 +56,6 @@ enum class PcdData : std::uint8_t { ascii, binary, compressed };
 /// type. Lengths are in the file's unit, metres by custom. Thread-safe. Throws InputError with the
 /// byte or line; allocates no more than the file's bytes justify.
 Cloud read_cloud(const std::filesystem::path& file);
-bool is_cloud(const std::filesystem::path& file);  ///< by extension, in any case of letters
-std::string cloud_kinds();                         ///< ".pcd, .ply, ...", for messages
 
 Cloud read_pcd(const std::filesystem::path& file);  ///< ascii, binary, binary_compressed
 Cloud read_ply(const std::filesystem::path& file);  ///< ascii, little and big endian

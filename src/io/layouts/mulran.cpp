@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/io/poses.hpp"
+#include "dynamic_filter/io/trajectory.hpp"
+#include "io/folders.hpp"
+#include "io/layouts/layouts.hpp"
+#include "io/rigid.hpp"
+#include "io/text.hpp"
+
+namespace dynamic_filter::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The data set's calibration: where the sensor is on the vehicle.
+Pose T_vehicle_sensor() {
+    constexpr double degree = std::numbers::pi / 180.0;
+    Pose pose = Pose::Identity();
+    pose.linear() = (Eigen::AngleAxisd(179.6654 * degree, Eigen::Vector3d::UnitZ()) *
+                     Eigen::AngleAxisd(0.0003 * degree, Eigen::Vector3d::UnitY()) *
+                     Eigen::AngleAxisd(0.0001 * degree, Eigen::Vector3d::UnitX()))
+                        .toRotationMatrix();
+    pose.translation() = Eigen::Vector3d(1.7042, -0.021, 1.8047);
+    return pose;
+}
+
+std::optional<fs::path> scan_folder_of(const fs::path& data) {
+    for (const fs::path& folder : {data / "Ouster", data / "sensor_data" / "Ouster"}) {
+        if (is_folder(folder)) return folder;
+    }
+    return std::nullopt;
+}
+
+double stamp_of(const fs::path& scan) {
+    const auto nanoseconds = parse_count(scan.stem().string());
+    if (!nanoseconds) {
+        throw InputError(scan, "", "its name is no time; MulRan's are whole nanoseconds");
+    }
+    return static_cast<double>(*nanoseconds) * 1e-9;
+}
+
+}  // namespace
+
+std::optional<Layout> find_mulran(const fs::path& data) {
+    const fs::path poses = data / "global_pose.csv";
+    const auto folder = scan_folder_of(data);
+    if (!folder || !present(poses)) return std::nullopt;
+    Layout layout;
+    layout.scan_folder = *folder;
+    layout.scans = list_files(*folder, {".bin"});
+    if (layout.scans.empty()) throw InputError(*folder, "", "no *.bin found");
+    PoseFile file = read_poses(poses);
+    if (file.stamps.empty()) throw InputError(poses, "", "has no stamps; expected MulRan's file");
+    Trajectory trajectory{std::move(file.stamps), std::move(file.poses)};
+    put_in_order(trajectory);
+    std::size_t lost = 0;
+    for (const fs::path& scan : layout.scans) {
+        layout.stamps.push_back(stamp_of(scan));
+        const auto pose = pose_at(trajectory, layout.stamps.back());
+        if (!pose) ++lost;
+        layout.T_world_sensor.push_back(pose ? *pose * T_vehicle_sensor() : lost_pose());
+    }
+    if (lost == layout.scans.size()) {
+        throw InputError(poses, "", "has no pose at the time of any scan in " + folder->string());
+    }
+    layout.notes.push_back("vehicle poses from " + poses.string() +
+                           ", interpolated at the scans' times, converted with MulRan's "
+                           "calibration of the Ouster");
+    if (lost != 0) layout.notes.push_back(fmt::format("{} scans have no pose around them", lost));
+    return layout;
+}
+
+}  // namespace dynamic_filter::io
