@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 #include <cstring>
@@ -200,6 +201,24 @@ private:
     io::Cloud layout_, map_;
 };
 
+void refuse_existing(const ConvertOptions& o) {
+    if (fs::exists(o.output) && !o.overwrite) {
+        throw ConfigError(o.output.string() + ": exists; choose another, or --overwrite");
+    }
+}
+
+/// Before hours of reading, not after.
+void check_cloud_output(const ConvertOptions& o) {
+    static const std::set<std::string> clouds = {".pcd", ".ply", ".las", ".npy", ".bin"};
+    if (!clouds.contains(o.output.extension().string())) {
+        throw ConfigError(
+            fmt::format("{}: unknown extension; expected {}, .mcap, .bag, .db3, or "
+                        "none for a folder",
+                        o.output.string(), fmt::join(clouds, ", ")));
+    }
+    refuse_existing(o);
+}
+
 std::unique_ptr<Sink> make_sink(const ConvertOptions& o) {
     static const std::set<std::string> bags = {".mcap", ".bag", ".db3"};
     const std::string extension = o.output.extension().string();
@@ -207,10 +226,11 @@ std::unique_ptr<Sink> make_sink(const ConvertOptions& o) {
     if (o.to == "kitti" || extension.empty()) {
         return std::make_unique<KittiSink>(o.output, o.overwrite);
     }
-    if (fs::exists(o.output) && !o.overwrite) {
-        throw ConfigError(o.output.string() + ": exists; choose another, or --overwrite");
+    if (bags.contains(extension)) {
+        refuse_existing(o);
+        return std::make_unique<BagSink>(o.output);
     }
-    if (bags.contains(extension)) return std::make_unique<BagSink>(o.output);
+    check_cloud_output(o);
     return std::make_unique<MapSink>(o.output);
 }
 
@@ -253,9 +273,7 @@ int convert_recording(const ConvertOptions& o) {
 }
 
 int convert_cloud(const ConvertOptions& o) {
-    if (fs::exists(o.output) && !o.overwrite) {
-        throw ConfigError(o.output.string() + ": exists; choose another, or --overwrite");
-    }
+    check_cloud_output(o);
     const io::Cloud cloud = io::read_cloud(o.data.data);
     say(io::write_cloud(o.output, cloud));
     fmt::print("written  {} ({} points)\n", o.output.string(), cloud.size());

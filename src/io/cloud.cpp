@@ -32,9 +32,35 @@ const Field& coordinate(const Cloud& cloud, const char* name) {
 
 /// What the size of a .bin that is no multiple of 16 suggests.
 std::string explain_bin_size(std::size_t bytes) {
-    if (bytes % 20 == 0) return "it looks like 5 floats a point (nuScenes); drop the fifth";
+    if (bytes % 20 == 0) return "it looks like 5 floats a point (nuScenes); name it .pcd.bin";
     if (bytes % 12 == 0) return "it looks like 3 floats a point (x y z); add an intensity";
     return "it is truncated after point " + std::to_string(bytes / bin_point_bytes);
+}
+
+using Reader = Cloud (*)(const std::filesystem::path&);
+
+const std::vector<std::pair<std::string, Reader>>& readers() {
+    static const std::vector<std::pair<std::string, Reader>> all = {
+        {".pcd", read_pcd},        {".ply", read_ply},        {".bin", read_bin},
+        {".las", read_las},        {".laz", read_las},        {".npy", read_npy},
+        {".xyz", read_text_cloud}, {".txt", read_text_cloud}, {".csv", read_text_cloud}};
+    return all;
+}
+
+Reader reader_of(const std::filesystem::path& file) {
+    const std::string extension = to_lower(file.extension().string());
+    for (const auto& [known, reader] : readers()) {
+        if (extension == known) return reader;
+    }
+    return nullptr;
+}
+
+std::string cloud_kinds() {
+    std::string kinds;
+    for (const auto& [extension, reader] : readers()) {
+        if (extension != ".laz") kinds += (kinds.empty() ? "" : ", ") + extension;
+    }
+    return kinds;
 }
 
 }  // namespace
@@ -132,49 +158,26 @@ Points positions(const Cloud& cloud) {
 }
 
 Cloud read_bin(const std::filesystem::path& file) {
+    const bool has_ring = to_lower(file.stem().extension().string()) == ".pcd";  // nuScenes
     Cloud cloud;
     for (const char* name : {"x", "y", "z", "intensity"}) add_field(cloud, name, FieldType::f32);
+    if (has_ring) add_field(cloud, "ring", FieldType::f32);
     cloud.data = read_bytes(file);
     const std::size_t bytes = cloud.data.size();
-    if (bytes == 0) throw InputError(file, "byte 0", "is empty; expected 16 bytes a point");
-    if (bytes % bin_point_bytes != 0) {
-        throw InputError(file, "byte " + std::to_string(bytes - bytes % bin_point_bytes),
-                         "its size of " + std::to_string(bytes) +
-                             " bytes is no multiple of 16 (float32 x y z intensity); " +
-                             explain_bin_size(bytes));
+    const std::size_t stride = cloud.point_bytes;
+    if (bytes == 0) {
+        throw InputError(file, "byte 0",
+                         "is empty; expected " + std::to_string(stride) + " bytes a point");
+    }
+    if (bytes % stride != 0) {
+        throw InputError(
+            file, "byte " + std::to_string(bytes - bytes % stride),
+            "its size of " + std::to_string(bytes) + " bytes is no multiple of " +
+                std::to_string(stride) + " (float32 x y z intensity" +
+                (has_ring ? " ring); it is truncated" : "); " + explain_bin_size(bytes)));
     }
     return cloud;
 }
-
-namespace {
-
-using Reader = Cloud (*)(const std::filesystem::path&);
-
-const std::vector<std::pair<std::string, Reader>>& readers() {
-    static const std::vector<std::pair<std::string, Reader>> all = {
-        {".pcd", read_pcd},        {".ply", read_ply},        {".bin", read_bin},
-        {".las", read_las},        {".laz", read_las},        {".npy", read_npy},
-        {".xyz", read_text_cloud}, {".txt", read_text_cloud}, {".csv", read_text_cloud}};
-    return all;
-}
-
-Reader reader_of(const std::filesystem::path& file) {
-    const std::string extension = to_lower(file.extension().string());
-    for (const auto& [known, reader] : readers()) {
-        if (extension == known) return reader;
-    }
-    return nullptr;
-}
-
-std::string cloud_kinds() {
-    std::string kinds;
-    for (const auto& [extension, reader] : readers()) {
-        if (extension != ".laz") kinds += (kinds.empty() ? "" : ", ") + extension;
-    }
-    return kinds;
-}
-
-}  // namespace
 
 Cloud read_cloud(const std::filesystem::path& file) {
     const Reader reader = reader_of(file);

@@ -167,7 +167,7 @@ private:
             reader.take(32);
             const auto record = reader.take(length);
             if (id == las_extra_id && user.substr(0, user.find('\0')) == las_spec) {
-                add_extra_fields(record);
+                return add_extra_fields(record);  // a second one would describe the same bytes
             }
         }
     }

@@ -168,6 +168,9 @@ bool has_scans(const fs::path& data) {
 }
 
 Layout find_layout(const fs::path& data, const OpenOptions& options) {
+    if (!options.format && !options.poses) {
+        if (auto layout = find_nuscenes(without_slash(data))) return *std::move(layout);
+    }
     require_folder(data);
     refuse_inner_folder(data, options);
     if (!options.format && !options.poses) {

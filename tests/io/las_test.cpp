@@ -125,6 +125,8 @@ TEST_F(Las, ExtraBytes) {
     EXPECT_EQ(column(cloud, "pair_0"), Numbers{-1});
     EXPECT_EQ(column(cloud, "pair_1"), Numbers{1});
     EXPECT_EQ(cloud.find("bytes"), nullptr);
+    const std::string twice = extra_record(extra(1, 0, "a")) + extra_record(extra(1, 0, "b"));
+    EXPECT_EQ(read(header(0, 21, 1, twice, 2) + old_point(0) + "a").find("b"), nullptr);
     const auto one = [&](const std::string& entries) {
         return error(header(0, 21, 1, extra_record(entries), 1) + old_point(0) + "a");
     };

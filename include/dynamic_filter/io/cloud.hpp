@@ -59,7 +59,8 @@ Cloud read_cloud(const std::filesystem::path& file);
 
 Cloud read_pcd(const std::filesystem::path& file);  ///< ascii, binary, binary_compressed
 Cloud read_ply(const std::filesystem::path& file);  ///< ascii, little and big endian
-Cloud read_bin(const std::filesystem::path& file);  ///< float32 x y z intensity, as KITTI's
+Cloud read_bin(const std::filesystem::path& file);  ///< float32 x y z intensity (KITTI), and
+                                                    ///< ring if it is a .pcd.bin (nuScenes)
 /// LAS 1.0 to 1.4, all point formats, not compressed. x y z are float64 with scale and offset
 /// applied; colours, time, angle and Extra Bytes are fields. Flags and waveforms are left out.
 Cloud read_las(const std::filesystem::path& file);

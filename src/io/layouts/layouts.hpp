@@ -26,6 +26,12 @@ Cloud read_submap(const std::filesystem::path& folder);
 /// a pose.
 std::optional<Layout> find_mulran(const std::filesystem::path& data);
 
+/// nuScenes: v1.0-*/ with its tables, samples/LIDAR_TOP and sweeps/LIDAR_TOP. One scene's scans in
+/// the order of their times; of several scenes one is chosen by its name behind the folder's, as in
+/// DATA/scene-0061. Empty if it is no such folder; InputError with the scenes' names if none is
+/// chosen, and for tables that contradict each other.
+std::optional<Layout> find_nuscenes(const std::filesystem::path& data);
+
 /// Throws InputError with their names if the folders below are recordings (velodyne/ in each), as
 /// are HeLiMOS's sensors and SemanticKITTI's sequences.
 void refuse_several_recordings(const std::filesystem::path& data);
