@@ -1,5 +1,6 @@
-foreach(unit bag bag_writer benchmark cloud file frame layout lzf matching messages natural_order pcd
-             pcd_header ply ply_header png pose_table poses records rigid sequence text writers)
+foreach(unit bag bag_writer benchmark cloud file frame frame_tree layout lzf matching messages
+             natural_order pcd pcd_header ply ply_header png pose_table poses records rigid rosbag2
+             sequence text trajectory writers)
   df_test(io/${unit} dynamic_filter_io)
   # Units behind the public headers are tested too.
   target_include_directories(io_${unit}_test PRIVATE ${PROJECT_SOURCE_DIR}/src)
