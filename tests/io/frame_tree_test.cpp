@@ -73,9 +73,7 @@ TEST(FrameTree, CirclesEnd) {
     frames.put_in_order();
     EXPECT_EQ(frames.above("a"), (std::vector<std::string>{"a", "b"}));
     EXPECT_EQ(frames.above("c"), std::vector<std::string>{"c"});
-    EXPECT_FALSE(
-        frames.pose("a", "b", 0.0) && frames.pose("b", "a", 0.0) &&
-        !(*frames.pose("a", "b", 0.0) * *frames.pose("b", "a", 0.0)).isApprox(Pose::Identity()));
+    EXPECT_FALSE(frames.pose("a", "b", 0.0));  // there is no root to compare them in
     EXPECT_FALSE(frames.moves("a"));
 }
 

@@ -116,7 +116,8 @@ public:
 
     std::vector<std::string> for_each(const UseMessage& use) const override {
         std::vector<std::string> notes;
-        const std::uint64_t size = std::filesystem::file_size(path_);
+        std::error_code unknown;
+        const std::uint64_t size = std::filesystem::file_size(path_, unknown);
         if (const auto declared = declared_size(path_); size < declared) {
             notes.push_back(fmt::format("is cut off: it has {} of {} bytes", size, declared));
         }
