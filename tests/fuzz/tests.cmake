@@ -9,7 +9,7 @@ target_compile_definitions(fuzz_corpus_test PRIVATE
   DYNAMIC_FILTER_CORPUS="${CMAKE_CURRENT_LIST_DIR}/corpus")
 
 if(DYNAMIC_FILTER_FUZZ)
-  foreach(target bin calib config labels mcap message pcd ply poses rosbag1 rosbag2)
+  foreach(target bin calib config labels las mcap message npy pcd ply poses rosbag1 rosbag2 text)
     add_executable(fuzz_${target} ${CMAKE_CURRENT_LIST_DIR}/fuzzer.cpp)
     target_compile_definitions(fuzz_${target} PRIVATE DYNAMIC_FILTER_TARGET="${target}")
     target_link_libraries(fuzz_${target} PRIVATE dynamic_filter_fuzz dynamic_filter_flags)

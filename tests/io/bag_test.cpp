@@ -168,6 +168,23 @@ TEST_F(Bags, AFlippedByteIsNoted) {
     EXPECT_HAS(back.notes[0], "a.mcap: the chunk at byte ");
 }
 
+/// The first chunk, where all topics are announced, is damaged; they are told again at the end.
+TEST_F(Bags, ADamagedFirstChunkTakesNothingElseWithIt) {
+    for (const char* name : {"a.mcap", "a.bag"}) {
+        const auto path = folder_ / name;
+        const auto written = some_messages(encoding_of(path.extension().string()), 30, 2000);
+        write_bag(path, written);
+        std::string bytes = slurp(path);
+        const std::size_t in_first_chunk = 6000;
+        bytes.replace(in_first_chunk, 100, std::string(100, '\x55'));
+        const ReadBack back = read(name, bytes);
+        EXPECT_FALSE(back.notes.empty());
+        EXPECT_LT(back.messages.size(), written.size());
+        EXPECT_GT(back.messages.size(), written.size() / 3) << name;
+        EXPECT_TRUE(back.messages.back() == written.back());
+    }
+}
+
 TEST_F(Bags, AChecksumMayBeMissing) {
     const std::string records = mcap::schema(1, "nav_msgs/msg/Odometry") +
                                 mcap::channel(0, 1, "/a") + mcap::message(0, 1, "data");

@@ -3,6 +3,7 @@ find_package(Python3 REQUIRED COMPONENTS Interpreter)
 add_executable(write_bags ${CMAKE_CURRENT_LIST_DIR}/write_bags.cpp)
 target_include_directories(write_bags PRIVATE ${PROJECT_SOURCE_DIR}/tests)
 target_link_libraries(write_bags PRIVATE dynamic_filter_io dynamic_filter_flags fmt::fmt)
+add_dependencies(tests_without_simulator write_bags)
 foreach(kind mcap bag)
   add_test(NAME peers/${kind}
            COMMAND ${CMAKE_CURRENT_LIST_DIR}/compare.sh $<TARGET_FILE:write_bags> ${kind}

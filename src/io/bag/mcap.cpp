@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The format: https://mcap.dev/spec. The index at the end is not needed, so a file that was never
-// closed reads as well as any.
+// closed reads as well as any; it helps where a chunk is damaged.
 #include <fmt/format.h>
 #include <zlib.h>
 
@@ -124,6 +124,7 @@ public:
     std::vector<std::string> for_each(const UseMessage& use) const override {
         std::vector<std::string> notes;
         Reader reader(use, notes);
+        take_summary(reader);
         std::uint64_t at = kMagic.size();
         while (true) {
             if (file_.size() - at < kRecordHead) {
@@ -186,6 +187,31 @@ private:
         const auto bytes = record_at(at);
         const ChunkRecord chunk = parse_chunk(std::span(bytes).subspan(kRecordHead));
         return decompress(chunk.compression, chunk.bytes, chunk.size).bytes;
+    }
+
+    /// Schemas and channels are told there again: those of a damaged chunk are known all the same.
+    void take_summary(Reader& reader) const {
+        constexpr std::uint64_t kFooterBytes = kRecordHead + 20, kCrcBytes = 4;
+        constexpr std::uint64_t kEnd = kFooterBytes + kMagic.size();
+        constexpr std::uint64_t kMost = std::uint64_t{64} << 20U;  // it is only a help
+        if (file_.size() < kMagic.size() + kEnd) return;
+        const std::uint64_t end = file_.size() - kEnd;
+        const auto footer = file_.read(end, kFooterBytes);
+        const auto start = little_endian<std::uint64_t>(footer.data() + kRecordHead);
+        const auto crc = little_endian<std::uint32_t>(footer.data() + kFooterBytes - kCrcBytes);
+        if (std::to_integer<std::uint8_t>(footer[0]) != kFooter) return;
+        if (start == 0 || start >= end || end - start > kMost) return;
+        const auto bytes = file_.read(start, end + kFooterBytes - kCrcBytes - start);
+        if (crc != 0 && crc_of(bytes) != crc) return;
+        try {
+            ByteReader in({bytes.data(), end - start});
+            while (in.left() > 0) {
+                const Record record = take_record(in);
+                const bool wanted = record.opcode == kSchema || record.opcode == kChannel;
+                if (wanted) reader.take(record, kNoChunk, start);
+            }
+        } catch (const Malformed&) {
+        }
     }
 
     static void take_chunk(std::span<const std::byte> content, std::uint64_t at, Reader& reader,

@@ -128,6 +128,7 @@ public:
     std::vector<std::string> for_each(const UseMessage& use) const override {
         std::vector<std::string> notes;
         Reader reader(use);
+        take_index(reader);
         for (std::uint64_t at = kMagic.size(); at < file_.size();) {
             try {
                 const auto bytes = record_at(at);
@@ -176,6 +177,25 @@ private:
         const std::uint64_t head = length_at(0);
         const std::uint64_t size = 4 + head + 4 + length_at(4 + head);
         return file_.read(at, std::min(size, there));
+    }
+
+    /// Connections are told there again: those of a damaged chunk are known all the same.
+    void take_index(Reader& reader) const {
+        try {
+            const auto head = record_at(kMagic.size());
+            ByteReader first(head);
+            const Record header = take_record(first);
+            for (auto at = header.header.number<std::uint64_t>("index_pos");
+                 at > 0 && at < file_.size();) {
+                const auto bytes = record_at(at);
+                ByteReader in(bytes);
+                const Record record = take_record(in);
+                if (record.header.number<std::uint8_t>("op") != kConnection) return;
+                reader.take(record, kNoChunk, at);
+                at += bytes.size();
+            }
+        } catch (const Malformed&) {  // it was only a help
+        }
     }
 
     static Decompressed content_of(const Record& chunk) {

@@ -93,6 +93,22 @@ std::vector<std::byte> uncompressed(std::span<const std::byte> bytes) {
     return std::move(content.bytes);
 }
 
+/// SQLite takes a last page that is cut off for one that ends in zeros.
+std::uint64_t declared_size(const std::filesystem::path& path) {
+    constexpr std::size_t kHeader = 100, kPageSize = 16, kPages = 28;
+    const std::string head = read_head(path, kHeader);
+    if (head.size() < kHeader) return kHeader;
+    const auto big_endian = [&](std::size_t at, std::size_t size) {
+        std::uint64_t value = 0;
+        for (std::size_t i = at; i < at + size; ++i) {
+            value = value << 8U | static_cast<unsigned char>(head[i]);
+        }
+        return value;
+    };
+    const std::uint64_t page = big_endian(kPageSize, 2);
+    return (page == 1 ? 65536 : page) * big_endian(kPages, 4);
+}
+
 class Rosbag2 final : public BagFile {
 public:
     explicit Rosbag2(const std::filesystem::path& path)
@@ -100,6 +116,11 @@ public:
 
     std::vector<std::string> for_each(const UseMessage& use) const override {
         std::vector<std::string> notes;
+        std::error_code unknown;
+        const std::uint64_t size = std::filesystem::file_size(path_, unknown);
+        if (const auto declared = declared_size(path_); size < declared) {
+            notes.push_back(fmt::format("is cut off: it has {} of {} bytes", size, declared));
+        }
         const auto topics = read_topics(notes);
         Query query(database_.get(),
                     "SELECT id, topic_id, timestamp, data FROM messages ORDER BY id");
