@@ -43,7 +43,7 @@ struct RunOptions {
     int threads = 0;
     bool online = false;
     double speed = 1.0;  ///< of online: times the sensor's rate; 0: as fast as it can
-    bool overwrite = false;
+    bool overwrite = false, resume = false;
 };
 
 struct EvalOptions {

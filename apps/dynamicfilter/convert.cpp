@@ -52,7 +52,8 @@ void append_record(std::vector<std::byte>& to, std::span<const std::byte> record
 class KittiSink final : public Sink {
 public:
     KittiSink(const fs::path& folder, bool overwrite)
-        : output_(folder, Contents::recording, overwrite), scans_(output_.subfolder("velodyne")) {}
+        : output_(folder, Contents::recording, replaced_if(overwrite)),
+          scans_(output_.subfolder("velodyne")) {}
 
     void append(const io::Frame& frame, const Labels& labels) override {
         const std::string name = fmt::format("{:06}", poses_.size());
@@ -66,6 +67,7 @@ public:
     void commit() override {
         io::write_poses_kitti(output_.path() / "poses.txt", poses_);
         io::write_times(output_.path() / "times.txt", stamps_);
+        output_.commit();
     }
 
 private:
@@ -86,7 +88,8 @@ private:
 class BenchmarkSink final : public Sink {
 public:
     BenchmarkSink(const fs::path& folder, bool overwrite)
-        : output_(folder, Contents::benchmark, overwrite), scans_(output_.subfolder("pcd")) {
+        : output_(folder, Contents::benchmark, replaced_if(overwrite)),
+          scans_(output_.subfolder("pcd")) {
         for (const char* name : {"x", "y", "z", "intensity"}) {
             io::add_field(layout_, name, io::FieldType::f32);
         }
@@ -109,10 +112,10 @@ public:
     }
     /// With labels, the map that the benchmark scores against.
     void commit() override {
-        if (!labelled_) return;
         truth_.fields = layout_.fields;
         truth_.point_bytes = layout_.point_bytes;
-        io::write_pcd(output_.path() / "gt_cloud.pcd", truth_);
+        if (labelled_) io::write_pcd(output_.path() / "gt_cloud.pcd", truth_);
+        output_.commit();
     }
 
 private:

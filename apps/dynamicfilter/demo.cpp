@@ -36,18 +36,21 @@ int demo(const DemoOptions& o) {
     const auto recording = o.output / "recording";
     const bool again = std::filesystem::exists(o.output / "before.png") &&
                        std::filesystem::exists(recording / "poses.txt");
-    const OutputFolder output(o.output, Contents::demo, again);
-    const OutputFolder recorded(recording, Contents::recording, again);
-    const OutputFolder result(o.output / "result", Contents::result, again);
+    OutputFolder output(o.output, Contents::demo, replaced_if(again));
+    OutputFolder recorded(recording, Contents::recording, replaced_if(again));
+    OutputFolder result(o.output / "result", Contents::result, replaced_if(again));
     sim::SimulationOptions scene;
     scene.pedestrians = kPedestrians;
-    write_simulation(scene, recording);
+    write_simulation(scene, recorded.path());
+    recorded.commit();
 
     TopView view;
     const io::Sequence sequence = open({.data = recording, .format = "kitti", .open = {}});
     const RunSummary summary = run_sequence(sequence, preset("default"), {}, result, &view);
-    io::write_png(o.output / "before.png", view.draw(true));
-    io::write_png(o.output / "after.png", view.draw(false));
+    result.commit();
+    io::write_png(output.path() / "before.png", view.draw(true));
+    io::write_png(output.path() / "after.png", view.draw(false));
+    output.commit();
 
     fmt::print("\n{}", to_text(summary));
     print_table(summary.scores->voxel.at("excluded"));

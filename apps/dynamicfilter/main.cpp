@@ -70,8 +70,12 @@ void add_run(CLI::App& app, std::function<int()>& chosen) {
         ->needs(online)
         ->check(CLI::Range(0.0, 1e6))
         ->capture_default_str();
-    c.add_flag("--overwrite", o->overwrite,
-               "replace what an earlier run left in the output folder");
+    CLI::Option* const overwrite =
+        c.add_flag("--overwrite", o->overwrite,
+                   "replace what an earlier run left in the output folder, once this one is done");
+    c.add_flag("--resume", o->resume,
+               "finish a run that was interrupted or killed, with the bytes of an unbroken one")
+        ->excludes(overwrite);
     c.callback([o, &chosen] { chosen = [o] { return run(*o); }; });
 }
 

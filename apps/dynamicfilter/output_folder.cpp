@@ -23,7 +23,7 @@ namespace dynamic_filter::app {
 
 namespace {
 
-constexpr const char* kLock = ".lock";
+constexpr const char *kLock = ".lock", *kBeside = ".new";
 
 struct Names {
     std::vector<const char*> files;
@@ -34,7 +34,7 @@ Names written_by(Contents contents) {
     switch (contents) {
         case Contents::result:
             return {{"static_map.pcd", "dynamic_points.pcd", "metrics.json", "timing.json",
-                     "config.toml", "run.log"},
+                     "config.toml", "run.log", ".run"},
                     {{"labels", ".label"}}};
         case Contents::recording:
             return {{"poses.txt", "times.txt"}, {{"labels", ".label"}, {"velodyne", ".bin"}}};
@@ -63,13 +63,19 @@ void remove_files(const fs::path& folder, const std::function<bool(const fs::pat
 void remove_earlier_output(const fs::path& path, Contents contents) {
     const Names names = written_by(contents);
     for (const char* name : names.files) fs::remove(path / name);
-    remove_files(path, is_stale);
     for (const auto& [name, suffix] : names.folders) {
         if (!fs::is_directory(path / name)) continue;
-        remove_files(path / name, [&, s = suffix](const fs::path& file) {
-            return file.extension() == s || is_stale(file);
-        });
+        remove_files(path / name,
+                     [&, s = suffix](const fs::path& file) { return file.extension() == s; });
         if (fs::is_empty(path / name)) fs::remove(path / name);
+    }
+}
+
+/// What a process that was killed left half-written.
+void remove_stale(const fs::path& path, Contents contents) {
+    remove_files(path, is_stale);
+    for (const auto& [name, suffix] : written_by(contents).folders) {
+        if (fs::is_directory(path / name)) remove_files(path / name, is_stale);
     }
 }
 
@@ -83,7 +89,8 @@ bool is_current(int descriptor, const fs::path& file) {
 
 bool holds_something(const fs::path& path) {
     for (const auto& entry : fs::directory_iterator(path)) {
-        if (entry.path().filename() != kLock) return true;
+        const fs::path name = entry.path().filename();
+        if (name != kLock && name != kBeside) return true;
     }
     return false;
 }
@@ -108,8 +115,8 @@ OutputFolder::Lock::~Lock() {
     close(descriptor);
 }
 
-OutputFolder::OutputFolder(fs::path path, Contents contents, bool overwrite)
-    : path_(std::move(path)) {
+OutputFolder::OutputFolder(fs::path path, Contents contents, Existing existing)
+    : path_(std::move(path)), contents_(contents) {
     if (path_.empty()) throw ConfigError("the output folder has no name; give one with -o");
     try {
         if (fs::exists(path_) && !fs::is_directory(path_)) {
@@ -117,25 +124,52 @@ OutputFolder::OutputFolder(fs::path path, Contents contents, bool overwrite)
         }
         fs::create_directories(path_);
         lock_.emplace(path_);
-        if (holds_something(path_)) {
-            if (!overwrite) {
-                throw ConfigError(path_.string() +
-                                  ": the folder is not empty; choose another -o, or --overwrite");
-            }
-            remove_earlier_output(path_, contents);
+        fs::remove_all(path_ / kBeside);  // of a process that was killed
+        remove_stale(path_, contents_);
+        if (!holds_something(path_) || existing == Existing::go_on) return;
+        if (existing == Existing::refuse) {
+            throw ConfigError(path_.string() +
+                              ": the folder is not empty; choose another -o, or --overwrite");
         }
+        beside_ = path_ / kBeside;
+        fs::create_directory(beside_);
     } catch (const fs::filesystem_error& error) {
         throw OutputError(path_, error.code().message());
     }
 }
 
-OutputFolder::~OutputFolder() = default;
+void OutputFolder::commit() {
+    if (beside_.empty()) return;
+    try {
+        remove_earlier_output(path_, contents_);
+        for (const auto& entry : fs::directory_iterator(beside_)) {
+            const fs::path to = path_ / entry.path().filename();
+            if (!entry.is_directory()) {
+                fs::rename(entry.path(), to);
+                continue;
+            }
+            fs::create_directories(to);  // it may hold files of the user
+            for (const auto& file : fs::directory_iterator(entry.path())) {
+                fs::rename(file.path(), to / file.path().filename());
+            }
+        }
+        fs::remove_all(beside_);
+        beside_.clear();
+    } catch (const fs::filesystem_error& error) {
+        throw OutputError(path_, error.code().message());
+    }
+}
+
+OutputFolder::~OutputFolder() {
+    std::error_code ignored;
+    if (!beside_.empty()) fs::remove_all(beside_, ignored);
+}
 
 fs::path OutputFolder::subfolder(const char* name) const {
     std::error_code error;
-    fs::create_directories(path_ / name, error);
-    if (error) throw OutputError(path_ / name, error.message());
-    return path_ / name;
+    fs::create_directories(path() / name, error);
+    if (error) throw OutputError(path() / name, error.message());
+    return path() / name;
 }
 
 void refuse_same_folder(const fs::path& input, const fs::path& output) {

@@ -9,17 +9,32 @@ namespace dynamic_filter::app {
 /// What a command writes into its folder: all that --overwrite may remove.
 enum class Contents { result, recording, benchmark, demo };
 
-/// A folder that one process fills. Creates it, refuses one that holds something (ConfigError)
-/// unless `overwrite`, which removes what such a command leaves there and nothing else. Locked
-/// while it lives: a second process gets a ConfigError. Throws OutputError if it cannot be made.
+/// What becomes of an earlier result in the folder.
+enum class Existing {
+    refuse,   ///< ConfigError
+    replace,  ///< it stays until commit(), and then goes: what such a command leaves, nothing else
+    go_on,    ///< it is written over, file by file
+};
+inline Existing replaced_if(bool overwrite) {
+    return overwrite ? Existing::replace : Existing::refuse;
+}
+
+/// A folder that one process fills. Locked while it lives: a second process gets a ConfigError.
+/// Throws OutputError if it cannot be made.
 class OutputFolder {
 public:
-    OutputFolder(std::filesystem::path path, Contents contents, bool overwrite);
+    OutputFolder(std::filesystem::path path, Contents contents, Existing existing);
     OutputFolder(const OutputFolder&) = delete;
     OutputFolder& operator=(const OutputFolder&) = delete;
     ~OutputFolder();
 
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+    /// Where to write: beside an earlier result, as long as there is one.
+    [[nodiscard]] const std::filesystem::path& path() const {
+        return beside_.empty() ? path_ : beside_;
+    }
+    [[nodiscard]] const std::filesystem::path& name() const { return path_; }
+    /// Puts what was written in the place of the earlier result. Without it, that one stays.
+    void commit();
     /// Creates and returns a folder inside.
     [[nodiscard]] std::filesystem::path subfolder(const char* name) const;
 
@@ -31,7 +46,8 @@ private:
         explicit Lock(const std::filesystem::path& folder);
         ~Lock();
     };
-    std::filesystem::path path_;
+    std::filesystem::path path_, beside_;
+    Contents contents_;
     std::optional<Lock> lock_;
 };
 

@@ -3,12 +3,48 @@
 
 #include "commands.hpp"
 #include "config_file.hpp"
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/io/file.hpp"
 #include "dynamic_filter/io/preflight.hpp"
 #include "frames.hpp"
 #include "progress.hpp"
 #include "run_sequence.hpp"
 
 namespace dynamic_filter::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char *kState = ".run", *kComplete = "complete\n";
+
+/// What a run was begun with: whoever resumes it must come with the same.
+std::string begun_with(const io::Sequence& sequence, const Config& config) {
+    return fmt::format("version {}\ninput {}\nscans {} from {} to {}\n{}", DYNAMIC_FILTER_VERSION,
+                       fs::absolute(sequence.root).lexically_normal().string(), sequence.size(),
+                       io::stem(sequence, 0), io::stem(sequence, sequence.size() - 1),
+                       to_toml(config));
+}
+
+/// True if nothing is left to do. Throws ConfigError if that run was another one.
+bool is_complete(const fs::path& folder, const std::string& state) {
+    if (!fs::exists(folder / kState)) {
+        if (!fs::exists(folder / "run.log") && !fs::exists(folder / "labels")) return false;
+        throw ConfigError(folder.string() +
+                          ": holds a result that does not say what it was begun with; use "
+                          "--overwrite or another -o");
+    }
+    const std::string found = io::read_file(folder / kState);
+    if (found == state + kComplete) return true;
+    if (found == state) return false;
+    throw ConfigError(
+        folder.string() +
+        ": was begun with another recording, other settings or another version; go on "
+        "with those (see config.toml and run.log there), or start afresh with "
+        "--overwrite");
+}
+
+}  // namespace
 
 int run(const RunOptions& o) {
     const Config config = load_config(o.config);
@@ -18,7 +54,15 @@ int run(const RunOptions& o) {
         refuse_same_folder(o.data.data, *o.output);
         refuse_same_folder(sequence.scan_files.front().parent_path(), *o.output);
     }
-    const OutputFolder output(named ? *o.output : default_output(), Contents::result, o.overwrite);
+    if (o.resume && !named) throw ConfigError("--resume needs the folder to go on with: -o DIR");
+    OutputFolder output(named ? *o.output : default_output(), Contents::result,
+                        o.resume ? Existing::go_on : replaced_if(o.overwrite));
+    const std::string state = begun_with(sequence, config);
+    if (o.resume && is_complete(output.path(), state)) {
+        fmt::print("complete {}\n", output.name().string());
+        return kDone;
+    }
+    io::write_file(output.path() / kState, state);
     for (const std::string& note : sequence.notes) fmt::print(stderr, "note: {}\n", note);
     for (const io::Finding& finding : io::check_recording(sequence, io::Depth::quick).findings) {
         fmt::print(stderr, "warning: {}; try {} (`dynamicfilter check` looks closer)\n",
@@ -33,8 +77,10 @@ int run(const RunOptions& o) {
     for (const std::string& line : summary.notes) fmt::print(stderr, "note: {}\n", line);
     for (const std::string& line : summary.rejected) fmt::print(stderr, "rejected {}\n", line);
     for (const std::string& line : summary.dropped) fmt::print(stderr, "dropped {}\n", line);
-    fmt::print("{}written  {}\n", to_text(summary), output.path().string());
-    if (!named && !link_latest(output.path())) fmt::print(stderr, "note: no link results/latest\n");
+    if (!summary.interrupted) io::write_file(output.path() / kState, state + kComplete);
+    output.commit();
+    fmt::print("{}written  {}\n", to_text(summary), output.name().string());
+    if (!named && !link_latest(output.name())) fmt::print(stderr, "note: no link results/latest\n");
     if (2 * summary.unknown > summary.points) {
         fmt::print(stderr,
                    "note: most points are unknown; are the first poses of another place?\n");

@@ -34,10 +34,11 @@ std::size_t write_simulation(const sim::SimulationOptions& options,
 }
 
 int simulate(const SimulateOptions& o) {
-    const OutputFolder output(o.output, Contents::recording, o.overwrite);
+    OutputFolder output(o.output, Contents::recording, replaced_if(o.overwrite));
     catch_interrupts();
     const std::size_t points = write_simulation(o.simulation, output.path());
-    fmt::print("written  {} ({} points)\n", output.path().string(), points);
+    output.commit();
+    fmt::print("written  {} ({} points)\n", output.name().string(), points);
     return interrupted() ? kInterrupted : kDone;
 }
 

@@ -15,12 +15,10 @@ constexpr std::size_t bin_point_bytes = 4 * sizeof(float);
 
 template <typename T>
 void gather(const Cloud& cloud, const Field& field, std::vector<double>& out) {
-    const std::byte* from = cloud.data.data() + field.offset;
-    for (double& value : out) {
+    for (std::size_t i = 0; i < out.size(); ++i) {
         T raw{};
-        std::memcpy(&raw, from, sizeof raw);
-        value = static_cast<double>(raw);
-        from += cloud.point_bytes;
+        std::memcpy(&raw, cloud.data.data() + i * cloud.point_bytes + field.offset, sizeof raw);
+        out[i] = static_cast<double>(raw);
     }
 }
 

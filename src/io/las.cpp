@@ -44,10 +44,9 @@ private:
 
     template <class From, class To, class F>
     void each(const LasField& from, const Field& to, const F& f) {
-        std::byte* out = cloud_.data.data() + to.offset;
-        const std::byte* in = records_.data() + from.at;
         for (std::size_t i = 0; i < cloud_.size(); ++i) {
-            store_at<To>(out + i * cloud_.point_bytes, f(load<From>(in + i * stride_)));
+            const From value = load<From>(records_.data() + i * stride_ + from.at);
+            store_at<To>(cloud_.data.data() + i * cloud_.point_bytes + to.offset, f(value));
         }
     }
 

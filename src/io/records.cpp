@@ -190,6 +190,7 @@ void take_rows(Cloud& cloud, const std::vector<Column>& columns, std::size_t poi
         cloud.data = std::move(bytes);
         return;
     }
+    if (points == 0) return;
     cloud.data.resize(points * cloud.point_bytes);
     std::size_t from = offset, to = 0;
     for (std::size_t c = 0; c < columns.size();) {  // neighbours without a gap are copied together
@@ -206,6 +207,7 @@ void take_rows(Cloud& cloud, const std::vector<Column>& columns, std::size_t poi
 
 void take_columns(Cloud& cloud, const std::vector<Column>& columns, std::size_t points,
                   std::span<const std::byte> block) {
+    if (points == 0) return;
     cloud.data.resize(points * cloud.point_bytes);
     std::size_t from = 0, to = 0;
     for (const Column& column : columns) {

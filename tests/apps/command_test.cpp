@@ -349,6 +349,38 @@ TEST_F(Command, TheSameScansInEveryFormatGiveTheSameLabels) {
     EXPECT_LT(other * 4 * 1000, bytes);
 }
 
+TEST_F(Command, ResumeGoesOnWithTheSameOnly) {
+    const std::string data = recording().string();
+    ASSERT_EQ(run("run " + data + " -o out"), 0) << said();
+    const auto expected = bytes_of("out");
+    EXPECT_EQ(run("run " + data + " -o out --resume"), 0);
+    expect_said("complete out");
+    EXPECT_EQ(run("run " + data + " -o out --resume --set back_end.voxel_size=0.3"), 2);
+    expect_said("other settings");
+    // As a kill in the midst of it leaves it.
+    spill(folder_ / "out/.run",
+          slurp(folder_ / "out/.run").substr(0, slurp(folder_ / "out/.run").find("complete")));
+    fs::remove(folder_ / "out/static_map.pcd");
+    spill(folder_ / "out/labels/.000003.label.tmp.9.9", "half");
+    EXPECT_EQ(run("run " + data + " -o out --resume"), 0) << said();
+    EXPECT_TRUE(bytes_of("out") == expected);
+    EXPECT_EQ(run("run " + data + " --resume"), 2);
+}
+
+TEST_F(Command, WhatFailsLeavesTheOldResultWhole) {
+    const std::string data = recording().string();
+    ASSERT_EQ(run("run " + data + " -o out"), 0) << said();
+    const auto expected = bytes_of("out");
+    // No file may grow beyond 100 blocks: the maps do not fit.
+    const std::string line = "cd " + folder_.path().string() +
+                             " && (ulimit -f 100; trap '' XFSZ; " + COMMAND + " run " + data +
+                             " -o out --overwrite >out.txt 2>&1)";
+    const int status = std::system(line.c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 1) << said();
+    expect_said("cannot be written");
+    EXPECT_TRUE(bytes_of("out") == expected);
+}
+
 TEST_F(Command, ConvertWritesMapsAndSplitScans) {
     const std::string data = recording().string();
     ASSERT_EQ(run("run " + data + " -o out"), 0) << said();

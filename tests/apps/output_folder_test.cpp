@@ -11,19 +11,20 @@ namespace fs = std::filesystem;
 namespace dynamic_filter::app {
 namespace {
 
+using test::slurp;
 using test::spill;
 using test::TemporaryFolder;
 
 TEST(OutputFolder, IsCreatedAndLeavesNoLockBehind) {
     const TemporaryFolder temporary;
-    { const OutputFolder folder(temporary / "a/b", Contents::result, false); }
+    { const OutputFolder folder(temporary / "a/b", Contents::result, Existing::refuse); }
     EXPECT_TRUE(fs::is_empty(temporary / "a/b"));
 }
 
 TEST(OutputFolder, ASecondUserIsRefused) {
     const TemporaryFolder temporary;
-    const OutputFolder first(temporary / "out", Contents::result, false);
-    EXPECT_THROW(OutputFolder(temporary / "out", Contents::result, true), ConfigError);
+    const OutputFolder first(temporary / "out", Contents::result, Existing::refuse);
+    EXPECT_THROW(OutputFolder(temporary / "out", Contents::result, Existing::replace), ConfigError);
 }
 
 TEST(OutputFolder, WhatIsThereIsKeptUnlessOverwritten) {
@@ -35,11 +36,25 @@ TEST(OutputFolder, WhatIsThereIsKeptUnlessOverwritten) {
     spill(temporary / "thesis.tex", "keep");
     spill(temporary / "poses.txt", "a recording's");
     spill(temporary / ".run.log.tmp.1.0", "left by a process that was killed");
-    EXPECT_THROW(OutputFolder(temporary.path(), Contents::result, false), ConfigError);
-    EXPECT_THROW(OutputFolder(temporary.path(), Contents::result, false), ConfigError)
+    EXPECT_THROW(OutputFolder(temporary.path(), Contents::result, Existing::refuse), ConfigError);
+    EXPECT_THROW(OutputFolder(temporary.path(), Contents::result, Existing::refuse), ConfigError)
         << "the lock was not given back";
     EXPECT_TRUE(fs::exists(temporary / "static_map.pcd"));
-    const OutputFolder folder(temporary.path(), Contents::result, true);
+    {
+        const OutputFolder given_up(temporary.path(), Contents::result, Existing::replace);
+        spill(given_up.path() / "static_map.pcd", "half of it");
+    }
+    EXPECT_EQ(slurp(temporary / "static_map.pcd"), "old");
+    OutputFolder folder(temporary.path(), Contents::result, Existing::replace);
+    EXPECT_EQ(folder.name(), temporary.path());
+    spill(folder.path() / "run.log", "new");
+    spill(folder.subfolder("labels") / "000001.label", "5678");
+    EXPECT_TRUE(fs::exists(temporary / "labels/000000.label"));
+    folder.commit();
+    EXPECT_EQ(slurp(temporary / "run.log"), "new");
+    EXPECT_EQ(slurp(temporary / "labels/000001.label"), "5678");
+    EXPECT_EQ(folder.path(), temporary.path());
+    EXPECT_FALSE(fs::exists(temporary / ".new"));
     EXPECT_FALSE(fs::exists(temporary / "static_map.pcd"));
     EXPECT_FALSE(fs::exists(temporary / "labels/000000.label"));
     EXPECT_TRUE(fs::exists(temporary / "labels/mine.txt"));
@@ -51,8 +66,9 @@ TEST(OutputFolder, WhatIsThereIsKeptUnlessOverwritten) {
 TEST(OutputFolder, AFileInItsPlaceIsAClearError) {
     const TemporaryFolder temporary;
     spill(temporary / "out", "a file");
-    EXPECT_THROW(OutputFolder(temporary / "out", Contents::result, true), ConfigError);
-    EXPECT_THROW(OutputFolder(temporary / "out/below", Contents::result, true), OutputError);
+    EXPECT_THROW(OutputFolder(temporary / "out", Contents::result, Existing::replace), ConfigError);
+    EXPECT_THROW(OutputFolder(temporary / "out/below", Contents::result, Existing::replace),
+                 OutputError);
 }
 
 TEST(RefuseSameFolder, SeesThroughNames) {
