@@ -62,7 +62,8 @@ struct ConvertOptions {
     DataOptions data;
     std::filesystem::path output;
     std::optional<std::filesystem::path> labels;
-    std::string to;  ///< layout of a folder: kitti or benchmark; empty: by the output's name
+    std::string
+        to;  ///< layout of a folder: kitti, benchmark or autoware; empty: by the output's name
     bool overwrite = false;
 };
 

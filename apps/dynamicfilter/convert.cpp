@@ -3,7 +3,9 @@
 #include <fmt/ranges.h>
 
 #include <array>
+#include <cmath>
 #include <cstring>
+#include <map>
 #include <memory>
 #include <numeric>
 #include <set>
@@ -129,20 +131,19 @@ private:
 /// Raw, static and dynamic points of each scan, and where the sensor is.
 class BagSink final : public Sink {
 public:
-    explicit BagSink(const fs::path& file)
-        : writer_(io::BagWriter::create(file)), encoding_(writer_->encoding()) {}
+    /// `map`: a cloud in the world's frame that is written, too.
+    BagSink(const fs::path& file, std::optional<fs::path> map)
+        : writer_(io::BagWriter::create(file)),
+          encoding_(writer_->encoding()),
+          map_(std::move(map)) {}
 
     void append(const io::Frame& frame, const Labels& labels) override {
-        const std::int64_t time = io::to_nanoseconds(frame.stamp);
-        const auto write = [&](const char* name, const char* type,
-                               const std::vector<std::byte>& message) {
-            writer_->write({name, type, encoding_}, time, message);
-        };
+        last_ = frame.stamp;
         const io::Cloud cloud = in_sensor(frame);
-        write("/tf", "tf2_msgs/TFMessage",
+        write("/tf", "tf2_msgs/TFMessage", frame.stamp,
               io::transform_message(kWorld, kSensor, frame.T_world_sensor, frame.stamp, encoding_));
         const auto write_points = [&](const char* name, const io::Cloud& points) {
-            write(name, "sensor_msgs/PointCloud2",
+            write(name, "sensor_msgs/PointCloud2", frame.stamp,
                   io::cloud_message(points, frame.stamp, kSensor, encoding_));
         };
         write_points("/points", cloud);
@@ -150,9 +151,20 @@ public:
         write_points("/points_static", part(cloud, labels, Label::still));
         write_points("/points_dynamic", part(cloud, labels, Label::dynamic));
     }
-    void commit() override { writer_->commit(); }
+    void commit() override {
+        if (map_) {
+            write("/static_map", "sensor_msgs/PointCloud2", last_,
+                  io::cloud_message(io::read_cloud(*map_), last_, kWorld, encoding_));
+        }
+        writer_->commit();
+    }
 
 private:
+    void write(const char* name, const char* type, double stamp,
+               const std::vector<std::byte>& message) {
+        writer_->write({name, type, encoding_}, io::to_nanoseconds(stamp), message);
+    }
+
     static constexpr const char *kWorld = "map", *kSensor = "lidar";
 
     /// The record with the coordinates that the filter sees.
@@ -174,6 +186,8 @@ private:
 
     std::unique_ptr<io::BagWriter> writer_;
     io::MessageEncoding encoding_;
+    std::optional<fs::path> map_;
+    double last_ = 0.0;  // [s]
 };
 
 /// All points in the world's frame, in one file; a field `dynamic` says what moves.
@@ -231,7 +245,9 @@ std::unique_ptr<Sink> make_sink(const ConvertOptions& o) {
     }
     if (bags.contains(extension)) {
         refuse_existing(o);
-        return std::make_unique<BagSink>(o.output);
+        const fs::path map = o.labels.value_or("") / "static_map.pcd";
+        return std::make_unique<BagSink>(
+            o.output, o.labels && fs::exists(map) ? std::optional(map) : std::nullopt);
     }
     check_cloud_output(o);
     return std::make_unique<MapSink>(o.output);
@@ -252,6 +268,8 @@ Labels labels_of(const ConvertOptions& o, const io::Sequence& sequence, std::siz
 }
 
 int convert_recording(const ConvertOptions& o) {
+    if (o.to == "autoware")
+        throw ConfigError("--to autoware is for a map: give a cloud file as IN");
     const io::Sequence sequence = open(o.data);
     for (const std::string& note : sequence.notes) fmt::print(stderr, "note: {}\n", note);
     const std::unique_ptr<Sink> sink = make_sink(o);
@@ -275,7 +293,37 @@ int convert_recording(const ConvertOptions& o) {
     return rejected == 0 ? kDone : kRejected;
 }
 
+/// Autoware's map tiles: squares of the ground, each a PCD, and where its lower corner is.
+int write_tiles(const io::Cloud& cloud, const ConvertOptions& o) {
+    constexpr int kTile = 20;  // [m]
+    OutputFolder output(o.output, Contents::tiles, replaced_if(o.overwrite));
+    const auto x = io::values(cloud, *cloud.find("x")), y = io::values(cloud, *cloud.find("y"));
+    std::map<std::pair<int, int>, io::Cloud> tiles;
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+        if (!std::isfinite(x[i]) || !std::isfinite(y[i])) continue;
+        const auto corner = [](double v) {
+            return kTile * static_cast<int>(std::floor(v / kTile));
+        };
+        io::Cloud& tile = tiles[{corner(x[i]), corner(y[i])}];
+        tile.fields = cloud.fields;
+        tile.point_bytes = cloud.point_bytes;
+        append_record(tile.data, cloud.data, i, cloud.point_bytes);
+    }
+    const fs::path folder = output.subfolder("pointcloud_map");
+    std::string metadata = fmt::format("x_resolution: {0}.0\ny_resolution: {0}.0\n", kTile);
+    for (const auto& [corner, tile] : tiles) {
+        const std::string name = fmt::format("{}_{}.pcd", corner.first, corner.second);
+        io::write_pcd(folder / name, tile);
+        metadata += fmt::format("{}: [{}, {}]\n", name, corner.first, corner.second);
+    }
+    io::write_file(output.path() / "pointcloud_map_metadata.yaml", metadata);
+    output.commit();
+    fmt::print("written  {} ({} tiles)\n", output.name().string(), tiles.size());
+    return kDone;
+}
+
 int convert_cloud(const ConvertOptions& o) {
+    if (o.to == "autoware") return write_tiles(io::read_cloud(o.data.data), o);
     check_cloud_output(o);
     const io::Cloud cloud = io::read_cloud(o.data.data);
     say(io::write_cloud(o.output, cloud));

@@ -128,8 +128,9 @@ void add_convert(CLI::App& app, std::function<int()>& chosen) {
          "bag (.mcap, .bag, .db3), folder, or cloud file (.pcd, .ply, .las, .npy, .bin): of "
          "a recording, all its points in the world's frame")
         ->required();
-    c.add_option("--to", o->to, "layout of a folder: kitti (default) or benchmark")
-        ->check(CLI::IsMember({"kitti", "benchmark"}));
+    c.add_option("--to", o->to,
+                 "layout of a folder: kitti (default), benchmark, or autoware (map tiles)")
+        ->check(CLI::IsMember({"kitti", "benchmark", "autoware"}));
     c.add_option("--labels", o->labels,
                  "output folder of a run, or its labels (default: the recording's ground truth)");
     add_reading_options(c, o->data);

@@ -40,6 +40,8 @@ Names written_by(Contents contents) {
             return {{"poses.txt", "times.txt"}, {{"labels", ".label"}, {"velodyne", ".bin"}}};
         case Contents::benchmark:
             return {{"gt_cloud.pcd"}, {{"pcd", ".pcd"}}};
+        case Contents::tiles:
+            return {{"pointcloud_map_metadata.yaml"}, {{"pointcloud_map", ".pcd"}}};
         case Contents::demo:
             break;  // its recording and its result are folders with contents of their own
     }

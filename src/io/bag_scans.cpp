@@ -105,8 +105,9 @@ std::string names_of(const Topics& topics) {
     return names.empty() ? "none" : names;
 }
 
-/// What `convert` made of the scans of another topic.
+/// What `convert` made of the scans of another topic, or of them all.
 bool is_part_of_another(const std::string& name, const std::map<std::string, CloudTopic>& clouds) {
+    if (name == "/static_map" && clouds.size() > 1) return true;
     for (const std::string_view part : {"_static", "_dynamic"}) {
         if (name.ends_with(part) && clouds.contains(name.substr(0, name.size() - part.size()))) {
             return true;

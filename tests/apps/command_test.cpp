@@ -398,9 +398,20 @@ TEST_F(Command, ConvertWritesMapsAndSplitScans) {
     EXPECT_EQ(io::read_cloud(folder_ / "map.ply").size(), still.size());
     ASSERT_EQ(run("convert " + data + " split.mcap --labels out"), 0) << said();
     ASSERT_EQ(run("info split.mcap"), 0);
-    for (const char* topic : {"/points ", "/points_static", "/points_dynamic", "/tf"}) {
+    for (const char* topic :
+         {"/points ", "/points_static", "/points_dynamic", "/tf", "/static_map"}) {
         expect_said(topic);
     }
+    ASSERT_EQ(run("convert out/static_map.pcd tiles --to autoware"), 0) << said();
+    std::size_t in_tiles = 0, tiles = 0;
+    const std::string metadata = slurp(folder_ / "tiles/pointcloud_map_metadata.yaml");
+    for (const auto& entry : fs::directory_iterator(folder_ / "tiles/pointcloud_map")) {
+        in_tiles += io::read_cloud(entry.path()).size();
+        ++tiles;
+        EXPECT_NE(metadata.find(entry.path().filename().string() + ": ["), std::string::npos);
+    }
+    EXPECT_EQ(in_tiles, still.size());
+    EXPECT_GT(tiles, 4U);
     EXPECT_EQ(run("convert " + data + " x.pcx"), 2);
     EXPECT_EQ(run("convert nothing.pcd x.pcd"), 3);
     EXPECT_EQ(run("convert " + data + " y.mcap --labels " + data + "/velodyne"), 3);
