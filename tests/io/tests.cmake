@@ -1,4 +1,4 @@
-foreach(unit bag bag_writer benchmark cloud cloud_writers file frame frame_tree las layout layouts lzf
+foreach(unit bag bag_scans bag_writer benchmark cloud cloud_writers file frame frame_tree las layout layouts lzf
              matching messages natural_order npy pcd pcd_header ply ply_header png pose_table poses
              records rigid rosbag2 sequence text text_cloud trajectory writers)
   df_test(io/${unit} dynamic_filter_io)
