@@ -272,6 +272,7 @@ int convert_recording(const ConvertOptions& o) {
         throw ConfigError("--to autoware is for a map: give a cloud file as IN");
     const io::Sequence sequence = open(o.data);
     for (const std::string& note : sequence.notes) fmt::print(stderr, "note: {}\n", note);
+    catch_interrupts();
     const std::unique_ptr<Sink> sink = make_sink(o);
     std::vector<std::size_t> scans(sequence.size());
     std::iota(scans.begin(), scans.end(), 0U);
@@ -279,6 +280,7 @@ int convert_recording(const ConvertOptions& o) {
     std::size_t rejected = 0;
     for_each_frame(sequence, scans, {}, [&](std::size_t i, MaybeFrame& maybe) {
         progress.advance();
+        if (interrupted()) return false;
         if (!maybe.frame) {
             fmt::print(stderr, "rejected {}\n", maybe.error);
             ++rejected;
@@ -287,6 +289,7 @@ int convert_recording(const ConvertOptions& o) {
         sink->append(*maybe.frame, labels_of(o, sequence, i, *maybe.frame));
         return true;
     });
+    if (interrupted()) return kInterrupted;  // nothing is put in place
     if (rejected == scans.size()) throw InputError(o.data.data, "", "no scan is usable");
     sink->commit();
     fmt::print("written  {} ({} scans)\n", o.output.string(), scans.size() - rejected);
@@ -335,6 +338,15 @@ int convert_cloud(const ConvertOptions& o) {
 
 int convert(const ConvertOptions& o) {
     std::error_code ignored;
+    if (fs::equivalent(o.data.data, o.output, ignored)) {
+        throw ConfigError(o.output.string() + ": is the input itself; choose another output");
+    }
+    const fs::path folder = fs::weakly_canonical(fs::absolute(o.output)).parent_path();
+    for (fs::path above = folder; above.has_relative_path(); above = above.parent_path()) {
+        if (fs::is_directory(o.data.data, ignored) && fs::equivalent(above, o.data.data, ignored)) {
+            throw ConfigError(o.output.string() + ": lies within the recording; choose another");
+        }
+    }
     const bool recording =
         fs::is_directory(o.data.data, ignored) || io::Bag::recognises(o.data.data);
     return recording ? convert_recording(o) : convert_cloud(o);

@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 
 #include "commands.hpp"
 #include "dynamic_filter/error.hpp"
@@ -172,6 +173,7 @@ int report(ExitCode code, const std::exception& error) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error like a full disk
     CLI::App app("Removes moving objects from LiDAR scans and maps.", "dynamicfilter");
     app.set_version_flag("--version", DYNAMIC_FILTER_VERSION);
     app.require_subcommand(1);

@@ -20,10 +20,26 @@ constexpr const char *kState = ".run", *kComplete = "complete\n";
 
 /// What a run was begun with: whoever resumes it must come with the same.
 std::string begun_with(const io::Sequence& sequence, const Config& config) {
-    return fmt::format("version {}\ninput {}\nscans {} from {} to {}\n{}", DYNAMIC_FILTER_VERSION,
-                       fs::absolute(sequence.root).lexically_normal().string(), sequence.size(),
-                       io::stem(sequence, 0), io::stem(sequence, sequence.size() - 1),
-                       to_toml(config));
+    std::error_code ignored;
+    std::uintmax_t bytes = sequence.bag && fs::is_regular_file(sequence.root, ignored)
+                               ? fs::file_size(sequence.root, ignored)
+                               : 0;
+    for (const fs::path& file : sequence.scan_files) {
+        if (fs::is_regular_file(file, ignored)) bytes += fs::file_size(file, ignored);
+    }
+    return fmt::format(
+        "version {}\ninput {}\nscans {} from {} to {}, {} bytes\n{}", DYNAMIC_FILTER_VERSION,
+        fs::absolute(sequence.root).lexically_normal().string(), sequence.size(),
+        io::stem(sequence, 0), io::stem(sequence, sequence.size() - 1), bytes, to_toml(config));
+}
+
+/// Labels that no run left may be somebody's ground truth.
+void refuse_foreign_labels(const fs::path& folder) {
+    const bool of_a_run = fs::exists(folder / kState) || fs::exists(folder / "config.toml");
+    if (of_a_run || !fs::exists(folder / "labels")) return;
+    throw ConfigError(
+        folder.string() +
+        ": holds labels that no run left, so --overwrite is refused; choose another -o");
 }
 
 /// True if nothing is left to do. Throws ConfigError if that run was another one.
@@ -55,6 +71,7 @@ int run(const RunOptions& o) {
         refuse_same_folder(sequence.scan_files.front().parent_path(), *o.output);
     }
     if (o.resume && !named) throw ConfigError("--resume needs the folder to go on with: -o DIR");
+    if (o.overwrite && named) refuse_foreign_labels(*o.output);
     OutputFolder output(named ? *o.output : default_output(), Contents::result,
                         o.resume ? Existing::go_on : replaced_if(o.overwrite));
     const std::string state = begun_with(sequence, config);
@@ -78,6 +95,10 @@ int run(const RunOptions& o) {
     for (const std::string& line : summary.rejected) fmt::print(stderr, "rejected {}\n", line);
     for (const std::string& line : summary.dropped) fmt::print(stderr, "dropped {}\n", line);
     if (!summary.interrupted) io::write_file(output.path() / kState, state + kComplete);
+    if (summary.interrupted && output.path() != output.name()) {
+        fmt::print("interrupted; the earlier result in {} stays\n", output.name().string());
+        return kInterrupted;
+    }
     output.commit();
     fmt::print("{}written  {}\n", to_text(summary), output.name().string());
     if (!named && !link_latest(output.name())) fmt::print(stderr, "note: no link results/latest\n");

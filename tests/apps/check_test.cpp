@@ -126,6 +126,22 @@ TEST_F(Check, NamesPointsInTheWorldAndMergedSensors) {
     expect_only(check_recording(open_sequence(merged->path()), Depth::thorough), "merged", "one");
 }
 
+TEST_F(Check, ASensorThatHangsUpsideDownOnAStraightPathIsNoticed) {
+    // The readings of the quaternion overlay alike there.
+    const test::TemporaryFolder straight;
+    sim::SimulationOptions options;
+    options.scene = "crowd";
+    options.sensor = "vlp16";
+    options.frames = 30;
+    app::write_simulation(options, straight.path());
+    Sequence sequence = open_sequence(straight.path());
+    EXPECT_TRUE(check_recording(sequence, Depth::thorough).findings.empty());
+    change_poses(sequence, [](const Pose& pose) { return fixed(PoseFix::xyzw, pose); });
+    const Preflight result = check_recording(sequence, Depth::thorough);
+    ASSERT_FALSE(result.findings.empty());
+    EXPECT_NE(result.findings[0].advice.find("--pose-fix wxyz"), std::string::npos);
+}
+
 TEST_F(Check, NamesTheUnitOfTime) {
     for (const auto& [unit, factor] : {std::pair{"ms", 1e3}, {"us", 1e6}, {"ns", 1e9}}) {
         const Preflight result = after([&, f = factor](Sequence& sequence) {

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "dynamic_filter/io/pose_fix.hpp"
 #include "overlay.hpp"
 #include "samples.hpp"
 
@@ -107,6 +108,25 @@ std::optional<Finding> misfit(const Samples& samples, const std::vector<Pair>& p
         kOtherPoses};
 }
 
+/// On a straight path some readings overlay alike; then the one in which the sensor stands upright
+/// is right.
+void judge_upside_down(Preflight& result, const Samples& samples) {
+    const auto& all = readings();
+    if (!hang_upside_down(samples, all.front())) return;
+    for (const PoseFix fix : pose_fixes()) {
+        const std::string name = to_string(fix);
+        const auto reading =
+            std::find_if(all.begin(), all.end(), [&](const Reading& r) { return r.name == name; });
+        const bool alike =
+            share_of(result.overlays, name) > 0.97 * share_of(result.overlays, kAsGiven);
+        if (!alike || hang_upside_down(samples, *reading)) continue;
+        Finding finding = pose_finding(result.overlays, name);
+        finding.what += ", where the sensor hangs upside down";
+        result.findings.push_back(std::move(finding));
+        return;
+    }
+}
+
 void judge_poses(Preflight& result, const Sequence& sequence, const Samples& samples,
                  const std::vector<Pair>& pairs) {
     const auto& overlays = result.overlays;
@@ -129,7 +149,10 @@ void judge_poses(Preflight& result, const Sequence& sequence, const Samples& sam
         std::max_element(overlays.begin(), overlays.end(),
                          [](const Overlay& a, const Overlay& b) { return a.share < b.share; });
     const bool much = clearly_better(best->share, given);
-    if (best->reading == kAsGiven) return;
+    if (best->reading == kAsGiven) {
+        judge_upside_down(result, samples);
+        return;
+    }
     if (best->reading == kInSensor && files_in_world) {
         if (much) {
             result.findings.push_back(
