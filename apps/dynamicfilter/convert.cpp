@@ -44,6 +44,10 @@ void say(const std::string& loss) {
     if (!loss.empty()) fmt::print(stderr, "note: {}\n", loss);
 }
 
+bool is_dynamic(const Labels& labels, std::size_t i) {
+    return !labels.empty() && labels[i] == Label::dynamic;
+}
+
 void append_record(std::vector<std::byte>& to, std::span<const std::byte> records, std::size_t i,
                    std::size_t bytes) {
     const auto record = records.subspan(i * bytes, bytes);
@@ -102,9 +106,8 @@ public:
         cloud.data.resize(frame.points.size() * cloud.point_bytes);
         const Points world = shifted_world(frame, Eigen::Vector3d::Zero());
         for (std::size_t i = 0; i < world.size(); ++i) {
-            const bool dynamic = !labels.empty() && labels[i] == Label::dynamic;
             const std::array record{world[i].x(), world[i].y(), world[i].z(),
-                                    dynamic ? 1.0F : 0.0F};
+                                    is_dynamic(labels, i) ? 1.0F : 0.0F};
             std::memcpy(cloud.data.data() + i * sizeof record, record.data(), sizeof record);
         }
         cloud.viewpoint = frame.T_world_sensor;
@@ -207,8 +210,7 @@ public:
             if (!is_measured(frame.points[i])) continue;
             append_record(map_.data, records, i, layout_.point_bytes);
             if (map_.point_bytes == layout_.point_bytes) continue;
-            const bool dynamic = !labels.empty() && labels[i] == Label::dynamic;
-            map_.data.push_back(dynamic ? std::byte{1} : std::byte{0});
+            map_.data.push_back(is_dynamic(labels, i) ? std::byte{1} : std::byte{0});
         }
     }
     void commit() override { say(io::write_cloud(file_, map_)); }

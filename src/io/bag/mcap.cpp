@@ -37,7 +37,6 @@ struct ChunkRecord {
     std::uint32_t crc = 0;
     std::string_view compression;
     std::span<const std::byte> bytes;  // as many as there are
-    bool whole = false;
 };
 ChunkRecord parse_chunk(std::span<const std::byte> content) {
     ByteReader in(content);
@@ -47,7 +46,6 @@ ChunkRecord parse_chunk(std::span<const std::byte> content) {
     chunk.crc = in.number<std::uint32_t>();
     chunk.compression = in.text();
     const auto stored = in.number<std::uint64_t>();
-    chunk.whole = stored <= in.left();
     chunk.bytes = in.take(std::min<std::uint64_t>(stored, in.left()));
     return chunk;
 }

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <map>
-#include <optional>
 
 #include "dynamic_filter/error.hpp"
 #include "io/bag/bag_file.hpp"
