@@ -9,8 +9,7 @@
 #include <set>
 
 #include "dynamic_filter/error.hpp"
-#include "io/bag/bag_file.hpp"
-#include "io/bag/chunk_cache.hpp"
+#include "io/bag/chunked_file.hpp"
 #include "io/bag/decompress.hpp"
 #include "io/byte_reader.hpp"
 
@@ -20,7 +19,6 @@ namespace {
 enum Opcode : std::uint8_t { kFooter = 0x02, kSchema, kChannel, kMessage, kChunk };
 
 constexpr std::array<unsigned char, 8> kMagic = {0x89, 'M', 'C', 'A', 'P', '0', '\r', '\n'};
-constexpr std::uint64_t kNoChunk = UINT64_MAX;
 constexpr std::size_t kRecordHead = 9;  // opcode and length
 
 struct Record {
@@ -109,11 +107,11 @@ private:
     std::size_t unannounced_ = 0;
 };
 
-class Mcap final : public BagFile {
+class Mcap final : public ChunkedFile {
 public:
-    explicit Mcap(const std::filesystem::path& path) : file_(path) {
-        const auto head =
-            file_.size() < kMagic.size() ? std::vector<std::byte>{} : file_.read(0, kMagic.size());
+    explicit Mcap(const std::filesystem::path& path) : ChunkedFile(path) {
+        const auto head = file().size() < kMagic.size() ? std::vector<std::byte>{}
+                                                        : file().read(0, kMagic.size());
         if (head.empty() || std::memcmp(head.data(), kMagic.data(), kMagic.size()) != 0) {
             throw InputError(path, "byte 0", "is no MCAP file: its first eight bytes differ");
         }
@@ -125,21 +123,21 @@ public:
         take_summary(reader);
         std::uint64_t at = kMagic.size();
         while (true) {
-            if (file_.size() - at < kRecordHead) {
-                notes.push_back(fmt::format("ends at byte {} without a footer", file_.size()));
+            if (file().size() - at < kRecordHead) {
+                notes.push_back(fmt::format("ends at byte {} without a footer", file().size()));
                 break;
             }
-            const auto head = file_.read(at, kRecordHead);
+            const auto head = file().read(at, kRecordHead);
             const auto opcode = std::to_integer<std::uint8_t>(head[0]);
             const auto length = little_endian<std::uint64_t>(head.data() + 1);
-            const std::uint64_t there = file_.size() - at - kRecordHead;
+            const std::uint64_t there = file().size() - at - kRecordHead;
             if (opcode == kFooter) break;
             const bool wanted = opcode >= kSchema && opcode <= kChunk;
             if (length > there)
                 notes.push_back(fmt::format("the record at byte {} is cut off", at));
             if (length > there && opcode != kChunk) break;
             if (wanted) {
-                const auto content = file_.read(at + kRecordHead, std::min(length, there));
+                const auto content = file().read(at + kRecordHead, std::min(length, there));
                 if (opcode == kChunk) {
                     take_chunk(content, at, reader, notes);
                 } else {
@@ -153,19 +151,9 @@ public:
         return notes;
     }
 
-    std::vector<std::byte> read(std::uint64_t chunk, std::uint64_t offset) const override {
-        try {
-            if (chunk == kNoChunk) return message_in(record_at(offset), 0);
-            return message_in(*chunks_.at(chunk, [&] { return read_chunk(chunk); }), offset);
-        } catch (const Malformed& error) {
-            const std::uint64_t at = chunk == kNoChunk ? offset : chunk;
-            throw InputError(file_.path(), fmt::format("byte {}", at), error.what());
-        }
-    }
-
 private:
-    static std::vector<std::byte> message_in(std::span<const std::byte> bytes,
-                                             std::uint64_t offset) {
+    std::vector<std::byte> message_in(std::span<const std::byte> bytes,
+                                      std::uint64_t offset) const override {
         constexpr std::size_t kBeforeData = 22;
         ByteReader record(bytes, static_cast<std::size_t>(offset));
         ByteReader in(take_record(record).content);
@@ -174,14 +162,13 @@ private:
         return {data.begin(), data.end()};
     }
 
-    /// The whole record, or as much of it as the file holds.
-    std::vector<std::byte> record_at(std::uint64_t at) const {
-        const auto length = little_endian<std::uint64_t>(file_.read(at + 1, 8).data());
-        const std::uint64_t there = file_.size() - at - kRecordHead;
-        return file_.read(at, kRecordHead + std::min(length, there));
+    std::vector<std::byte> record_at(std::uint64_t at) const override {
+        const auto length = little_endian<std::uint64_t>(file().read(at + 1, 8).data());
+        const std::uint64_t there = file().size() - at - kRecordHead;
+        return file().read(at, kRecordHead + std::min(length, there));
     }
 
-    std::vector<std::byte> read_chunk(std::uint64_t at) const {
+    std::vector<std::byte> read_chunk(std::uint64_t at) const override {
         const auto bytes = record_at(at);
         const ChunkRecord chunk = parse_chunk(std::span(bytes).subspan(kRecordHead));
         return decompress(chunk.compression, chunk.bytes, chunk.size).bytes;
@@ -192,14 +179,14 @@ private:
         constexpr std::uint64_t kFooterBytes = kRecordHead + 20, kCrcBytes = 4;
         constexpr std::uint64_t kEnd = kFooterBytes + kMagic.size();
         constexpr std::uint64_t kMost = std::uint64_t{64} << 20U;  // it is only a help
-        if (file_.size() < kMagic.size() + kEnd) return;
-        const std::uint64_t end = file_.size() - kEnd;
-        const auto footer = file_.read(end, kFooterBytes);
+        if (file().size() < kMagic.size() + kEnd) return;
+        const std::uint64_t end = file().size() - kEnd;
+        const auto footer = file().read(end, kFooterBytes);
         const auto start = little_endian<std::uint64_t>(footer.data() + kRecordHead);
         const auto crc = little_endian<std::uint32_t>(footer.data() + kFooterBytes - kCrcBytes);
         if (std::to_integer<std::uint8_t>(footer[0]) != kFooter) return;
         if (start == 0 || start >= end || end - start > kMost) return;
-        const auto bytes = file_.read(start, end + kFooterBytes - kCrcBytes - start);
+        const auto bytes = file().read(start, end + kFooterBytes - kCrcBytes - start);
         if (crc != 0 && crc_of(bytes) != crc) return;
         try {
             ByteReader in({bytes.data(), end - start});
@@ -241,9 +228,6 @@ private:
         return static_cast<std::uint32_t>(
             crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
     }
-
-    InputFile file_;
-    ChunkCache chunks_;
 };
 
 }  // namespace

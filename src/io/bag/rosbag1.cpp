@@ -6,8 +6,7 @@
 #include <map>
 
 #include "dynamic_filter/error.hpp"
-#include "io/bag/bag_file.hpp"
-#include "io/bag/chunk_cache.hpp"
+#include "io/bag/chunked_file.hpp"
 #include "io/bag/decompress.hpp"
 #include "io/byte_reader.hpp"
 
@@ -17,7 +16,6 @@ namespace {
 enum Opcode : std::uint8_t { kMessage = 0x02, kBagHeader, kChunk = 0x05, kConnection = 0x07 };
 
 constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
-constexpr std::uint64_t kNoChunk = UINT64_MAX;
 
 /// name=value, each behind its length.
 class Header {
@@ -113,10 +111,10 @@ private:
     std::size_t unannounced_ = 0;
 };
 
-class Rosbag1 final : public BagFile {
+class Rosbag1 final : public ChunkedFile {
 public:
-    explicit Rosbag1(const std::filesystem::path& path) : file_(path) {
-        const auto head = file_.read(0, std::min<std::uint64_t>(file_.size(), kMagic.size()));
+    explicit Rosbag1(const std::filesystem::path& path) : ChunkedFile(path) {
+        const auto head = file().read(0, std::min<std::uint64_t>(file().size(), kMagic.size()));
         if (as_text(head) == kMagic) return;
         const bool other = as_text(head).starts_with("#ROSBAG V1");
         throw InputError(path, "byte 0",
@@ -128,7 +126,7 @@ public:
         std::vector<std::string> notes;
         Reader reader(use);
         take_index(reader);
-        for (std::uint64_t at = kMagic.size(); at < file_.size();) {
+        for (std::uint64_t at = kMagic.size(); at < file().size();) {
             try {
                 const auto bytes = record_at(at);
                 ByteReader in(bytes);
@@ -144,38 +142,27 @@ public:
                 break;
             }
         }
-        reader.finish(file_.size(), notes);
+        reader.finish(file().size(), notes);
         return notes;
     }
 
-    std::vector<std::byte> read(std::uint64_t chunk, std::uint64_t offset) const override {
-        try {
-            if (chunk == kNoChunk) return message_in(record_at(offset), 0);
-            return message_in(*chunks_.at(chunk, [&] { return read_chunk(chunk); }), offset);
-        } catch (const Malformed& error) {
-            const std::uint64_t at = chunk == kNoChunk ? offset : chunk;
-            throw InputError(file_.path(), fmt::format("byte {}", at), error.what());
-        }
-    }
-
 private:
-    static std::vector<std::byte> message_in(std::span<const std::byte> bytes,
-                                             std::uint64_t offset) {
+    std::vector<std::byte> message_in(std::span<const std::byte> bytes,
+                                      std::uint64_t offset) const override {
         ByteReader in(bytes, static_cast<std::size_t>(offset));
         const auto data = take_record(in).data;
         return {data.begin(), data.end()};
     }
 
-    /// The whole record, or as much of it as the file holds.
-    std::vector<std::byte> record_at(std::uint64_t at) const {
-        const std::uint64_t there = file_.size() - at;
+    std::vector<std::byte> record_at(std::uint64_t at) const override {
+        const std::uint64_t there = file().size() - at;
         const auto length_at = [&](std::uint64_t offset) -> std::uint64_t {
             if (offset + 4 > there) throw Malformed("is cut off");
-            return little_endian<std::uint32_t>(file_.read(at + offset, 4).data());
+            return little_endian<std::uint32_t>(file().read(at + offset, 4).data());
         };
         const std::uint64_t head = length_at(0);
         const std::uint64_t size = 4 + head + 4 + length_at(4 + head);
-        return file_.read(at, std::min(size, there));
+        return file().read(at, std::min(size, there));
     }
 
     /// Connections are told there again: those of a damaged chunk are known all the same.
@@ -185,7 +172,7 @@ private:
             ByteReader first(head);
             const Record header = take_record(first);
             for (auto at = header.header.number<std::uint64_t>("index_pos");
-                 at > 0 && at < file_.size();) {
+                 at > 0 && at < file().size();) {
                 const auto bytes = record_at(at);
                 ByteReader in(bytes);
                 const Record record = take_record(in);
@@ -202,7 +189,7 @@ private:
                           chunk.header.number<std::uint32_t>("size"));
     }
 
-    std::vector<std::byte> read_chunk(std::uint64_t at) const {
+    std::vector<std::byte> read_chunk(std::uint64_t at) const override {
         const auto bytes = record_at(at);
         ByteReader in(bytes);
         return content_of(take_record(in)).bytes;
@@ -225,9 +212,6 @@ private:
             note(error.what());
         }
     }
-
-    InputFile file_;
-    ChunkCache chunks_;
 };
 
 }  // namespace
