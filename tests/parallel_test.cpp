@@ -27,8 +27,8 @@ int most_at_once() {
 }
 
 TEST(ParallelFor, CoversTheRangeExactlyOnce) {
-    for (const std::size_t count : {0, 1, 2, 7, 1000, 100003}) {
-        for (const std::size_t grain : {0, 1, 3, 4096, 1000000}) {
+    for (const std::size_t count : {0u, 1u, 2u, 7u, 1000u, 100003u}) {
+        for (const std::size_t grain : {0u, 1u, 3u, 4096u, 1000000u}) {
             const auto visits = std::make_unique<std::atomic<int>[]>(count);
             std::atomic<bool> empty_range{false};
             parallel_for(count, grain, [&](std::size_t begin, std::size_t end) {
