@@ -277,6 +277,26 @@ std::pair<Label, float> DynamicFilter::decision_on(std::uint32_t voxel, const Po
     return {label_of(std::optional(probability)), probability};
 }
 
+std::vector<VoxelHistory> DynamicFilter::histories(std::span<const std::uint32_t> voxels) const {
+    std::vector<VoxelHistory> histories(voxels.size());
+    if (!scans_observe()) {
+        for (std::size_t i = 0; i < voxels.size(); ++i) {
+            if (voxels[i] >= merged_.probability.size()) continue;
+            const float probability = merged_.probability[voxels[i]];
+            if (probability >= 0.0F) histories[i].probability = probability;
+        }
+        return histories;
+    }
+    auto seen_through = evidence_.seen_through(voxels);
+    for (std::size_t i = 0; i < voxels.size(); ++i) {
+        const Evidence& evidence = evidence_.evidence(voxels[i]);
+        histories[i] = {decided_[voxels[i]].probability, evidence,
+                        evidence_.index_of_owner(evidence.first_owner),
+                        evidence_.index_of_owner(evidence.last_owner), std::move(seen_through[i])};
+    }
+    return histories;
+}
+
 Verdict DynamicFilter::settled(const Scan& scan) const {
     auto [in_map, voxels, verdict] = locate(scan);
     PointVoxels own = voxels;
