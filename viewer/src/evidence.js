@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// The arithmetic of include/dynamic_filter/back_end/evidence.hpp, for the words about a point.
+
+/** How often one expects a static voxel with these counts to be seen through. */
+export const expectedPasses = ({ occupied, owned, switches }) =>
+  0.45 * (1 + switches) ** 0.9 * (occupied * owned ** 2) ** 0.2;
+
+/** -1..1: whether the voxel was empty most of the time; below 0: no. */
+export function transience(evidence) {
+  const f = evidence.free + 2;
+  const e = expectedPasses(evidence) + 2;
+  return (f * f - e * e) / (f * f + e * e);
+}
+
+/** What is known of a voxel; fields that the run does not keep are undefined. */
+export function voxelFacts(run, voxel) {
+  const { arrays } = run;
+  const probability = arrays["voxel-probability"]?.[voxel];
+  const known = probability !== undefined && probability !== 255;
+  const facts = { probability: known ? probability / 254 : undefined };
+  const counters = arrays["voxel-evidence"];
+  if (counters) {
+    const [occupied, free, owned, switches] = counters.subarray(4 * voxel, 4 * voxel + 4);
+    facts.evidence = { occupied, free, owned, switches };
+  }
+  const span = arrays["voxel-span"];
+  if (span) facts.span = [span[2 * voxel], span[2 * voxel + 1]];
+  facts.passes = passesThrough(run, voxel);
+  return facts;
+}
+
+/** Rows of the path whose scans saw through the voxel, in order. */
+function passesThrough({ arrays, meta }, voxel) {
+  const begin = arrays["pass-begin"];
+  const pass = arrays.pass;
+  if (!begin || !pass) return undefined;
+  const rows = Array.from(pass.subarray(begin[voxel], begin[voxel + 1]), (k) => meta.keyframes[k]);
+  return rows.sort((a, b) => a - b);
+}

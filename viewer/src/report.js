@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+// The page of one finished run, or of several side by side.
+import { about, licences, thinned } from "./about.js";
+import { frame } from "./app.js";
+import { exposeReport } from "./automation.js";
+import { colouringsOf } from "./colours.js";
+import { controls } from "./controls.js";
+import { h } from "./dom.js";
+import { count, fixed } from "./format.js";
+import { fromHash, keepHash } from "./hash.js";
+import { bindKeys } from "./keys.js";
+import { legend } from "./legend.js";
+import { steer } from "./orbit_input.js";
+import { pointPanel } from "./panel.js";
+import { plotsOf } from "./plots.js";
+import { RunView } from "./run_view.js";
+import { scoreTable } from "./scores.js";
+import { Session } from "./session.js";
+import { currentTheme, watchTheme } from "./theme.js";
+import { Timeline } from "./timeline.js";
+
+const MOST_VIEWS = 4;
+const SHOWN = ["colour", "static", "dynamic", "unknown", "path", "scan", "dim", "corrections", "height", "range", "rangeFrom", "size"];
+
+function subtitleOf(metas) {
+  if (metas.length > 1) return `${metas.length} maps side by side`;
+  const [{ scans, counts, preset }] = metas;
+  return [scans ? `${count(scans)} scans` : null, counts?.dynamic ? `${count(counts.dynamic)} points removed` : null, preset && `preset ${preset}`].filter(Boolean).join(" · ");
+}
+
+function cellsOf(runs, stage) {
+  stage.dataset.views = runs.length;
+  return runs.map(({ meta }) => {
+    const cell = h("div", { class: "cell", role: "group", "aria-label": meta.name }, runs.length > 1 ? h("h2", { class: "cell-name" }, meta.name) : null,
+      h("p", { class: "thinned" }, meta.points_total > meta.points_shown ? thinned(meta) : ""));
+    stage.append(cell);
+    return cell;
+  });
+}
+
+/** What can be chosen in any of the runs. */
+const allColourings = (runs) => [...new Map(runs.flatMap(colouringsOf).map((c) => [c.id, c])).values()];
+
+const sum = (metas, name) => metas.reduce((total, { counts }) => total + (counts?.[name] ?? 0), 0);
+
+function layersOf(metas) {
+  const amount = (name) => (metas.length === 1 && metas[0].counts ? metas[0].counts[name] : undefined);
+  const layers = [{ name: "static", label: "Static", amount: amount("static"), hint: "Key Z" },
+    { name: "dynamic", label: "Removed", amount: amount("dynamic"), hint: "Key X" }];
+  if (sum(metas, "unknown") > 0) layers.push({ name: "unknown", label: "Unknown", amount: amount("unknown"), hint: "Key C" });
+  if (metas.some(({ has_instant }) => has_instant)) layers.push({ name: "corrections", label: "Mark what was corrected later", hint: "Key M: where the final verdict is not the front-end's" });
+  return layers;
+}
+
+const SCAN_LAYERS = [
+  { name: "path", label: "Trajectory" },
+  { name: "scan", label: "Points of the scan at the slider", hint: "Key P" },
+  { name: "dim", label: "Dim the map below them" },
+];
+
+function timelineOf(session) {
+  return new Timeline(session.store, {
+    words: (row) => {
+      const { leader } = session;
+      const { arrays, meta } = leader.run;
+      const seconds = fixed(arrays["path-stamp"][row] - arrays["path-stamp"][0], 1);
+      const index = arrays["path-index"]?.[row] ?? row;
+      const without = leader.frameOf(row) < 0 ? ", points not in the page" : "";
+      return `scan ${index} · ${row + 1} of ${meta.scans} · ${seconds} s${without}`;
+    },
+  });
+}
+
+function fillTimeline(timeline, { run, ...view }) {
+  const stamps = Array.from(run.arrays["path-stamp"] ?? []);
+  const ofFrames = run.arrays["path-frame"];
+  const rows = stamps.map((_, row) => row);
+  const played = rows.filter((row) => ofFrames?.[row] >= 0);
+  const counts = run.arrays["path-counts"];
+  timeline.setRows({ frames: played.length ? played : rows, stamps, amounts: counts ? rows.map((row) => counts[4 * row + 1]) : [] });
+  return view;
+}
+
+function panelsOf(session, runs) {
+  const metas = runs.map(({ meta }) => meta);
+  const plots = h("div", {}), run = h("div", {}, metas.map((meta) => about({ meta }, metas.length === 1)), licences());
+  const panels = [
+    { id: "view", label: "View", element: h("div", { class: "controls" }) },
+    { id: "point", label: "Point", element: pointPanel(session) },
+    { id: "plots", label: "Plots", element: plots },
+    { id: "run", label: metas.length > 1 ? "Runs" : "Run", element: run },
+  ];
+  if (metas.length > 1) panels.splice(1, 0, { id: "scores", label: "Scores", element: scoreTable(metas) });
+  return panels;
+}
+
+function bindCanvas(session, view, open) {
+  const { canvas } = view.view;
+  canvas.setAttribute("aria-label", `Points of ${view.name}. Enter explains the one in the middle.`);
+  canvas.setAttribute("role", "application");
+  const choose = (x, y) => {
+    const point = view.pickAt(x, y);
+    session.select(point);
+    if (point) open("point");
+  };
+  steer(canvas, session.orbit, {
+    click: choose,
+    doubleClick: (x, y) => {
+      const point = view.pickAt(x, y, 12);
+      if (point) session.orbit.set({ target: point.position.map((p, c) => p + view.view.offset[c]) });
+    },
+    grabbed: () => session.store.get("follow") || undefined,
+  });
+  return choose;
+}
+
+/** Heights and ranges that the cuts reach over, in the frame of the first view. */
+function extentOf(views) {
+  const lows = views.map(({ midst, view }) => midst[0].map((l, c) => l + view.offset[c]));
+  const highs = views.map(({ midst, view }) => midst[1].map((x, c) => x + view.offset[c]));
+  const low = [0, 1, 2].map((c) => Math.min(...lows.map((l) => l[c]))), high = [0, 1, 2].map((c) => Math.max(...highs.map((x) => x[c])));
+  return { heights: [low[2] - 0.5, high[2] + 0.5], reach: Math.max(10, Math.hypot(high[0] - low[0], high[1] - low[1])) };
+}
+
+function showLegend(session, stage, runs, extent) {
+  const box = h("div", { class: "legend", role: "region", "aria-label": "Legend" });
+  stage.append(box);
+  const stamps = () => session.leader?.run.arrays["path-stamp"];
+  const draw = () => box.replaceChildren(...legend(session.store.values, currentTheme(), {
+    heights: [extent.heights[0] + 0.5, extent.heights[1] - 0.5], duration: stamps()?.length ? stamps().at(-1) - stamps()[0] : 0,
+  }));
+  session.store.watch(["colour", "corrections"], draw);
+  watchTheme(draw);
+}
+
+async function loadAll(session, panels, timeline, say) {
+  const { views, leader } = session;
+  say("Reading the trajectory …");
+  for (const view of views) await view.loadPath();
+  if (leader) fillTimeline(timeline, leader);
+  session.showRow(session.store.get("row"));
+  say("Reading the scans …");
+  for (const view of views) await view.loadRest();
+  session.showRow(session.store.get("row"));
+  say("Reading the evidence …");
+  for (const view of views) await view.loadEvidence();
+  const several = views.length > 1;
+  const plots = panels.find(({ id }) => id === "plots").element;
+  plots.append(...views.map((view) => h("article", {}, several ? h("h2", { class: "run-name" }, view.name) : null, plotsOf(view, session))));
+  say("");
+}
+
+export async function startReport(runs) {
+  const shown = runs.slice(0, MOST_VIEWS);
+  const metas = shown.map(({ meta }) => meta);
+  const link = fromHash(location.hash);
+  const session = new Session(link.settings);
+  const panels = panelsOf(session, shown);
+  const timeline = timelineOf(session);
+  document.title = `${metas.map(({ name }) => name).join(", ")} – DynamicFilter`;
+  const page = frame({ title: metas.length > 1 ? "DynamicFilter" : metas[0].name, subtitle: subtitleOf(metas), panels, timeline: timeline.element });
+  const automation = exposeReport(session);
+  try {
+    const cells = cellsOf(shown, page.stage);
+    const middle = metas[0].origin ?? [0, 0, 0];
+    session.views = shown.map((run, i) =>
+      new RunView(run, cells[i], session.orbit, (run.meta.origin ?? [0, 0, 0]).map((o, c) => o - middle[c])));
+    watchTheme((theme) => session.views.forEach((view) => view.setTheme(theme)));
+    session.store.watch(SHOWN, (settings) => session.views.forEach((view) => view.apply(settings)));
+    const pickers = session.views.map((view) => bindCanvas(session, view, page.open));
+    page.say("Reading the map …");
+    for (const view of session.views) await view.loadMap();
+    if (link.camera) session.orbit.set(link.camera);
+    else session.fit();
+    automation.mapIsShown();
+    const extent = extentOf(session.views);
+    const colourings = allColourings(shown);
+    panels[0].element.append(...controls({
+      store: session.store, layers: layersOf(metas), scanLayers: session.leader ? SCAN_LAYERS : [], colourings, ...extent,
+      camera: [{ label: "All", key: "0", act: () => session.fit() }, { label: "Top", key: "T", act: () => session.top() },
+        { label: "Sensor", key: "G", act: () => session.centreOnSensor() }],
+    }));
+    showLegend(session, page.stage, shown, extent);
+    session.store.watch(["row"], ({ row }) => {
+      for (const { overlay } of session.views) overlay.setVisible("sight", false);
+      session.showRow(row);
+    });
+    session.store.watch(["follow"], ({ follow }) => follow && session.centreOnSensor());
+    bindKeys({ session, timeline, colourings: colourings.map(({ id }) => id), pickMiddle: (canvas) => {
+      const i = session.views.findIndex(({ view }) => view.canvas === canvas);
+      pickers[i](canvas.clientWidth / 2, canvas.clientHeight / 2);
+    } });
+    await loadAll(session, panels, timeline, page.say);
+    keepHash(session);
+    automation.done();
+  } catch (error) {
+    page.say(`This page cannot be shown whole: ${error.message}`);
+    automation.failed(error);
+    throw error;
+  }
+}
