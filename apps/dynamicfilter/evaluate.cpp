@@ -54,7 +54,8 @@ int evaluate(const EvalOptions& o) {
         left_out);
     const eval::Scores scores =
         o.labels ? eval::score_labels(sequence.size(), source, o.voxel)
-                 : eval::score_map(sequence.size(), source, positions_from(io::read_cloud(*o.map), origin), o.voxel);
+                 : eval::score_map(sequence.size(), source,
+                                   positions_from(io::read_cloud(*o.map), origin), o.voxel);
     const auto missing = std::count(left_out.begin(), left_out.end(), true);
     if (missing == static_cast<std::ptrdiff_t>(sequence.size())) {
         throw InputError(o.labels ? *o.labels : o.truth.data, "",

@@ -318,8 +318,8 @@ void write_report(const Pass& pass, const nlohmann::ordered_json& metrics,
                   nlohmann::ordered_json& timing) {
     if (viewer_page().empty()) return;
     const auto start = Clock::now();
-    const bool has_evidence = pass.config.back_end.enabled &&
-                              pass.config.back_end.observers == Observers::scans;
+    const bool has_evidence =
+        pass.config.back_end.enabled && pass.config.back_end.observers == Observers::scans;
     PageRun run = view_of({pass.sequence, pass.filter, pass.scan_notes, pass.instant,
                            pass.output.path() / "labels", has_evidence});
     describe(run, pass);

@@ -39,7 +39,8 @@ struct Pace {
     std::optional<double> online;  ///< times the sensor's rate; 0: as fast as it can
 };
 
-/// Filters the sequence and writes everything a run leaves behind. Throws InputError if not a single scan is usable.
+/// Filters the sequence and writes everything a run leaves behind. Throws InputError if not a
+/// single scan is usable.
 RunSummary run_sequence(const io::Sequence& sequence, const Config& config, const Pace& pace,
                         const OutputFolder& output, const Watchers& watchers = {});
 

@@ -287,12 +287,22 @@ std::vector<VoxelHistory> DynamicFilter::histories(std::span<const std::uint32_t
         }
         return histories;
     }
-    auto seen_through = evidence_.seen_through(voxels);
+    std::vector<std::uint32_t> passed;
+    std::vector<std::size_t> at;
     for (std::size_t i = 0; i < voxels.size(); ++i) {
         const Evidence& evidence = evidence_.evidence(voxels[i]);
-        histories[i] = {decided_[voxels[i]].probability, evidence,
+        histories[i] = {decided_[voxels[i]].probability,
+                        evidence,
                         evidence_.index_of_owner(evidence.first_owner),
-                        evidence_.index_of_owner(evidence.last_owner), std::move(seen_through[i])};
+                        evidence_.index_of_owner(evidence.last_owner),
+                        {}};
+        if (evidence.passed == 0) continue;
+        passed.push_back(voxels[i]);
+        at.push_back(i);
+    }
+    auto seen_through = evidence_.seen_through(passed);
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        histories[at[i]].seen_through = std::move(seen_through[i]);
     }
     return histories;
 }
@@ -328,8 +338,7 @@ void DynamicFilter::judge_contacts(const Points& map_points, const PointVoxels& 
     }
     for (const std::size_t i : above) {
         bool touches = false;
-        evidence_.each_within(1, voxels[i],
-                              [&](std::uint32_t v, int) { touches |= moving[v]; });
+        evidence_.each_within(1, voxels[i], [&](std::uint32_t v, int) { touches |= moving[v]; });
         if (touches) labels[i] = Label::dynamic;
     }
 }

@@ -17,7 +17,8 @@ struct HttpRequest {
 HttpRequest parse_request(std::string_view head);
 
 /// Status to refuse it with, 0 if it may be answered: only GET and HEAD without a body, from this
-/// machine's own pages (another site's page could otherwise read along: Host and Origin are checked).
+/// machine's own pages (another site's page could otherwise read along: Host and Origin are
+/// checked).
 int refusal_of(const HttpRequest& request, std::uint16_t port);
 
 const char* reason_of(int status);

@@ -115,9 +115,9 @@ struct HttpServer::Connection {
         while (!over) {
             const bool in_head = sent < head.size();
             const std::size_t at = in_head ? sent : sent - head.size();
-            const std::string_view left =
-                in_head ? std::string_view(head).substr(at)
-                        : body ? std::string_view(*body).substr(at) : std::string_view();
+            const std::string_view left = in_head ? std::string_view(head).substr(at)
+                                          : body  ? std::string_view(*body).substr(at)
+                                                  : std::string_view();
             if (left.empty()) {
                 shutdown(descriptor, SHUT_WR);
                 over = true;
@@ -125,8 +125,10 @@ struct HttpServer::Connection {
             }
             const ssize_t n = send(descriptor, left.data(), left.size(), MSG_NOSIGNAL);
             if (n < 0 && (errno == EAGAIN || errno == EINTR)) return;
-            if (n <= 0) over = true;
-            else sent += static_cast<std::size_t>(n);
+            if (n <= 0)
+                over = true;
+            else
+                sent += static_cast<std::size_t>(n);
         }
     }
 };
@@ -157,8 +159,7 @@ void HttpServer::serve() {
         const bool room = connections.size() < kMostConnections;
         polled = {{wake_[0], POLLIN, 0}, {room ? listener_ : -1, POLLIN, 0}};
         for (const Connection& c : connections) {
-            polled.push_back(
-                {c.descriptor, static_cast<short>(c.answering ? POLLOUT : POLLIN), 0});
+            polled.push_back({c.descriptor, static_cast<short>(c.answering ? POLLOUT : POLLIN), 0});
         }
         constexpr int kWaitMs = 500;  // so that deadlines are noticed
         poll(polled.data(), polled.size(), connections.empty() ? -1 : kWaitMs);

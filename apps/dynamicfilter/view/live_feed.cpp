@@ -13,7 +13,7 @@ namespace dynamic_filter::app {
 namespace {
 
 constexpr std::size_t kMostBytes = std::size_t{64} << 20U, kMostAtOnce = std::size_t{1} << 20U;
-constexpr double kPoints = 6000.0;  // of a scan
+constexpr double kPoints = 6000.0;                              // of a scan
 constexpr unsigned kNoTruth = 3U << 2U, kNoInstant = 3U << 4U;  // viewer/README.md
 enum Kind : std::uint32_t { scan = 1, correction = 2 };
 

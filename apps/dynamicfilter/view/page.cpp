@@ -15,7 +15,7 @@ namespace {
 constexpr std::string_view kMarker = "<!--DATA-->", kEnd = "<!--END OF DATA-->";
 
 std::string gzip(const std::string& bytes) {
-    constexpr int kLevel = 6, kGzip = 15 + 16, kMemory = 8;
+    constexpr int kLevel = 4, kGzip = 15 + 16, kMemory = 8;
     z_stream stream{};
     if (deflateInit2(&stream, kLevel, Z_DEFLATED, kGzip, kMemory, Z_DEFAULT_STRATEGY) != Z_OK) {
         throw std::bad_alloc();
@@ -105,7 +105,8 @@ std::string run_of_report(const std::filesystem::path& file, std::size_t number)
     const std::string page = io::read_file(file);
     const std::size_t begin = page.find(kFirstTag), end = page.find(kEnd);
     if (begin == std::string::npos || end == std::string::npos || end < begin) {
-        throw InputError(file, "", "is no report of a run; expected the report.html that `run` leaves");
+        throw InputError(file, "",
+                         "is no report of a run; expected the report.html that `run` leaves");
     }
     std::string run = page.substr(begin, end - begin);
     const std::string id = fmt::format("id=\"run-{}", number);

@@ -9,10 +9,8 @@
 #include <random>
 
 #include "dynamic_filter/geometry/pose.hpp"
-#include "dynamic_filter/io/writers.hpp"
 #include "frames.hpp"
-#include "lot.hpp"
-#include "verdict_code.hpp"
+#include "shown.hpp"
 
 namespace dynamic_filter::app {
 
@@ -21,125 +19,7 @@ namespace {
 using nlohmann::ordered_json;
 using Origin = Eigen::Vector3d;
 
-/// Room on the page: 30 MB, and what a browser draws.
-constexpr std::size_t kMapPoints = 500'000, kFramePoints = 1'000'000, kFrames = 400;
-
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-
-/// 3: not kept.
-std::uint8_t code_at(const Labels& labels, std::size_t i) {
-    return labels.empty() ? std::uint8_t{3} : verdict_code(labels[i]);
-}
-
-/// Of a scan's measured points, about `most` by lot: what moves fills up to half of it.
-std::vector<std::uint32_t> drawn(const io::Frame& frame, const Labels& labels, std::size_t scan,
-                                 std::size_t most) {
-    const auto moving =
-        static_cast<double>(std::count(labels.begin(), labels.end(), Label::dynamic));
-    const double others = static_cast<double>(labels.size()) - moving,
-                 room = static_cast<double>(most);
-    const double room_of_moving = std::min(moving, std::max(0.5 * room, room - others));
-    const double share_of_moving = moving > 0 ? room_of_moving / moving : 0.0,
-                 share_of_others = others > 0 ? (room - room_of_moving) / others : 0.0;
-    std::vector<std::uint32_t> chosen;
-    for (std::size_t i = 0; i < labels.size(); ++i) {
-        const double share = labels[i] == Label::dynamic ? share_of_moving : share_of_others;
-        if (is_drawn(scan, i, share) && is_measured(frame.points[i])) {
-            chosen.push_back(static_cast<std::uint32_t>(i));
-        }
-    }
-    return chosen;
-}
-
-/// As recorded; empty where there is none.
-std::vector<double> intensities(const io::Cloud& cloud) {
-    const io::Field* field = cloud.find("intensity");
-    return field == nullptr ? std::vector<double>{} : values(cloud, *field);
-}
-
-/// The chosen points of one scan.
-struct Drawn {
-    std::vector<ShownPoint> points;
-    bool has_intensity = false;
-};
-
-Drawn draw(const ViewInput& in, std::size_t row, const io::Frame& frame, const Labels& labels,
-           const Origin& origin, std::size_t most) {
-    const std::size_t index = in.scans[row].index;
-    const auto chosen = drawn(frame, labels, index, most);
-    Scan scan{{}, frame.T_world_sensor, frame.stamp, index};
-    for (const std::uint32_t i : chosen) scan.points.push_back(frame.points[i]);
-    const auto places = in.filter.places_of(scan);
-    const auto intensity = in.sequence.intensity_is_truth ? std::vector<double>{}
-                                                          : intensities(frame.cloud);
-    Pose T_page_sensor = frame.T_world_sensor;
-    T_page_sensor.translation() -= origin;
-    const Labels& instant = in.instant[index];
-    Drawn drawn{{}, !intensity.empty()};
-    for (std::size_t k = 0; k < chosen.size(); ++k) {
-        const std::uint32_t i = chosen[k];
-        const auto verdict =
-            static_cast<std::uint8_t>(verdict_code(labels[i]) | code_at(frame.truth, i) << 2 |
-                                      code_at(instant, i) << 4);
-        drawn.points.push_back({(T_page_sensor * scan.points[k].cast<double>()).cast<float>(),
-                                intensity.empty() ? 0.0F : static_cast<float>(intensity[i]),
-                                static_cast<std::uint32_t>(row), verdict, places[k]});
-    }
-    return drawn;
-}
-
-/// All that the page shows of points.
-struct Shown {
-    ThinnedCloud map;
-    std::vector<ShownPoint> frames{};          ///< frame by frame
-    std::vector<std::uint32_t> frame_begin{};  ///< one more than frames
-    std::vector<std::int32_t> frame_of_scan{};
-    bool has_intensity = false;
-};
-
-/// The stride that takes about `most` of `count`, and no more.
-std::size_t stride_for(std::size_t count, std::size_t most) {
-    return std::max<std::size_t>(1, (count + most - 1) / most);
-}
-
-/// Reads as many scans as the page has room for, evenly over the run.
-Shown collect(const ViewInput& in, const Origin& origin) {
-    constexpr std::size_t kMostScans = 2000;  // more do not show in so few points
-    constexpr std::size_t kPerMapPoint = 8;   // offered, so that the cubes are well filled
-    const std::size_t n = in.scans.size(), stride = stride_for(n, kMostScans);
-    const auto is_frame = [&](std::size_t i) { return is_shown(i, in.sequence.size()); };
-    std::vector<std::size_t> rows, scans;
-    std::size_t frames = 0;
-    for (std::size_t row = 0; row < n; ++row) {
-        if (row % stride != 0 && !is_frame(in.scans[row].index)) continue;
-        rows.push_back(row);
-        scans.push_back(in.scans[row].index);
-        if (is_frame(scans.back())) ++frames;
-    }
-    const std::size_t for_map = kPerMapPoint * kMapPoints / std::max<std::size_t>(1, rows.size()),
-                      for_frame = kFramePoints / std::max<std::size_t>(1, frames);
-    Shown shown{.map = ThinnedCloud(kMapPoints)};
-    shown.frame_of_scan.assign(n, -1);
-    std::size_t at = 0;
-    const auto use = [&](std::size_t i, MaybeFrame& maybe) {
-        const std::size_t row = rows[at++];
-        if (!maybe.frame) return true;  // it was readable a moment ago; the page can do without
-        const Labels labels = io::read_labels(in.labels / (io::stem(in.sequence, i) + ".label"));
-        const Drawn of_map = draw(in, row, *maybe.frame, labels, origin, for_map);
-        for (const ShownPoint& point : of_map.points) shown.map.add(point);
-        shown.has_intensity |= of_map.has_intensity;
-        if (is_frame(i)) {
-            shown.frame_of_scan[row] = static_cast<std::int32_t>(shown.frame_begin.size());
-            shown.frame_begin.push_back(static_cast<std::uint32_t>(shown.frames.size()));
-            const Drawn of_frame = draw(in, row, *maybe.frame, labels, origin, for_frame);
-            shown.frames.insert(shown.frames.end(), of_frame.points.begin(), of_frame.points.end());
-        }
-        return true;
-    };
-    for_each_frame(in.sequence, scans, {}, use);
-    shown.frame_begin.push_back(static_cast<std::uint32_t>(shown.frames.size()));
-    return shown;
-}
 
 /// Positions as whole steps from a corner.
 struct Steps {
@@ -189,7 +69,8 @@ std::vector<std::uint8_t> scaled_intensity(const std::vector<ShownPoint>& cloud)
     std::erase_if(sorted, [](float value) { return !std::isfinite(value); });
     float top = 1e-6F;
     if (!sorted.empty()) {
-        const auto at = sorted.begin() + static_cast<std::ptrdiff_t>(99 * (sorted.size() - 1) / 100);
+        const auto at =
+            sorted.begin() + static_cast<std::ptrdiff_t>(99 * (sorted.size() - 1) / 100);
         std::nth_element(sorted.begin(), at, sorted.end());
         top = std::max(top, *at);
     }
@@ -233,9 +114,9 @@ void add_voxels(const ViewInput& in, const std::vector<std::uint64_t>& places, P
     std::vector<std::uint16_t> evidence, pass;
     std::vector<std::uint32_t> span, pass_begin;
     for (const VoxelHistory& h : in.filter.histories(places)) {
-        probability.push_back(
-            h.probability ? static_cast<std::uint8_t>(std::lround(254.0F * *h.probability))
-                          : std::uint8_t{255});
+        probability.push_back(h.probability
+                                  ? static_cast<std::uint8_t>(std::lround(254.0F * *h.probability))
+                                  : std::uint8_t{255});
         const Evidence& e = h.evidence;
         evidence.insert(evidence.end(), {e.seen, e.passed, e.owned, e.switches});
         span.insert(span.end(), {row_of(in.scans, h.first), row_of(in.scans, h.last)});
@@ -312,10 +193,6 @@ std::size_t all_points(const ViewInput& in) {
 
 }  // namespace
 
-bool is_shown(std::size_t index, std::size_t scans) {
-    return index % stride_for(scans, kFrames) == 0;
-}
-
 ScanNote note_of(const Labels& labels, const Labels& instant, const Labels& truth) {
     ScanNote note;
     for (std::size_t i = 0; i < labels.size(); ++i) {
@@ -374,8 +251,8 @@ PageRun view_of(const io::Cloud& cloud) {
     const auto intensity = intensities(cloud);
     Pose near = Pose::Identity();
     const Points first = cloud.size() > 0 ? positions_from(cloud, Origin::Zero()) : Points{};
-    const auto finite = std::find_if(first.begin(), first.end(),
-                                     [](const Point& p) { return p.allFinite(); });
+    const auto finite =
+        std::find_if(first.begin(), first.end(), [](const Point& p) { return p.allFinite(); });
     if (finite != first.end()) near.translation() = finite->cast<double>();
     const Origin origin = nearby_origin(near, 1.0);
     const Points points = positions_from(cloud, origin);

@@ -5,7 +5,8 @@
 #ifdef DYNAMIC_FILTER_VIEWER_PAGE
 __asm__(
     ".pushsection .rodata\n"
-    "viewer_page_begin: .incbin \"" DYNAMIC_FILTER_VIEWER_PAGE "\"\n"
+    "viewer_page_begin: .incbin \"" DYNAMIC_FILTER_VIEWER_PAGE
+    "\"\n"
     "viewer_page_end: .byte 0\n"
     ".globl viewer_page_begin, viewer_page_end\n"
     ".popsection\n");

@@ -126,7 +126,7 @@ private:
     std::size_t all_observers_ = 0;
     std::uint32_t scans_ = 0;
     std::vector<std::size_t> indices_;  // by order of the scans
-    double last_far_look_ = 0.0;  // [s]
+    double last_far_look_ = 0.0;        // [s]
     std::size_t rest_ = 0;  // voxels below this number, but those in blocks touched, are to look at
 
     VoxelIndex voxels_;

@@ -91,7 +91,8 @@ public:
 
     /// The voxel of each point of a scan; kNoVoxel: none.
     [[nodiscard]] PointVoxels voxels_of(const Scan& scan) const { return locate(scan).voxels; }
-    /// After finish(): of each of the voxels. Costs about a tenth of what it cost to observe them.
+    /// After finish(): of each of the voxels. Costs as much as it cost to observe those of them
+    /// that were ever seen through.
     [[nodiscard]] std::vector<VoxelHistory> histories(std::span<const std::uint32_t> voxels) const;
     /// Scan::index of the keyframes that `VoxelHistory::seen_through` knows.
     [[nodiscard]] std::vector<std::size_t> keyframes() const { return evidence_.keyframes(); }
