@@ -27,8 +27,6 @@ namespace dynamic_filter::app {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr std::size_t kMostConnections = 64, kMostRequest = 8192;
-constexpr std::chrono::seconds kTimeToAsk{5}, kTimeToRead{60};
 
 void make_nonblocking(int descriptor) {
     fcntl(descriptor, F_SETFL, fcntl(descriptor, F_GETFL) | O_NONBLOCK);
@@ -77,7 +75,8 @@ std::string head_of(const HttpAnswer& answer) {
 /// Reads a request, then writes the answer.
 struct HttpServer::Connection {
     int descriptor;
-    Clock::time_point deadline = Clock::now() + kTimeToAsk;
+    const HttpLimits& limits;
+    Clock::time_point deadline = Clock::now() + limits.to_ask;
     std::string request{}, head{};
     std::shared_ptr<const std::string> body{};
     std::size_t sent = 0;
@@ -87,7 +86,7 @@ struct HttpServer::Connection {
         head = head_of(a);
         body = with_body ? a.body : nullptr;
         answering = true;
-        deadline = Clock::now() + kTimeToRead;
+        deadline = Clock::now() + limits.to_read;
     }
 
     void read(const HttpHandler& handler, std::uint16_t port) {
@@ -101,7 +100,7 @@ struct HttpServer::Connection {
         request.append(bytes.data(), static_cast<std::size_t>(n));
         const std::size_t end = request.find("\r\n\r\n");
         if (end == std::string::npos) {
-            if (request.size() > kMostRequest) answer({431, "text/plain", {}}, false);
+            if (request.size() > limits.request_bytes) answer({431, "text/plain", {}}, false);
             return;
         }
         const HttpRequest parsed = parse_request(std::string_view(request).substr(0, end + 2));
@@ -133,8 +132,11 @@ struct HttpServer::Connection {
     }
 };
 
-HttpServer::HttpServer(std::uint16_t port, HttpHandler handler)
-    : handler_(std::move(handler)), listener_(listen_on(port)), port_(port_of(listener_)) {
+HttpServer::HttpServer(std::uint16_t port, HttpHandler handler, HttpLimits limits)
+    : handler_(std::move(handler)),
+      limits_(limits),
+      listener_(listen_on(port)),
+      port_(port_of(listener_)) {
     if (pipe(wake_) != 0) {
         close(listener_);
         throw OutputError("pipe", std::strerror(errno));
@@ -156,12 +158,12 @@ void HttpServer::serve() {
     std::list<Connection> connections;
     std::vector<pollfd> polled;
     while (true) {
-        const bool room = connections.size() < kMostConnections;
+        const bool room = connections.size() < limits_.connections;
         polled = {{wake_[0], POLLIN, 0}, {room ? listener_ : -1, POLLIN, 0}};
         for (const Connection& c : connections) {
             polled.push_back({c.descriptor, static_cast<short>(c.answering ? POLLOUT : POLLIN), 0});
         }
-        constexpr int kWaitMs = 500;  // so that deadlines are noticed
+        constexpr int kWaitMs = 100;  // so that deadlines are noticed
         poll(polled.data(), polled.size(), connections.empty() ? -1 : kWaitMs);
         if (polled[0].revents != 0) break;
         auto at = polled.begin() + 2;
@@ -180,7 +182,7 @@ void HttpServer::serve() {
             const int descriptor = accept(listener_, nullptr, nullptr);
             if (descriptor < 0) continue;
             make_nonblocking(descriptor);
-            connections.push_back({.descriptor = descriptor});
+            connections.push_back({.descriptor = descriptor, .limits = limits_});
         }
     }
     for (const Connection& c : connections) close(c.descriptor);
