@@ -168,6 +168,40 @@ void add_report(CLI::App& app, std::function<int()>& chosen) {
     serve_command.callback([s, &chosen] { chosen = [s] { return serve(*s); }; });
 }
 
+void add_render(CLI::App& app, std::function<int()>& chosen) {
+    auto o = std::make_shared<RenderOptions>();
+    CLI::App& c = *app.add_subcommand("render", "Draw a map, or a recording being cleaned");
+    c.add_option("IN", o->data.data,
+                 "output folder of a run, cloud file, or a recording to animate")
+        ->required();
+    c.add_option("-o,--output", o->output, ".png; of a recording, .webp")->required();
+    CLI::Option* const above = c.add_flag("--top", o->from_above, "from straight above");
+    c.add_flag("--clean", o->clean, "without the removed points");
+    c.add_option("--width", o->width, "[pixels]")
+        ->check(CLI::Range(16, 16384))
+        ->capture_default_str();
+    c.add_option("--height", o->height, "[pixels]")
+        ->check(CLI::Range(16, 16384))
+        ->capture_default_str();
+    c.add_option("--azimuth", o->azimuth_deg, "direction of view, from the x axis [deg]")
+        ->excludes(above)
+        ->capture_default_str();
+    c.add_option("--elevation", o->elevation_deg, "below the horizon [deg]")
+        ->excludes(above)
+        ->check(CLI::Range(1.0, 89.0))
+        ->capture_default_str();
+    c.add_option("--point-size", o->point_size, "[pixels]")
+        ->check(CLI::Range(0.5, 50.0))
+        ->capture_default_str();
+    c.add_option("--pictures", o->pictures, "of an animation")
+        ->check(CLI::Range(2, 1000))
+        ->capture_default_str();
+    add_reading_options(c, o->data);
+    add_selection_options(c, o->data);
+    add_config_options(c, o->config);
+    c.callback([o, &chosen] { chosen = [o] { return render(*o); }; });
+}
+
 void add_others(CLI::App& app, std::function<int()>& chosen) {
     auto demo_options = std::make_shared<DemoOptions>();
     CLI::App& d = *app.add_subcommand("demo", "Simulate, filter, score and draw: no data needed");
@@ -211,6 +245,7 @@ int main(int argc, char** argv) {
     add_simulate(app, chosen);
     add_convert(app, chosen);
     add_report(app, chosen);
+    add_render(app, chosen);
     add_others(app, chosen);
     try {
         app.parse(argc, argv);
