@@ -142,7 +142,12 @@ std::vector<std::size_t> finite_points(const std::array<Axis, 3>& axes) {
     return finite;
 }
 
-/// The offset is amid the data, in whole metres, so that 32 bits reach to both sides.
+std::int32_t steps(const Axis& axis, double value) {
+    return static_cast<std::int32_t>(std::llround((value - axis.offset) / scale));
+}
+
+/// The offset is amid the data, in whole metres, so that 32 bits reach to both sides. The bounds
+/// are those of the coordinates as written: readers look whether a point lies outside.
 void span_axis(Axis& axis, const std::vector<std::size_t>& points,
                const std::filesystem::path& path) {
     if (points.empty()) return;
@@ -155,10 +160,9 @@ void span_axis(Axis& axis, const std::vector<std::size_t>& points,
     if (!(axis.greatest - axis.offset < scale * std::numeric_limits<std::int32_t>::max() - 1)) {
         throw OutputError(path, "the cloud is wider than the 4,000 km that LAS holds at 1 mm");
     }
-}
-
-std::int32_t steps(const Axis& axis, std::size_t i) {
-    return static_cast<std::int32_t>(std::llround((axis.values[i] - axis.offset) / scale));
+    for (double* bound : {&axis.least, &axis.greatest}) {
+        *bound = steps(axis, *bound) * scale + axis.offset;
+    }
 }
 
 /// Writes where the standard's bits are, beside those of another field in the same byte.
@@ -186,7 +190,8 @@ std::vector<std::byte> records_of(const Cloud& cloud, const std::vector<Placed>&
     for (std::size_t n = 0; n < points.size(); ++n) {
         std::byte* record = records.data() + n * stride;
         const std::byte* from = cloud.data.data() + points[n] * cloud.point_bytes;
-        for (std::size_t a = 0; a < 3; ++a) store_at(record + 4 * a, steps(axes[a], points[n]));
+        for (std::size_t a = 0; a < 3; ++a)
+            store_at(record + 4 * a, steps(axes[a], axes[a].values[points[n]]));
         for (const Placed& p : placed) {
             if (p.standard != nullptr) {
                 put_standard(record, *p.standard, from + p.field.offset);

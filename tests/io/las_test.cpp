@@ -190,6 +190,19 @@ TEST_F(Las, RoundTrip) {
     EXPECT_EQ(column(back, "normal_1"), (Numbers{0, 2, 4, 6, 8}));
 }
 
+TEST_F(Las, BoundsAreThoseOfTheCoordinatesAsWritten) {
+    Cloud cloud;
+    for (const char* name : {"x", "y", "z"}) add_field(cloud, name, FieldType::f32);
+    const std::string points = floats({0.12345F, 1.0F, 2.0F, 9.87654F, 1.0F, 2.0F});
+    const auto raw = std::as_bytes(std::span(points));
+    cloud.data.assign(raw.begin(), raw.end());
+    write_las(folder_ / "w.las", cloud);
+    const std::string bytes = slurp(folder_ / "w.las");
+    double bounds[2] = {};  // the greatest x, the least
+    std::memcpy(bounds, bytes.data() + 179, sizeof bounds);
+    EXPECT_EQ(column(read_las(folder_ / "w.las"), "x"), (Numbers{bounds[1], bounds[0]}));
+}
+
 TEST_F(Las, FarFromTheOrigin) {
     Cloud cloud;
     for (const char* name : {"x", "y", "z"}) add_field(cloud, name, FieldType::f64);

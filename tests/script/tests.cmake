@@ -1,4 +1,3 @@
-find_package(Python3 REQUIRED COMPONENTS Interpreter)
 add_test(NAME script/semantickitti
          COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/semantickitti_test.py
                  ${PROJECT_SOURCE_DIR} $<TARGET_FILE:dynamicfilter>)
