@@ -82,8 +82,8 @@ int run(const RunOptions& o) {
     io::write_file(output.path() / kState, state);
     for (const std::string& note : sequence.notes) fmt::print(stderr, "note: {}\n", note);
     for (const io::Finding& finding : io::check_recording(sequence, io::Depth::quick).findings) {
-        fmt::print(stderr, "warning: {}; try {} (`dynamicfilter check` looks closer)\n",
-                   finding.what, finding.advice);
+        fmt::print(stderr, "warning: {}; {}{} (`dynamicfilter check` looks closer)\n", finding.what,
+                   finding.advice.starts_with("--") ? "try " : "", finding.advice);
     }
 
     catch_interrupts();
@@ -92,6 +92,7 @@ int run(const RunOptions& o) {
     const RunSummary summary = run_sequence(sequence, config, pace, output);
 
     for (const std::string& line : summary.notes) fmt::print(stderr, "note: {}\n", line);
+    for (const std::string& line : sequence.losses) fmt::print(stderr, "lost     {}\n", line);
     for (const std::string& line : summary.rejected) fmt::print(stderr, "rejected {}\n", line);
     for (const std::string& line : summary.dropped) fmt::print(stderr, "dropped {}\n", line);
     if (!summary.interrupted) io::write_file(output.path() / kState, state + kComplete);
@@ -107,7 +108,8 @@ int run(const RunOptions& o) {
                    "note: most points are unknown; are the first poses of another place?\n");
     }
     if (summary.interrupted) return kInterrupted;
-    return summary.rejected.empty() && summary.dropped.empty() ? kDone : kRejected;
+    const bool all = summary.rejected.empty() && summary.dropped.empty() && sequence.losses.empty();
+    return all ? kDone : kRejected;
 }
 
 }  // namespace dynamic_filter::app

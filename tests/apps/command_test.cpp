@@ -264,13 +264,38 @@ TEST_F(Command, BadScansAreRejectedCountedAndNamed) {
     fs::resize_file(data / "labels/000007.label", 8);
     EXPECT_EQ(run("run data -o out"), 4) << said();
     const auto metrics = nlohmann::json::parse(slurp(folder_ / "out/metrics.json"));
-    EXPECT_EQ(metrics["rejected"].size(), 3U);
-    for (const char* stem : {"000003", "000005", "000007"}) {
+    EXPECT_EQ(metrics["rejected"].size(), 2U);
+    for (const char* stem : {"000003", "000005"}) {
         EXPECT_FALSE(fs::exists(folder_ / "out/labels" / (std::string(stem) + ".label")));
         EXPECT_NE(slurp(folder_ / "out/run.log").find(std::string("rejected ") + stem),
                   std::string::npos);
     }
     EXPECT_TRUE(fs::exists(folder_ / "out/labels/000004.label"));
+    EXPECT_EQ(run("check data"), 4);
+    expect_said("UNUSABLE  000003");
+    expect_said("UNUSABLE  000005");
+}
+
+TEST_F(Command, GroundTruthThatDoesNotFitChangesNoLabel) {
+    const fs::path data = copy();
+    fs::resize_file(data / "labels/000007.label", 8);
+    ASSERT_EQ(run("run data -o out"), 0) << said();
+    expect_said("labels/000007.label: 2 labels but ");
+    expect_said("not scored");
+    fs::remove_all(data / "labels");
+    ASSERT_EQ(run("run data -o without"), 0) << said();
+    EXPECT_TRUE(bytes_of("out/labels") == bytes_of("without/labels"));
+}
+
+TEST_F(Command, ABagThatLostScansIsNotDone) {
+    ASSERT_EQ(run("convert " + recording().string() + " a.mcap"), 0);
+    fs::resize_file(folder_ / "a.mcap", fs::file_size(folder_ / "a.mcap") / 2);
+    EXPECT_EQ(run("run a.mcap -o out"), 4);
+    expect_said("lost     a.mcap: the record at byte ");
+    EXPECT_NE(slurp(folder_ / "out/run.log").find("lost     a.mcap"), std::string::npos);
+    EXPECT_FALSE(nlohmann::json::parse(slurp(folder_ / "out/metrics.json"))["lost"].empty());
+    EXPECT_EQ(run("check a.mcap"), 4);
+    EXPECT_EQ(run("convert a.mcap b.bag"), 4);
 }
 
 TEST_F(Command, PointsThatAreNoMeasurementsEndAsUnknown) {

@@ -96,6 +96,7 @@ void expect_survives_truncation(const TemporaryFolder& folder, const std::string
         }
         const bool complete = back.messages.size() == whole.messages.size();
         EXPECT_TRUE(complete || !back.notes.empty()) << name << " cut at " << n;
+        EXPECT_TRUE(back.lost || back.notes.size() < 2) << name << " cut at " << n;
     }
 }
 
@@ -165,6 +166,7 @@ TEST_F(Bags, AFlippedByteIsNoted) {
     EXPECT_EQ(all_data(back), (Data{data('a'), data('b')}));
     ASSERT_EQ(back.notes.size(), 1U);
     EXPECT_HAS(back.notes[0], "checksum differs");
+    EXPECT_TRUE(back.lost);
     EXPECT_HAS(back.notes[0], "a.mcap: the chunk at byte ");
 }
 
@@ -230,6 +232,7 @@ TEST_F(Bags, NeverClosed) {
     const ReadBack back = read("a.bag.active", bytes);
     EXPECT_EQ(all_data(back), four);
     EXPECT_HAS(back.notes.at(0), "never closed");
+    EXPECT_FALSE(back.lost) << "nothing says that the end is missing";
 }
 
 TEST_F(Bags, WhatIsNoBag) {
