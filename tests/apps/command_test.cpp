@@ -390,6 +390,28 @@ TEST_F(Command, ResumeGoesOnWithTheSameOnly) {
     EXPECT_EQ(run("run " + data + " -o out --resume"), 0) << said();
     EXPECT_TRUE(bytes_of("out") == expected);
     EXPECT_EQ(run("run " + data + " --resume"), 2);
+    fs::create_directory(folder_ / "thesis");
+    spill(folder_ / "thesis/thesis.tex", "precious");
+    EXPECT_EQ(run("run " + data + " -o thesis --resume"), 2);
+    expect_said("no run of this version began");
+    EXPECT_FALSE(fs::exists(folder_ / "thesis/labels"));
+}
+
+TEST_F(Command, ResumeGoesOnWithAnOverwriteThatWasKilled) {
+    const std::string data = recording().string(), other = " --set back_end.voxel_size=0.3";
+    ASSERT_EQ(run("run " + data + " -o out"), 0) << said();
+    ASSERT_EQ(run("run " + data + " -o expected" + other), 0) << said();
+    const std::string state = slurp(folder_ / "expected/.run");
+    fs::create_directories(folder_ / "out/.new/labels");
+    spill(folder_ / "out/.new/.run", state.substr(0, state.find("complete")));
+    EXPECT_EQ(run("run " + data + " -o out --resume" + other), 0) << said();
+    EXPECT_TRUE(bytes_of("out") == bytes_of("expected"));
+    // Killed when all was written, and nothing put in place.
+    fs::create_directory(folder_ / "again");
+    fs::copy(folder_ / "expected", folder_ / "again/.new", fs::copy_options::recursive);
+    spill(folder_ / "again/run.log", "old");
+    EXPECT_EQ(run("run " + data + " -o again --resume" + other), 0) << said();
+    EXPECT_TRUE(bytes_of("again") == bytes_of("expected"));
 }
 
 TEST_F(Command, OverwriteLeavesGroundTruthAlone) {
@@ -446,10 +468,34 @@ TEST_F(Command, ConvertWritesMapsAndSplitScans) {
     }
     EXPECT_EQ(in_tiles, still.size());
     EXPECT_GT(tiles, 4U);
+    ASSERT_EQ(run("convert " + data + " MAP.TXT --labels out"), 0) << said();
+    expect_said("left out: poses, stamps");
+    const io::Cloud text = io::read_cloud(folder_ / "MAP.TXT");
+    EXPECT_EQ(text.size(), map.size());
+    ASSERT_NE(text.find("dynamic"), nullptr);
+    EXPECT_EQ(io::values(text, *text.find("dynamic")), io::values(map, *map.find("dynamic")));
+    EXPECT_EQ(run("convert " + data + " out --overwrite"), 2);
+    expect_said("result of a run");
+    ASSERT_EQ(run("convert " + data + " bench --to benchmark"), 0);
+    expect_said("left out: intensity, stamps");
     EXPECT_EQ(run("convert " + data + " x.pcx"), 2);
     EXPECT_EQ(run("convert nothing.pcd x.pcd"), 3);
     EXPECT_EQ(run("convert " + data + " y.mcap --labels " + data + "/velodyne"), 3);
     EXPECT_FALSE(fs::exists(folder_ / "y.mcap"));
+    EXPECT_EQ(run("convert " + data + " half --labels " + data + "/velodyne"), 3);
+    EXPECT_FALSE(fs::exists(folder_ / "half"));
+}
+
+TEST_F(Command, PointsThatLasLeavesOutAreNotCounted) {
+    spill(folder_ / "a.xyz", "1 2 3\n4 nan 6\n7 8 9\n");
+    EXPECT_EQ(run("convert a.xyz a.las"), 0);
+    expect_said("(2 points)");
+    expect_said("1 points that are not finite");
+    EXPECT_EQ(run("convert a.xyz a.ply"), 0);
+    expect_said("(3 points)");
+    spill(folder_ / "far.xyz", "1 2 3\n1e10 5 6\n");
+    EXPECT_EQ(run("convert far.xyz far.las"), 1);
+    expect_said("x = 1 to 1e+10 m, wider than the 4,000 km");
 }
 
 TEST_F(Command, CheckSaysWhatToTypeAndThatWorks) {

@@ -237,12 +237,23 @@ TEST_F(Bags, NeverClosed) {
 
 TEST_F(Bags, WhatIsNoBag) {
     EXPECT_HAS(error("a.mcap", ""), "no MCAP");
-    EXPECT_HAS(error("a.mcap", "#ROSBAG V2.0\n"), "no MCAP");
     EXPECT_HAS(error("a.bag", ""), "no ROS bag");
     EXPECT_HAS(error("a.bag", "#ROSBAG V1.2\nmore"), "version 1; convert");
     EXPECT_HAS(error("a.db3", ""), "no ROS 2 bag");
     EXPECT_HAS(error("a.db3", std::string("SQLite format 3\0", 16) + "more"), "no ROS 2 bag");
-    EXPECT_HAS(error("a.pcd", ""), "no .mcap, .bag or .db3");
+    EXPECT_HAS(error("a.pcd", ""), "is no bag");
+}
+
+TEST_F(Bags, NamesInCapitalsAndNamesThatSayNothing) {
+    for (const char* name : {"A.MCAP", "data.bin", "misnamed.bag", "no_extension"}) {
+        EXPECT_EQ(all_data(read(name, two_chunk_mcap("zstd"))), four) << name;
+        EXPECT_EQ(all_data(read(name, two_chunk_bag("lz4"))), four) << name;
+    }
+    EXPECT_TRUE(Bag::recognises("A.MCAP"));
+    EXPECT_TRUE(Bag::recognises("A.Bag.Active"));
+    EXPECT_FALSE(Bag::recognises(folder_ / "data.bin"));
+    write_bag(folder_ / "B.MCAP", some_messages(encoding_of(".mcap"), 2, 5));
+    EXPECT_FALSE(read_all(folder_ / "B.MCAP").messages.empty());
 }
 
 TEST_F(Bags, Folders) {
