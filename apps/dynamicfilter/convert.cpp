@@ -135,8 +135,8 @@ int convert(const ConvertOptions& o) {
             throw ConfigError(o.output.string() + ": lies within the recording; choose another");
         }
     }
-    const bool recording =
-        fs::is_directory(o.data.data, ignored) || io::Bag::recognises(o.data.data);
+    const bool recording = !o.data.format.empty() || fs::is_directory(o.data.data, ignored) ||
+                           io::Bag::recognises(o.data.data);
     return recording ? convert_recording(o) : convert_cloud(o);
 }
 

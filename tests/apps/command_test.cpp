@@ -186,6 +186,7 @@ TEST_F(Command, EvalOfLabelsAndOfTheMapAgreeWithTheRun) {
 TEST_F(Command, UsageErrorsExitWithTwo) {
     EXPECT_EQ(run(""), 2);
     EXPECT_EQ(run("fly"), 2);
+    expect_said("unknown command 'fly'; there are: run, eval, simulate, convert");
     EXPECT_EQ(run("run"), 2);
     EXPECT_EQ(run("run " + recording().string() + " --set back_end.voxle_size=1"), 2);
     expect_said("back_end.voxel_size");
@@ -194,6 +195,7 @@ TEST_F(Command, UsageErrorsExitWithTwo) {
     EXPECT_EQ(run("run " + recording().string() + " --format cloud"), 2);
     EXPECT_EQ(run("run " + recording().string() + " --first 99"), 2);
     EXPECT_EQ(run("run " + recording().string() + " --stride -1"), 2);
+    expect_said("'-1' is no whole number of 1 or more");
     EXPECT_EQ(run("simulate crowd --frames 0 -o x"), 2);
     EXPECT_EQ(run("simulate moon -o x"), 2);
     expect_said("crowd");
@@ -323,6 +325,17 @@ TEST_F(Command, InfoDescribesFilesAndFolders) {
     expect_said("intensity");
     EXPECT_EQ(run("info " + (recording() / "velodyne/000000.bin").string()), 0);
     EXPECT_EQ(run("info nothing.pcd"), 3);
+    ASSERT_EQ(run("run " + recording().string() + " -o out"), 0) << said();
+    for (const char* command : {"info out", "check out", "run out -o x"}) {
+        EXPECT_EQ(run(command), 3) << command;
+        expect_said("is what a run left, not a recording");
+    }
+    ASSERT_EQ(run("convert " + recording().string() + " a.bag"), 0);
+    fs::rename(folder_ / "a.bag", folder_ / "recording.data");
+    EXPECT_EQ(run("check recording.data"), 3);
+    expect_said("is a ROS 1 bag; force --format bag");
+    EXPECT_EQ(run("check recording.data --format bag"), 0) << said();
+    EXPECT_EQ(run("convert recording.data b.mcap --format bag"), 0) << said();
 }
 
 TEST_F(Command, ConfigPrintsWhatRunReads) {

@@ -236,12 +236,15 @@ TEST_F(Bags, NeverClosed) {
 }
 
 TEST_F(Bags, WhatIsNoBag) {
-    EXPECT_HAS(error("a.mcap", ""), "no MCAP");
-    EXPECT_HAS(error("a.bag", ""), "no ROS bag");
+    EXPECT_HAS(error("a.mcap", ""), "is empty");
+    EXPECT_HAS(error("a.mcap", "x"), "no MCAP");
+    EXPECT_HAS(error("a.bag", ""), "is empty");
+    EXPECT_HAS(error("a.bag", "x"), "no ROS bag");
     EXPECT_HAS(error("a.bag", "#ROSBAG V1.2\nmore"), "version 1; convert");
-    EXPECT_HAS(error("a.db3", ""), "no ROS 2 bag");
+    EXPECT_HAS(error("a.db3", ""), "is empty");
+    EXPECT_HAS(error("a.db3", "x"), "no ROS 2 bag");
     EXPECT_HAS(error("a.db3", std::string("SQLite format 3\0", 16) + "more"), "no ROS 2 bag");
-    EXPECT_HAS(error("a.pcd", ""), "is no bag");
+    EXPECT_HAS(error("a.pcd", "x"), "is no bag");
 }
 
 TEST_F(Bags, NamesInCapitalsAndNamesThatSayNothing) {

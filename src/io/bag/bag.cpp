@@ -27,10 +27,10 @@ Open opener_for(const fs::path& path) {
 
 /// By its first bytes, whatever it is called; nullptr: no bag.
 Open opener_by_content(const fs::path& file) {
-    const std::string head = read_head(file, 16);
-    if (head.starts_with("\x89MCAP")) return open_mcap;
-    if (head.starts_with("#ROSBAG V")) return open_rosbag1;
-    if (head.starts_with("SQLite format 3")) return open_rosbag2;
+    const std::string kind = kind_by_content(read_head(file, 16));
+    if (kind == "an MCAP bag") return open_mcap;
+    if (kind == "a ROS 1 bag") return open_rosbag1;
+    if (kind == "a ROS 2 bag") return open_rosbag2;
     return nullptr;
 }
 
@@ -101,6 +101,9 @@ Bag::Bag(const fs::path& path) {
         paths_ = {path};
     }
     for (const fs::path& file : paths_) {
+        if (read_head(file, 1).empty()) {
+            throw InputError(file, "", "is empty; expected a bag; was it copied as a whole?");
+        }
         const Open by_name = opener_for(file), by_content = opener_by_content(file);
         if (by_name == nullptr && by_content == nullptr) {
             throw InputError(file, "", "is no bag: neither its name nor its first bytes say so");
