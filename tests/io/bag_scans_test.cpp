@@ -165,6 +165,20 @@ TEST_F(BagScansTest, ScansBeyondThePosesAreRejectedOneByOne) {
     EXPECT_HAS(error_of([&] { (void)read_frame(sequence, 4); }), "no pose is known at its time");
 }
 
+TEST_F(BagScansTest, ScansThatCannotBeReadAreLossesAndOtherMessagesAreNot) {
+    scans(2, "lidar");
+    drive("odom", "lidar");
+    write("/odom", "nav_msgs/Odometry", stamp(0), std::vector<std::byte>(3));
+    EXPECT_TRUE(opened().losses.empty());
+    EXPECT_TRUE(has_note(opened(), "1 messages cannot be read"));
+    writer_ = BagWriter::create(data / "a.mcap");
+    scans(2, "lidar");
+    drive("odom", "lidar");
+    write("/points", "sensor_msgs/PointCloud2", stamp(2), std::vector<std::byte>(3));
+    ASSERT_EQ(opened().losses.size(), 1U);
+    EXPECT_HAS(opened().losses[0], "the first is of /points");
+}
+
 TEST_F(BagScansTest, ScansAreInTheOrderOfTheirStamps) {
     for (const std::size_t i : {2U, 0U, 1U, 3U}) scan(i, "lidar", "/points", stamp(i));
     drive("odom", "lidar");
