@@ -99,9 +99,9 @@ std::size_t size_of(FieldType type) {
         case FieldType::i64:
         case FieldType::u64:
         case FieldType::f64:
-            return 8;
+            break;
     }
-    return 0;
+    return 8;
 }
 
 const Field* Cloud::find(const std::string& name) const {

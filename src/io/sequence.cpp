@@ -188,9 +188,9 @@ std::string to_string(Format format) {
         case Format::folder:
             return "folder";
         case Format::bag:
-            return "bag";
+            break;
     }
-    return "?";
+    return "bag";
 }
 
 Sequence open_sequence(const std::filesystem::path& data, const OpenOptions& options) {

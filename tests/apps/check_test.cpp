@@ -185,15 +185,5 @@ TEST_F(Check, ListsTheScansThatARunRejects) {
     EXPECT_TRUE(result.findings.empty());
 }
 
-TEST_F(Check, EveryFixUndoesItsMistake) {
-    EXPECT_EQ(pose_fixes().size(), 6U);
-    Pose pose = Pose(Eigen::Translation3d(1, 2, 3)) *
-                Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, -1).normalized());
-    EXPECT_TRUE(fixed(PoseFix::inverse, fixed(PoseFix::inverse, pose)).isApprox(pose, 1e-12));
-    EXPECT_TRUE(fixed(PoseFix::camera, fixed(PoseFix::lidar, pose)).isApprox(pose, 1e-12));
-    EXPECT_TRUE(fixed(PoseFix::wxyz, fixed(PoseFix::xyzw, pose)).isApprox(pose, 1e-12));
-    EXPECT_TRUE(fixed(PoseFix::none, pose).isApprox(pose, 0.0));
-}
-
 }  // namespace
 }  // namespace dynamic_filter::io

@@ -315,6 +315,20 @@ TEST_F(Command, PointsThatAreNoMeasurementsEndAsUnknown) {
     EXPECT_NE(labels.substr(8, 4), std::string(4, '\0'));
 }
 
+TEST_F(Command, NamesNeedNotBeUtf8) {
+    const std::string odd = "d\xff\xfe";
+    fs::rename(copy(), folder_ / odd);
+    fs::resize_file(folder_ / odd / "velodyne/000003.bin", 1001);
+    for (const char* kind : {"velodyne/000004.bin", "labels/000004.label"}) {
+        const fs::path file = folder_ / odd / kind;
+        fs::rename(file, file.parent_path() / ("000004\xe9" + file.extension().string()));
+    }
+    EXPECT_EQ(run("run " + odd + " -o out"), 4) << said();
+    EXPECT_TRUE(fs::exists(folder_ / "out/labels/000004\xe9.label"));
+    EXPECT_TRUE(nlohmann::json::accept(slurp(folder_ / "out/metrics.json")));
+    EXPECT_EQ(run("info " + odd), 0);
+}
+
 TEST_F(Command, FailingToWriteExitsWithOne) {
     spill(folder_ / "file", "");
     EXPECT_EQ(run("run " + recording().string() + " -o file/out"), 1);
@@ -397,6 +411,15 @@ TEST_F(Command, ResumeGoesOnWithTheSameOnly) {
     expect_said("complete out");
     EXPECT_EQ(run("run " + data + " -o out --resume --set back_end.voxel_size=0.3"), 2);
     expect_said("other settings");
+    const std::string state = slurp(folder_ / "out/.run");
+    for (const std::size_t at : {std::size_t{9}, state.size() / 2, state.size() - 2}) {
+        std::string damaged = state;
+        damaged[at] ^= 1;
+        spill(folder_ / "out/.run", damaged);
+        EXPECT_EQ(run("run " + data + " -o out --resume"), 2) << at;
+        expect_said("start afresh with --overwrite");
+    }
+    spill(folder_ / "out/.run", state);
     // As a kill in the midst of it leaves it.
     spill(folder_ / "out/.run",
           slurp(folder_ / "out/.run").substr(0, slurp(folder_ / "out/.run").find("complete")));

@@ -192,6 +192,46 @@ TEST_F(BagScansTest, ScansAreInTheOrderOfTheirStamps) {
     EXPECT_EQ(stem(sequence, 1), "000003");
 }
 
+TEST_F(BagScansTest, MessagesThatAreNoneAreCountedAndTheOthersGoOn) {
+    scans(3, "lidar");
+    write("/points", "sensor_msgs/PointCloud2", stamp(3), std::vector<std::byte>(7));
+    write("/odom", "nav_msgs/Odometry", stamp(3), {});
+    Cloud cloud;
+    for (const char* axis : {"x", "y", "z"}) add_field(cloud, axis, FieldType::f32);
+    cloud.data.resize(4 * cloud.point_bytes);
+    auto cut = cloud_message(cloud, stamp(3), "lidar", MessageEncoding::cdr);
+    cut.resize(cut.size() - 20);
+    write("/points", "sensor_msgs/PointCloud2", stamp(3), cut);
+    drive("odom", "lidar");
+    const Sequence sequence = opened();
+    EXPECT_TRUE(
+        has_note(sequence, "2 messages cannot be read and are left out; the first is of /p"));
+    ASSERT_EQ(sequence.size(), 4U);
+    EXPECT_NO_THROW((void)read_frame(sequence, 2));
+    EXPECT_HAS(error_of([&] { (void)read_frame(sequence, 3); }), "a.mcap (scan 3 of /points)");
+}
+
+TEST_F(BagScansTest, HeadersWithoutStampsHaveTheTimeOfRecording) {
+    Cloud cloud;
+    for (const char* axis : {"x", "y", "z"}) add_field(cloud, axis, FieldType::f32);
+    cloud.data.resize(cloud.point_bytes);
+    for (std::size_t i = 0; i < 3; ++i) {
+        write("/points", "sensor_msgs/PointCloud2", stamp(i),
+              cloud_message(cloud, 0.0, "lidar", MessageEncoding::cdr));
+    }
+    drive("odom", "lidar");
+    const Sequence sequence = opened();
+    EXPECT_TRUE(has_note(sequence, "times of recording"));
+    EXPECT_NEAR(sequence.stamps[2], stamp(2), 1e-6);
+}
+
+TEST_F(BagScansTest, OfSeveralPosesTheFirstIsTakenAndThatIsSaid) {
+    scans(3, "lidar");
+    drive("odom", "lidar");
+    odometry("map", "lidar", moved(9), kStart, "/slam");
+    EXPECT_TRUE(has_note(opened(), "(of /odom, /slam; choose with --pose-topic)"));
+}
+
 TEST_F(BagScansTest, MotionIsUndoneWhenAsked) {
     scans(3, "lidar");
     drive("odom", "lidar");

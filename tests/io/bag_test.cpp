@@ -276,6 +276,9 @@ TEST_F(Bags, Folders) {
     std::filesystem::remove(folder_ / "bag_3.bag");
     folder_.put("bag_3.mcap.zstd", "");
     EXPECT_HAS(error_of([&] { Bag{folder_.path()}; }), "zstd -d");
+    const TemporaryFolder empty;
+    empty.put("metadata.yaml", "");
+    EXPECT_HAS(error_of([&] { Bag{empty.path()}; }), "holds no bag");
 }
 
 /// 20 bytes that say they hold 4 GiB, and zeros that really are that many when unpacked.

@@ -135,6 +135,19 @@ TEST_F(Las, ExtraBytes) {
     EXPECT_HAS(one(extra(1, 0, "intensity")), "two fields");
 }
 
+/// Only what stands for a standard field takes its place, wherever others of such names are.
+TEST_F(Las, ExactValues) {
+    const std::string records = extra_record(extra(1, 0, "own_exact") + extra(1, 0, "own") +
+                                             extra(9, 0, "user_data_exact") + extra(1, 0, "last"));
+    const std::string point = old_point(0) + "\x01\x02" + floats({0.5F}) + "\x03";
+    const Cloud cloud = read(header(0, static_cast<unsigned>(point.size()), 1, records, 1) + point);
+    EXPECT_EQ(column(cloud, "user_data"), Numbers{0.5});
+    EXPECT_EQ(column(cloud, "own_exact"), Numbers{1});
+    EXPECT_EQ(column(cloud, "own"), Numbers{2});
+    EXPECT_EQ(column(cloud, "last"), Numbers{3});
+    EXPECT_EQ(cloud.find("user_data_exact"), nullptr);
+}
+
 TEST_F(Las, Refusals) {
     EXPECT_HAS(error("PCD"), "byte 3");
     EXPECT_HAS(error("#las " + std::string(300, ' ')), "LASF");
@@ -150,6 +163,12 @@ TEST_F(Las, Refusals) {
     std::string infinite = header(0, 20, 0);
     overwrite(infinite, 131, std::numeric_limits<double>::infinity());
     EXPECT_HAS(error(infinite), "not finite");
+    std::string flat = header(0, 20, 0);
+    overwrite(flat, 139, 0.0);
+    EXPECT_HAS(error(flat), "scale is 0");
+    std::string short_header = header(0, 20, 0) + std::string(300, '\0');
+    short_header[25] = 4;
+    EXPECT_HAS(error(short_header), "behind a header of 227");
     std::string far = header(0, 20, 1) + old_point(0);
     overwrite(far, 96, 4294967295U);
     EXPECT_HAS(error(far), "4294967295");
@@ -260,6 +279,10 @@ TEST_F(Las, CountsOf64Bits) {
         overwrite(bytes, 247, count);
         EXPECT_HAS(error(bytes), "2 of " + std::to_string(count));
     }
+    std::string old_count = slurp(folder_ / "w.las");
+    overwrite(old_count, 107, std::uint32_t{2});
+    overwrite(old_count, 247, std::uint64_t{0});
+    EXPECT_EQ(read(old_count).size(), 2U);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 foreach(unit bag bag_scans bag_writer benchmark cloud cloud_writers file frame frame_tree las layout layouts lzf
-             matching messages natural_order npy pcd pcd_header ply ply_header png pose_table poses
-             records rigid rosbag2 sequence text text_cloud trajectory writers)
+             matching mcap messages natural_order npy pcd pcd_header ply ply_header png pose_fix pose_table poses
+             records rigid rosbag1 rosbag2 sequence text text_cloud trajectory writers)
   df_test(io/${unit} dynamic_filter_io)
   # Units behind the public headers are tested too.
   target_include_directories(io_${unit}_test PRIVATE ${PROJECT_SOURCE_DIR}/src)

@@ -219,7 +219,11 @@ private:
             while (in.left() > 0) {
                 const std::size_t offset = in.at();
                 const Record record = take_record(in);
-                if (record.opcode != kChunk) reader.take(record, at, offset);  // chunks do not nest
+                if (record.opcode == kChunk) {
+                    note("holds another chunk, which is left out: chunks do not nest");
+                } else {
+                    reader.take(record, at, offset);
+                }
             }
         } catch (const Malformed& error) {
             note(error.what());
