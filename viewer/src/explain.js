@@ -62,6 +62,10 @@ export function explain(point, facts, meta, words) {
   const result = {
     title: headline(verdict), verdict, notes: [corrected(point.verdict, meta), judged(point.verdict, meta)].filter(Boolean), counters: [],
   };
+  if (meta.live) {
+    result.reason = "While a run is under way the page has its verdicts only. The report of the finished run says why.";
+    return result;
+  }
   if (point.voxel === NO_VOXEL || point.voxel === undefined) {
     result.reason = "It has no voxel: the run keeps none for it, or the place was forgotten beyond the horizon.";
     return result;

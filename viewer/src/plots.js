@@ -51,6 +51,7 @@ class TimePlot {
       const row = this.#plot.cursor.idx;
       if (row !== null && row !== undefined) this.jump(row);
     });
+    this.refresh();
   }
 
   /** A line at the scan shown. */
@@ -64,6 +65,7 @@ class TimePlot {
 
   refresh() {
     this.#plot?.redraw(false, false);
+    this.#plot?.setLegend({ idx: this.current() });
   }
 }
 

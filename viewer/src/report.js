@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: MIT
 // The page of one finished run, or of several side by side.
-import { about, licences, thinned } from "./about.js";
+import { about, licences } from "./about.js";
 import { frame } from "./app.js";
-import { exposeReport } from "./automation.js";
+import { expose } from "./automation.js";
 import { colouringsOf } from "./colours.js";
 import { controls } from "./controls.js";
 import { h } from "./dom.js";
 import { count, fixed } from "./format.js";
 import { fromHash, keepHash } from "./hash.js";
 import { bindKeys } from "./keys.js";
-import { legend } from "./legend.js";
-import { steer } from "./orbit_input.js";
 import { pointPanel } from "./panel.js";
 import { plotsOf } from "./plots.js";
 import { RunView } from "./run_view.js";
 import { scoreTable } from "./scores.js";
 import { Session } from "./session.js";
-import { currentTheme, watchTheme } from "./theme.js";
+import { AROUND_MIDDLE, bindCanvas, cellsOf, showLegend } from "./stage.js";
+import { watchTheme } from "./theme.js";
 import { Timeline } from "./timeline.js";
 
 const MOST_VIEWS = 4;
@@ -26,16 +25,6 @@ function subtitleOf(metas) {
   if (metas.length > 1) return `${metas.length} maps side by side`;
   const [{ scans, counts, preset }] = metas;
   return [scans ? `${count(scans)} scans` : null, counts?.dynamic ? `${count(counts.dynamic)} points removed` : null, preset && `preset ${preset}`].filter(Boolean).join(" · ");
-}
-
-function cellsOf(runs, stage) {
-  stage.dataset.views = runs.length;
-  return runs.map(({ meta }) => {
-    const cell = h("div", { class: "cell", role: "group", "aria-label": meta.name }, runs.length > 1 ? h("h2", { class: "cell-name" }, meta.name) : null,
-      h("p", { class: "thinned" }, meta.points_total > meta.points_shown ? thinned(meta) : ""));
-    stage.append(cell);
-    return cell;
-  });
 }
 
 /** What can be chosen in any of the runs. */
@@ -94,26 +83,6 @@ function panelsOf(session, runs) {
   return panels;
 }
 
-function bindCanvas(session, view, open) {
-  const { canvas } = view.view;
-  canvas.setAttribute("aria-label", `Points of ${view.name}. Enter explains the one in the middle.`);
-  canvas.setAttribute("role", "application");
-  const choose = (x, y) => {
-    const point = view.pickAt(x, y);
-    session.select(point);
-    if (point) open("point");
-  };
-  steer(canvas, session.orbit, {
-    click: choose,
-    doubleClick: (x, y) => {
-      const point = view.pickAt(x, y, 12);
-      if (point) session.orbit.set({ target: point.position.map((p, c) => p + view.view.offset[c]) });
-    },
-    grabbed: () => session.store.get("follow") || undefined,
-  });
-  return choose;
-}
-
 /** Heights and ranges that the cuts reach over, in the frame of the first view. */
 function extentOf(views) {
   const lows = views.map(({ midst, view }) => midst[0].map((l, c) => l + view.offset[c]));
@@ -122,15 +91,9 @@ function extentOf(views) {
   return { heights: [low[2] - 0.5, high[2] + 0.5], reach: Math.max(10, Math.hypot(high[0] - low[0], high[1] - low[1])) };
 }
 
-function showLegend(session, stage, runs, extent) {
-  const box = h("div", { class: "legend", role: "region", "aria-label": "Legend" });
-  stage.append(box);
-  const stamps = () => session.leader?.run.arrays["path-stamp"];
-  const draw = () => box.replaceChildren(...legend(session.store.values, currentTheme(), {
-    heights: [extent.heights[0] + 0.5, extent.heights[1] - 0.5], duration: stamps()?.length ? stamps().at(-1) - stamps()[0] : 0,
-  }));
-  session.store.watch(["colour", "corrections"], draw);
-  watchTheme(draw);
+function durationOf({ leader }) {
+  const stamps = leader?.run.arrays["path-stamp"];
+  return stamps?.length ? stamps.at(-1) - stamps[0] : 0;
 }
 
 async function loadAll(session, panels, timeline, say) {
@@ -150,6 +113,12 @@ async function loadAll(session, panels, timeline, say) {
   say("");
 }
 
+/** Until what was asked for is on the screen; not for ever, as a hidden tab draws nothing. */
+const nextPicture = () => new Promise((done) => {
+  setTimeout(done, 1000);
+  requestAnimationFrame(() => requestAnimationFrame(done));
+});
+
 export async function startReport(runs) {
   const shown = runs.slice(0, MOST_VIEWS);
   const metas = shown.map(({ meta }) => meta);
@@ -159,9 +128,9 @@ export async function startReport(runs) {
   const timeline = timelineOf(session);
   document.title = `${metas.map(({ name }) => name).join(", ")} – DynamicFilter`;
   const page = frame({ title: metas.length > 1 ? "DynamicFilter" : metas[0].name, subtitle: subtitleOf(metas), panels, timeline: timeline.element });
-  const automation = exposeReport(session);
+  const automation = expose(session);
   try {
-    const cells = cellsOf(shown, page.stage);
+    const cells = cellsOf(metas, page.stage);
     const middle = metas[0].origin ?? [0, 0, 0];
     session.views = shown.map((run, i) =>
       new RunView(run, cells[i], session.orbit, (run.meta.origin ?? [0, 0, 0]).map((o, c) => o - middle[c])));
@@ -172,6 +141,7 @@ export async function startReport(runs) {
     for (const view of session.views) await view.loadMap();
     if (link.camera) session.orbit.set(link.camera);
     else session.fit();
+    await nextPicture();
     automation.mapIsShown();
     const extent = extentOf(session.views);
     const colourings = allColourings(shown);
@@ -180,7 +150,7 @@ export async function startReport(runs) {
       camera: [{ label: "All", key: "0", act: () => session.fit() }, { label: "Top", key: "T", act: () => session.top() },
         { label: "Sensor", key: "G", act: () => session.centreOnSensor() }],
     }));
-    showLegend(session, page.stage, shown, extent);
+    showLegend(session, page.stage, { heights: () => [extent.heights[0] + 0.5, extent.heights[1] - 0.5], duration: () => durationOf(session) });
     session.store.watch(["row"], ({ row }) => {
       for (const { overlay } of session.views) overlay.setVisible("sight", false);
       session.showRow(row);
@@ -188,7 +158,7 @@ export async function startReport(runs) {
     session.store.watch(["follow"], ({ follow }) => follow && session.centreOnSensor());
     bindKeys({ session, timeline, colourings: colourings.map(({ id }) => id), pickMiddle: (canvas) => {
       const i = session.views.findIndex(({ view }) => view.canvas === canvas);
-      pickers[i](canvas.clientWidth / 2, canvas.clientHeight / 2);
+      pickers[i](canvas.clientWidth / 2, canvas.clientHeight / 2, AROUND_MIDDLE);
     } });
     await loadAll(session, panels, timeline, page.say);
     keepHash(session);

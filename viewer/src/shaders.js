@@ -31,6 +31,7 @@ uniform float pathReach;    // m at the value 1
 uniform float pointWorld, pointLeast, pixelsPerMetre;
 
 out vec3 colour;
+out float size;
 
 vec3 scaled(float value) { return texture(scales, vec2(0.998 * clamp(value, 0.0, 1.0) + 0.001, scaleCoordinate)).rgb; }
 
@@ -71,13 +72,19 @@ void main() {
 
   vec4 eye = modelViewMatrix * vec4(p, 1.0);
   gl_Position = projectionMatrix * eye;
-  gl_PointSize = clamp(pointWorld * pixelsPerMetre / max(-eye.z, 0.01), pointLeast, 24.0) * (corrected ? 1.5 : 1.0);
+  size = clamp(pointWorld * pixelsPerMetre / max(-eye.z, 0.01), pointLeast, 24.0) * (corrected ? 1.5 : 1.0);
+  gl_PointSize = size;
 }`;
 
 export const pointFragment = /* glsl */ `
 in vec3 colour;
+in float size;
 out vec4 pixel;
-void main() { pixel = vec4(colour, 1.0); }`;
+void main() {
+  vec2 off = gl_PointCoord - 0.5;
+  if (size > 4.0 && dot(off, off) > 0.25) discard;
+  pixel = vec4(colour, 1.0);
+}`;
 
 export const screenVertex = /* glsl */ `
 out vec2 at;
