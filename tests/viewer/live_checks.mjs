@@ -48,7 +48,7 @@ describe("the live view", () => {
     for (const scan of scans.slice(0, 20)) push((n) => scanRecord(n, scan));
     await received(20);
     assert.equal((await state(page)).row, 19);
-    assert.match(await page.locator(".when").textContent(), /^scan 19 · 20 of 20 received · 1.9 s/);
+    assert.match(await page.locator(".when").textContent(), /^scan 19 · 1.9 s\n20 of 20 received/);
     assert.match(await page.locator("#panel-live").innerText(), /20 of 60/);
     assert.match(await page.locator("#panel-live").innerText(), /60,000/);
     await page.evaluate(() => window.viewer.settled());

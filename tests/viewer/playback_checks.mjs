@@ -18,11 +18,11 @@ describe("playback", () => {
     await settled(page);
     const scan = await picture(page);
     assert.ok(differs(map, scan) > 0.02);
-    assert.equal(await label(), "scan 50 · 41 of 120 · 4.0 s");
+    assert.equal(await label(), "scan 50 · 4.0 s\n41 of 120");
     assert.ok((await stats(page)).views[0].scanIsShown);
     await shot(page, "scan");
     await page.getByLabel("Scan", { exact: true }).fill("41");
-    assert.match(await label(), /points not in the page/);
+    assert.match(await label(), /no points here/);
     assert.equal((await stats(page)).views[0].scanIsShown, false);
   });
 

@@ -7,6 +7,7 @@ const KEYS = [
   ["Home End", "first, last scan"],
   ["0", "all in view"],
   ["T", "from above"],
+  ["G", "the sensor in the middle"],
   ["F", "follow the sensor"],
   ["W A S D", "move the view"],
   ["Q E R V", "turn left, right, up, down"],

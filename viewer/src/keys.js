@@ -26,6 +26,7 @@ export function bindKeys({ session, timeline, colourings, pickMiddle }) {
     end: () => timeline.jump(-1),
     0: () => session.fit(),
     t: () => session.top(),
+    g: () => session.centreOnSensor(),
     f: () => flip("follow"),
     w: () => orbit.pan(0, -MOVE),
     s: () => orbit.pan(0, MOVE),

@@ -19,11 +19,11 @@ import { Timeline } from "./timeline.js";
 const SHOWN = ["colour", "static", "dynamic", "unknown", "path", "scan", "dim", "corrections", "height", "range", "size", "trail"];
 const LAYERS = [
   { name: "static", label: "Static", hint: "Key Z" }, { name: "dynamic", label: "Removed", hint: "Key X" },
-  { name: "unknown", label: "Unknown", hint: "Key C" }, { name: "corrections", label: "Mark what was corrected", hint: "Key M" },
+  { name: "unknown", label: "Unknown", hint: "Key C" }, { name: "corrections", label: "Mark corrections", hint: "Key M" },
 ];
 const SCAN_LAYERS = [
-  { name: "path", label: "Trajectory" }, { name: "scan", label: "Points of the scan", hint: "Key P" },
-  { name: "dim", label: "Dim the map below them" }, { name: "trail", label: "Removed points of earlier scans" },
+  { name: "path", label: "Trajectory" }, { name: "scan", label: "Scan at the slider", hint: "Key P" },
+  { name: "dim", label: "Dim the map below them" }, { name: "trail", label: "Removed of earlier scans" },
 ];
 
 /** The numbers that change while scans come in. */
@@ -89,7 +89,7 @@ class LivePage {
   #words(row) {
     const { scans } = this.view;
     const scan = scans[row];
-    return scan ? `scan ${scan.index} · ${row + 1} of ${scans.length} received · ${fixed(scan.stamp - scans[0].stamp, 1)} s` : "";
+    return scan ? `scan ${scan.index} · ${fixed(scan.stamp - scans[0].stamp, 1)} s\n${row + 1} of ${count(scans.length)} received` : "";
   }
 
   #toNewest() {

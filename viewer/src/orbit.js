@@ -6,6 +6,8 @@ const STEEPEST = Math.PI / 2 - 1e-3;  // looking straight down leaves no directi
 
 const OBLIQUE_YAWS = [-0.35, -0.6, -0.9, -1.2, -1.9, -2.2];
 
+const OBLIQUE_PITCH = 0.75;
+
 const clamp = (x, low, high) => Math.min(high, Math.max(low, x));
 
 export class Orbit {
@@ -67,11 +69,11 @@ export class Orbit {
   fit(box, aspect) {
     const target = box[0].map((low, c) => (low + box[1][c]) / 2);
     const tried = OBLIQUE_YAWS.map((yaw) => {
-      Object.assign(this, { yaw, pitch: 0.62 });
+      Object.assign(this, { yaw, pitch: OBLIQUE_PITCH });
       return { yaw, distance: this.#distanceToHold(box, target, aspect) };
     });
     const best = tried.reduce((a, b) => (b.distance < a.distance ? b : a));
-    this.set({ target, yaw: best.yaw, pitch: 0.62, distance: 1.04 * best.distance });
+    this.set({ target, yaw: best.yaw, pitch: OBLIQUE_PITCH, distance: 1.04 * best.distance });
   }
 
   /** How far away all corners of a box are in view. */

@@ -130,6 +130,12 @@ export function plotsOf(view, session) {
     drawAll();
     map?.draw();
   }));
-  new ResizeObserver(debounce(drawAll, 80)).observe(element);
+  const drawSoon = debounce(drawAll, 80);
+  let width = 0;
+  new ResizeObserver(() => {
+    if (width === 0) drawAll();  // the panel is opened
+    else drawSoon();
+    width = element.clientWidth;
+  }).observe(element);
   return element;
 }

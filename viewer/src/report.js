@@ -37,13 +37,13 @@ function layersOf(metas) {
   const layers = [{ name: "static", label: "Static", amount: amount("static"), hint: "Key Z" },
     { name: "dynamic", label: "Removed", amount: amount("dynamic"), hint: "Key X" }];
   if (sum(metas, "unknown") > 0) layers.push({ name: "unknown", label: "Unknown", amount: amount("unknown"), hint: "Key C" });
-  if (metas.some(({ has_instant }) => has_instant)) layers.push({ name: "corrections", label: "Mark what was corrected later", hint: "Key M: where the final verdict is not the front-end's" });
+  if (metas.some(({ has_instant }) => has_instant)) layers.push({ name: "corrections", label: "Mark corrections", hint: "Key M: where the final verdict is not the front-end's" });
   return layers;
 }
 
 const SCAN_LAYERS = [
   { name: "path", label: "Trajectory" },
-  { name: "scan", label: "Points of the scan at the slider", hint: "Key P" },
+  { name: "scan", label: "Scan at the slider", hint: "Key P" },
   { name: "dim", label: "Dim the map below them" },
 ];
 
@@ -54,8 +54,8 @@ function timelineOf(session) {
       const { arrays, meta } = leader.run;
       const seconds = fixed(arrays["path-stamp"][row] - arrays["path-stamp"][0], 1);
       const index = arrays["path-index"]?.[row] ?? row;
-      const without = leader.frameOf(row) < 0 ? ", points not in the page" : "";
-      return `scan ${index} · ${row + 1} of ${meta.scans} · ${seconds} s${without}`;
+      const without = leader.frameOf(row) < 0 ? ", no points here" : "";
+      return `scan ${index} · ${seconds} s\n${row + 1} of ${count(meta.scans)}${without}`;
     },
   });
 }

@@ -44,13 +44,14 @@ void main() {
   float away = fromPath
     ? pathReach * texture(pathDistance, (p.xy - pathBox.xy) * pathBox.zw).r
     : distance(p, sensor);
-  bool out_ = ((layers >> shown) & 1) == 0 || p.z < heightCut.x || p.z > heightCut.y || away < rangeCut.x || away > rangeCut.y;
-  if (out_) {
+  bool hidden = ((layers >> shown) & 1) == 0 || p.z < heightCut.x || p.z > heightCut.y || away < rangeCut.x || away > rangeCut.y;
+  if (hidden) {
     gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
     gl_PointSize = 0.0;
     return;
   }
 
+  float stress = 1.0;
   float height = (p.z - heightScale.x) / max(heightScale.y - heightScale.x, 1e-3);
   if (mode == ${mode("height")}) colour = scaled(height);
   else if (mode == ${mode("intensity")}) colour = scaled(intensity);
@@ -58,6 +59,7 @@ void main() {
   else if (mode == ${mode("time")}) colour = scaled(time);
   else if (mode == ${mode("error")}) {
     bool removed = settled == 2;
+    stress = truth != 0 && removed != (truth == 2) ? 2.0 : 1.0;  // errors are few: they have to be found
     colour = truth == 0 ? ${kind("none")} : truth == 1
       ? (removed ? ${kind("falseRemoved")} : ${kind("rightStatic")})
       : (removed ? ${kind("rightDynamic")} : ${kind("missed")});
@@ -67,12 +69,15 @@ void main() {
     if (shown == 1) colour *= 0.86 + 0.2 * clamp(height, 0.0, 1.0);
   }
   bool corrected = markCorrected && settled != instant;
-  if (corrected) colour = ${kind("corrected")};
+  if (corrected) {
+    colour = ${kind("corrected")};
+    stress = 1.5;
+  }
   colour = mix(colour, background, fade);
 
   vec4 eye = modelViewMatrix * vec4(p, 1.0);
   gl_Position = projectionMatrix * eye;
-  size = clamp(pointWorld * pixelsPerMetre / max(-eye.z, 0.01), pointLeast, 24.0) * (corrected ? 1.5 : 1.0);
+  size = stress * clamp(pointWorld * pixelsPerMetre / max(-eye.z, 0.01), pointLeast * stress, 24.0);
   gl_PointSize = size;
 }`;
 

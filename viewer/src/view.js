@@ -8,7 +8,7 @@ import { screenFragment, screenVertex } from "./shaders.js";
 const NEAR = 0.1, FAR = 4000;
 const REST = 160;  // ms without a movement after which everything is drawn
 const PAUSE = 1500;  // ms from frame to frame: not the same movement
-const SLOW = 45, QUICK = 24;  // ms from frame to frame: fewer, or more, points in the next
+const SLOW = 80, QUICK = 34;  // ms from frame to frame: fewer, or more, points in the next
 
 function screenPass() {
   const material = new THREE.ShaderMaterial({
@@ -139,7 +139,7 @@ export class View {
     const took = now - this.#last;
     this.#last = now;
     if (took > PAUSE) return;
-    if (took > SLOW) this.budget = Math.max(20_000, this.budget * 0.75);
+    if (took > SLOW) this.budget = Math.max(60_000, this.budget * 0.75);
     else if (took < QUICK) this.budget = Math.min(20_000_000, this.budget * 1.2);
   }
 
