@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { after, before, describe, test } from "node:test";
 import { makeRun } from "./fixture.mjs";
-import { isBlue, openRuns, picture, setCamera, settled, setValues, shot, state, stats } from "./support.mjs";
+import { isBlue, open, openRuns, picture, setCamera, settled, setValues, shot, state, stats, until } from "./support.mjs";
 
 /** Clicks where a place is seen from nearby. */
 async function clickPlace(page, place, distance = 6) {
@@ -57,6 +57,32 @@ describe("a click on a point", () => {
     await shot(page, "line-of-sight");
     await page.keyboard.press("ArrowRight");
     assert.equal((await stats(page)).views[0].sight, false);
+  });
+
+  test("a link leads back to it", async () => {
+    const address = await until(() => page.url().includes("point=0.map.") && page.url(), "the point in the address");
+    const other = await open(address);
+    await other.page.evaluate(() => window.viewer.ready);
+    assert.equal((await state(other.page)).selection.index, (await state(page)).selection.index);
+    await other.page.close();
+  });
+
+  test("the wrong points can be gone through", async () => {
+    const truth = (verdict) => (verdict >> 2) & 3;
+    const seen = new Set();
+    for (let i = 0; i < 3; ++i) {
+      await page.getByRole("button", { name: /False removals/ }).click();
+      const { selection } = await state(page);
+      assert.deepEqual([truth(selection.verdict), selection.verdict & 3], [1, 2]);
+      seen.add(selection.index);
+    }
+    assert.equal(seen.size, 3);
+    assert.match(await page.locator("#panel-point").innerText(), /False removal: the ground truth says it is static/);
+    await page.locator(".cell canvas").focus();
+    await page.keyboard.press("b");
+    assert.match(await page.locator("#panel-point").innerText(), /Missed: the ground truth says it moves/);
+    await settled(page);
+    await shot(page, "point-missed");
   });
 
   test("Escape forgets it, an empty place too", async () => {

@@ -16,6 +16,7 @@ const KEYS = [
   ["Z X C", "static, removed, unknown points"],
   ["P", "points of the scan at the slider"],
   ["M", "mark what was corrected later"],
+  ["N B", "next false removal, next missed point"],
   ["Enter", "explain the point in the middle of the view (when the picture has the focus)"],
   ["Esc", "forget the point, close"],
   ["L", "light, dark"],

@@ -7,6 +7,7 @@ import { colouringsOf } from "./colours.js";
 import { controls } from "./controls.js";
 import { h } from "./dom.js";
 import { count, fixed } from "./format.js";
+import { errorButtons } from "./errors.js";
 import { fromHash, keepHash } from "./hash.js";
 import { bindKeys } from "./keys.js";
 import { pointPanel } from "./panel.js";
@@ -60,14 +61,13 @@ function timelineOf(session) {
   });
 }
 
-function fillTimeline(timeline, { run, ...view }) {
+function fillTimeline(timeline, { run }) {
   const stamps = Array.from(run.arrays["path-stamp"] ?? []);
   const ofFrames = run.arrays["path-frame"];
   const rows = stamps.map((_, row) => row);
   const played = rows.filter((row) => ofFrames?.[row] >= 0);
   const counts = run.arrays["path-counts"];
   timeline.setRows({ frames: played.length ? played : rows, stamps, amounts: counts ? rows.map((row) => counts[4 * row + 1]) : [] });
-  return view;
 }
 
 function panelsOf(session, runs) {
@@ -75,7 +75,7 @@ function panelsOf(session, runs) {
   const plots = h("div", {}), run = h("div", {}, metas.map((meta) => about({ meta }, metas.length === 1)), licences());
   const panels = [
     { id: "view", label: "View", element: h("div", { class: "controls" }) },
-    { id: "point", label: "Point", element: pointPanel(session) },
+    { id: "point", label: "Point", element: h("div", {}, pointPanel(session)) },
     { id: "plots", label: "Plots", element: plots },
     { id: "run", label: metas.length > 1 ? "Runs" : "Run", element: run },
   ];
@@ -107,10 +107,18 @@ async function loadAll(session, panels, timeline, say) {
   session.showRow(session.store.get("row"));
   say("Reading the evidence …");
   for (const view of views) await view.loadEvidence();
+  session.refreshSelection();
   const several = views.length > 1;
   const plots = panels.find(({ id }) => id === "plots").element;
   plots.append(...views.map((view) => h("article", {}, several ? h("h2", { class: "run-name" }, view.name) : null, plotsOf(view, session))));
   say("");
+}
+
+/** The point of a link. */
+function chooseLinked(session, point) {
+  const view = point && session.views[point.run];
+  const cloud = view?.clouds[point.source];
+  if (cloud && point.index < cloud.positions.length / 3) session.select(view.point(point.source, point.index));
 }
 
 /** Until what was asked for is on the screen; not for ever, as a hidden tab draws nothing. */
@@ -150,6 +158,8 @@ export async function startReport(runs) {
       camera: [{ label: "All", key: "0", act: () => session.fit() }, { label: "Top", key: "T", act: () => session.top() },
         { label: "Sensor", key: "G", act: () => session.centreOnSensor() }],
     }));
+    const wrong = errorButtons(session, shown);
+    if (wrong) panels.find(({ id }) => id === "point").element.append(wrong);
     showLegend(session, page.stage, { heights: () => [extent.heights[0] + 0.5, extent.heights[1] - 0.5], duration: () => durationOf(session) });
     session.store.watch(["row"], ({ row }) => {
       for (const { overlay } of session.views) overlay.setVisible("sight", false);
@@ -161,6 +171,7 @@ export async function startReport(runs) {
       pickers[i](canvas.clientWidth / 2, canvas.clientHeight / 2, AROUND_MIDDLE);
     } });
     await loadAll(session, panels, timeline, page.say);
+    chooseLinked(session, link.point);
     keepHash(session);
     automation.done();
   } catch (error) {
