@@ -77,7 +77,7 @@ function about(session, point) {
     passList(session, point, facts.passes, facts, goTo),
     told.counters.length ? h("section", {}, h("h2", {}, "Its voxel"), counterTable(told.counters)) : null,
     run.meta.has_evidence || run.meta.live || run.meta.scans === 0 ? null
-      : h("p", { class: "muted" }, `The preset ${run.meta.preset} keeps no counters of each voxel, so it cannot be said which scans saw through it.`),
+      : h("p", { class: "muted" }, `${run.meta.preset ? `The preset ${run.meta.preset}` : "This run"} keeps no counters of each voxel, so it cannot be said which scans saw through it.`),
     facts.evidence ? h("p", { class: "muted" }, "The probability is not a function of these counts alone: the voxels within two cells vote too, most of all those that came and went at the same time.") : null,
     h("p", { class: "muted place" }, `x, y, z: ${world} m · verdict bits ${verdict}`),
   ].filter(Boolean);

@@ -4,7 +4,7 @@ import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import { kindColour } from "./colours.js";
 import { debounce, h } from "./dom.js";
-import { count, short } from "./format.js";
+import { compact, count, short } from "./format.js";
 import { heatmap } from "./heatmap.js";
 import { countSeries, evidenceHistogram, probabilityHistogram, scoreSeries } from "./series.js";
 import { currentTheme, watchTheme } from "./theme.js";
@@ -18,7 +18,7 @@ const style = (name) => getComputedStyle(document.documentElement).getPropertyVa
 function axes(unit) {
   const common = { stroke: style("--muted"), grid: { stroke: style("--line"), width: 1 }, ticks: { show: false }, font: "11px system-ui" };
   return [{ ...common, size: 26, values: (_, ticks) => ticks.map((t) => `${t} s`) },
-    { ...common, size: 46, values: (_, ticks) => ticks.map((t) => (t === null ? "" : unit === "%" ? `${Math.round(100 * t)}` : count(t))) }];
+    { ...common, size: 46, values: (_, ticks) => ticks.map((t) => (t === null ? "" : unit === "%" ? `${Math.round(100 * t)}` : compact(t))) }];
 }
 
 class TimePlot {
@@ -51,7 +51,13 @@ class TimePlot {
       const row = this.#plot.cursor.idx;
       if (row !== null && row !== undefined) this.jump(row);
     });
-    this.refresh();
+    this.#plot.over.addEventListener("mouseleave", () => this.#showCurrent());
+    this.#showCurrent();
+  }
+
+  /** The numbers of the scan shown, while the pointer asks for no other. */
+  #showCurrent() {
+    requestAnimationFrame(() => this.#plot?.setLegend({ idx: this.current() }, false));
   }
 
   /** A line at the scan shown. */
@@ -65,7 +71,7 @@ class TimePlot {
 
   refresh() {
     this.#plot?.redraw(false, false);
-    this.#plot?.setLegend({ idx: this.current() });
+    this.#showCurrent();
   }
 }
 
@@ -77,9 +83,8 @@ function timePlots(run, jump, current) {
   const add = (title, lines, unit) => plots.push(new TimePlot({ title, lines, times, jump, current, unit }));
   const counts = countSeries(run);
   if (counts) {
-    const lines = [{ label: "removed", values: counts.removed }];
-    if (run.meta.has_instant) lines.push({ label: "corrected later", values: counts.corrected });
-    add("Points removed per scan", lines);
+    add("Points removed per scan", [{ label: "removed", values: counts.removed }]);
+    if (run.meta.has_instant) add("Points whose first verdict was corrected later", [{ label: "corrected", values: counts.corrected }]);
   }
   const settled = scoreSeries(run, 0), instant = run.meta.has_instant ? scoreSeries(run, 1) : null;
   if (settled) {
