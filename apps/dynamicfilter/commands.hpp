@@ -44,6 +44,8 @@ struct RunOptions {
     bool online = false;
     double speed = 1.0;  ///< of online: times the sensor's rate; 0: as fast as it can
     bool overwrite = false, resume = false;
+    bool view = false;
+    std::uint16_t port = 0;  ///< of the view; 0: any
 };
 
 struct EvalOptions {
@@ -67,6 +69,18 @@ struct ConvertOptions {
     bool overwrite = false;
 };
 
+struct ReportOptions {
+    std::vector<std::filesystem::path> results;  ///< folders of runs, their reports, clouds
+    std::filesystem::path output = "report.html";
+    DataOptions truth;
+    double voxel = eval::kVoxelSize;
+};
+
+struct ServeOptions {
+    std::filesystem::path folder;
+    std::uint16_t port = 0;
+};
+
 struct DemoOptions {
     std::filesystem::path output = "demo";
 };
@@ -77,6 +91,8 @@ int simulate(const SimulateOptions& options);
 int demo(const DemoOptions& options);
 int check(const DataOptions& options);
 int convert(const ConvertOptions& options);
+int report(const ReportOptions& options);
+int serve(const ServeOptions& options);
 int info(const std::filesystem::path& file);
 int show_config(const ConfigOptions& options);
 

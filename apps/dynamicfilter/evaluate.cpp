@@ -39,18 +39,6 @@ eval::ScanSource with_labels(const io::Sequence& sequence, const Eigen::Vector3d
                        });
 }
 
-Points read_map(const std::filesystem::path& file, const Eigen::Vector3d& origin) {
-    const io::Cloud cloud = io::read_cloud(file);
-    Points map(cloud.size());
-    for (const char axis : {'x', 'y', 'z'}) {  // in double: the world may be far from its origin
-        const auto world = io::values(cloud, *cloud.find(std::string(1, axis)));
-        for (std::size_t i = 0; i < map.size(); ++i) {
-            map[i][axis - 'x'] = static_cast<float>(world[i] - origin[axis - 'x']);
-        }
-    }
-    return map;
-}
-
 }  // namespace
 
 int evaluate(const EvalOptions& o) {
@@ -66,7 +54,8 @@ int evaluate(const EvalOptions& o) {
         left_out);
     const eval::Scores scores =
         o.labels ? eval::score_labels(sequence.size(), source, o.voxel)
-                 : eval::score_map(sequence.size(), source, read_map(*o.map, origin), o.voxel);
+                 : eval::score_map(sequence.size(), source,
+                                   positions_from(io::read_cloud(*o.map), origin), o.voxel);
     const auto missing = std::count(left_out.begin(), left_out.end(), true);
     if (missing == static_cast<std::ptrdiff_t>(sequence.size())) {
         throw InputError(o.labels ? *o.labels : o.truth.data, "",

@@ -105,6 +105,17 @@ Points shifted_world(const io::Frame& frame, const Eigen::Vector3d& origin) {
     return points;
 }
 
+Points positions_from(const io::Cloud& cloud, const Eigen::Vector3d& origin) {
+    Points points(cloud.size());
+    for (const char axis : {'x', 'y', 'z'}) {
+        const auto world = io::values(cloud, *cloud.find(std::string(1, axis)));
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            points[i][axis - 'x'] = static_cast<float>(world[i] - origin[axis - 'x']);
+        }
+    }
+    return points;
+}
+
 Eigen::Vector3d scoring_origin(const io::Sequence& sequence, double voxel_size) {
     for (std::size_t i = 0; i < sequence.size(); ++i) {
         try {

@@ -35,6 +35,9 @@ Scan take_scan(io::Frame& frame, std::size_t index);
 /// The scan's points, shifted by `-origin` from the world. Near the origin floats are exact enough.
 Points shifted_world(const io::Frame& frame, const Eigen::Vector3d& origin);
 
+/// x y z of a cloud in the world, less the origin; in double until then.
+Points positions_from(const io::Cloud& cloud, const Eigen::Vector3d& origin);
+
 /// A whole number of voxels near the first usable pose; the world's origin if there is none.
 Eigen::Vector3d scoring_origin(const io::Sequence& sequence, double voxel_size);
 

@@ -77,6 +77,9 @@ void add_run(CLI::App& app, std::function<int()>& chosen) {
     c.add_flag("--resume", o->resume,
                "finish a run that was interrupted or killed, with the bytes of an unbroken one")
         ->excludes(overwrite);
+    CLI::Option* const view =
+        c.add_flag("--view", o->view, "show the run in a browser, live, at the address it prints");
+    c.add_option("--port", o->port, "of the view (default: any that is free)")->needs(view);
     c.callback([o, &chosen] { chosen = [o] { return run(*o); }; });
 }
 
@@ -140,6 +143,31 @@ void add_convert(CLI::App& app, std::function<int()>& chosen) {
     c.callback([o, &chosen] { chosen = [o] { return convert(*o); }; });
 }
 
+void add_report(CLI::App& app, std::function<int()>& chosen) {
+    auto o = std::make_shared<ReportOptions>();
+    CLI::App& c = *app.add_subcommand("report", "Set runs and maps side by side on one page");
+    c.add_option("RESULT", o->results,
+                 "output folders of runs, or clean maps of others (.pcd, .ply, ...) in the world "
+                 "frame; four at most")
+        ->required()
+        ->expected(1, 4);
+    c.add_option("-o,--output", o->output, "the page")->capture_default_str();
+    c.add_option("--truth", o->truth.data, "recording with ground truth, to score maps");
+    add_reading_options(c, o->truth);
+    c.add_option("--voxel", o->voxel, "edge of a voxel for the scores [m]")
+        ->check(CLI::Range(0.01, 10.0))
+        ->capture_default_str();
+    c.callback([o, &chosen] { chosen = [o] { return report(*o); }; });
+
+    auto s = std::make_shared<ServeOptions>();
+    CLI::App& serve_command =
+        *app.add_subcommand("serve", "Show reports in a browser, on this machine");
+    serve_command.add_option("DIR", s->folder, "output folder of a run, or a folder of such")
+        ->required();
+    serve_command.add_option("--port", s->port, "default: any that is free");
+    serve_command.callback([s, &chosen] { chosen = [s] { return serve(*s); }; });
+}
+
 void add_others(CLI::App& app, std::function<int()>& chosen) {
     auto demo_options = std::make_shared<DemoOptions>();
     CLI::App& d = *app.add_subcommand("demo", "Simulate, filter, score and draw: no data needed");
@@ -165,7 +193,7 @@ void add_others(CLI::App& app, std::function<int()>& chosen) {
     c.callback([=, &chosen] { chosen = [=] { return show_config(*config_options); }; });
 }
 
-int report(ExitCode code, const std::exception& error) {
+int failed(ExitCode code, const std::exception& error) {
     fmt::print(stderr, "dynamicfilter: {}\n", error.what());
     return code;
 }
@@ -182,6 +210,7 @@ int main(int argc, char** argv) {
     add_eval(app, chosen);
     add_simulate(app, chosen);
     add_convert(app, chosen);
+    add_report(app, chosen);
     add_others(app, chosen);
     try {
         app.parse(argc, argv);
@@ -194,10 +223,10 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? kDone : kUsage;
     } catch (const ConfigError& error) {
-        return report(kUsage, error);
+        return failed(kUsage, error);
     } catch (const InputError& error) {
-        return report(kInput, error);
+        return failed(kInput, error);
     } catch (const std::exception& error) {
-        return report(kInternal, error);
+        return failed(kInternal, error);
     }
 }

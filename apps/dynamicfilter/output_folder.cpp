@@ -34,7 +34,7 @@ Names written_by(Contents contents) {
     switch (contents) {
         case Contents::result:
             return {{"static_map.pcd", "dynamic_points.pcd", "metrics.json", "timing.json",
-                     "config.toml", "run.log", ".run"},
+                     "config.toml", "run.log", "report.html", ".run"},
                     {{"labels", ".label"}}};
         case Contents::recording:
             return {{"poses.txt", "times.txt"}, {{"labels", ".label"}, {"velodyne", ".bin"}}};

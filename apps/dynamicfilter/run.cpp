@@ -72,7 +72,13 @@ int run(const RunOptions& o) {
     }
     if (o.resume && !named) throw ConfigError("--resume needs the folder to go on with: -o DIR");
     if (o.overwrite && named) refuse_foreign_labels(*o.output);
-    OutputFolder output(named ? *o.output : default_output(), Contents::result,
+    const fs::path folder = named ? *o.output : default_output();
+    std::optional<LiveView> live;
+    if (o.view) {
+        live.emplace(o.port, folder.filename().string(), o.data.data.string(), sequence.size());
+        fmt::print(stderr, "view     {}\n", live->url());
+    }
+    OutputFolder output(folder, Contents::result,
                         o.resume ? Existing::go_on : replaced_if(o.overwrite));
     const std::string state = begun_with(sequence, config);
     if (o.resume && is_complete(output.path(), state)) {
@@ -89,7 +95,8 @@ int run(const RunOptions& o) {
     catch_interrupts();
     const Pace pace{.threads = o.threads,
                     .online = o.online ? std::optional(o.speed) : std::nullopt};
-    const RunSummary summary = run_sequence(sequence, config, pace, output);
+    const RunSummary summary =
+        run_sequence(sequence, config, pace, output, {.live = live ? &*live : nullptr});
 
     for (const std::string& line : summary.notes) fmt::print(stderr, "note: {}\n", line);
     for (const std::string& line : summary.rejected) fmt::print(stderr, "rejected {}\n", line);
@@ -100,6 +107,7 @@ int run(const RunOptions& o) {
         return kInterrupted;
     }
     output.commit();
+    if (live) live->finish(output.name() / "report.html");
     fmt::print("{}written  {}\n", to_text(summary), output.name().string());
     if (!named && !link_latest(output.name())) fmt::print(stderr, "note: no link results/latest\n");
     if (2 * summary.unknown > summary.points) {
@@ -107,6 +115,7 @@ int run(const RunOptions& o) {
                    "note: most points are unknown; are the first poses of another place?\n");
     }
     if (summary.interrupted) return kInterrupted;
+    if (live) live->linger();
     return summary.rejected.empty() && summary.dropped.empty() ? kDone : kRejected;
 }
 

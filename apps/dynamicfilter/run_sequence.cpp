@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "run_sequence.hpp"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -16,6 +17,7 @@
 #include "map_files.hpp"
 #include "progress.hpp"
 #include "report.hpp"
+#include "view/run_view.hpp"
 
 namespace dynamic_filter::app {
 
@@ -29,9 +31,11 @@ struct Pass {
     const Config& config;
     const Pace& pace;
     const OutputFolder& output;
+    const Watchers& watchers;
     RunSummary summary{};
     std::vector<bool> accepted = std::vector<bool>(sequence.size());
-    std::vector<Labels> instant{};  ///< by scan; filled only where there is ground truth
+    std::vector<Labels> instant{};  ///< by scan; of those that are scored or shown
+    std::vector<ScanNote> scan_notes{};
     std::mutex notices_lock{};
     std::vector<Notice> notices{};
     OnlineFilter filter{config, options(), callbacks()};  // the last: it uses the others
@@ -47,7 +51,12 @@ struct Pass {
     OnlineCallbacks callbacks() {
         return {.instant =
                     [this](const Verdict& verdict) {
-                        if (sequence.has_truth()) instant[verdict.index] = verdict.labels;
+                        if (sequence.has_truth() || is_shown(verdict.index, sequence.size())) {
+                            instant[verdict.index] = verdict.labels;
+                        }
+                        if (watchers.live) {
+                            watchers.live->feed().judged(verdict.index, verdict.labels);
+                        }
                     },
                 .settled = {},
                 .notice =
@@ -119,6 +128,10 @@ void filter_scans(Pass& pass) {
             if (fields.empty()) fields = maybe.frame->cloud.fields;
             pass.accepted[i] = true;
             keep_pace(pass, *start, maybe.frame->stamp);
+            if (pass.watchers.live) {
+                pass.watchers.live->feed().expect(maybe.frame->points, maybe.frame->T_world_sensor,
+                                                  maybe.frame->stamp, i);
+            }
             pass.filter.push(take_scan(*maybe.frame, i));
         }
         progress.advance();
@@ -136,18 +149,22 @@ void filter_scans(Pass& pass) {
     }
 }
 
-void count(RunSummary& summary, const Labels& labels) {
+void note(Pass& pass, std::size_t i, const io::Frame& frame, const Labels& labels) {
+    ScanNote note = note_of(labels, pass.instant[i], frame.truth);
+    note.index = i;
+    note.position = frame.T_world_sensor.translation();
+    note.stamp = frame.stamp;
+    RunSummary& summary = pass.summary;
     ++summary.scans;
     summary.points += labels.size();
-    for (const Label label : labels) {
-        if (label == Label::still) ++summary.still;
-        if (label == Label::dynamic) ++summary.dynamic;
-        if (label == Label::unknown) ++summary.unknown;
-    }
+    summary.still += note.counts[0];
+    summary.dynamic += note.counts[1];
+    summary.unknown += note.counts[2];
+    pass.scan_notes.push_back(note);
 }
 
 /// Second pass: final verdicts, label files, maps.
-void write_results(Pass& pass, TopView* view) {
+void write_results(Pass& pass) {
     const auto folder = pass.output.subfolder("labels");
     MapFiles maps(pass.output.path(), pass.config.output.keep_unknown,
                   pass.sequence.format == io::Format::benchmark);
@@ -166,9 +183,14 @@ void write_results(Pass& pass, TopView* view) {
                              "changed while it was in use: " + maybe.error);
         }
         maps.append(*maybe.frame, labels[i]);
-        count(pass.summary, labels[i]);
-        if (view != nullptr)
-            view->add(shifted_world(*maybe.frame, Eigen::Vector3d::Zero()), labels[i]);
+        note(pass, i, *maybe.frame, labels[i]);
+        if (pass.watchers.from_above) {
+            pass.watchers.from_above->add(shifted_world(*maybe.frame, Eigen::Vector3d::Zero()),
+                                          labels[i]);
+        }
+        if (pass.watchers.live) {
+            pass.watchers.live->feed().corrected(i, maybe.frame->points, labels[i]);
+        }
         labels[i] = {};
         progress.advance();
         return true;  // what is filtered is written even after an interruption; a second one kills
@@ -206,7 +228,7 @@ double rate(std::size_t items, double seconds) {
     return seconds > 0 ? static_cast<double>(items) / seconds : 0.0;
 }
 
-void write_timing(const Pass& pass, double cpu_seconds, long peak_rss) {
+nlohmann::ordered_json timing(const Pass& pass, double cpu_seconds, long peak_rss) {
     const RunSummary& s = pass.summary;
     const int threads = pass.pace.threads;
     nlohmann::ordered_json json{
@@ -224,10 +246,10 @@ void write_timing(const Pass& pass, double cpu_seconds, long peak_rss) {
                           {"processed", c.processed},   {"dropped", c.dropped},
                           {"rejected", c.rejected},     {"queued", c.queued}};
     }
-    io::write_file(pass.output.path() / "timing.json", text_of(json));
+    return json;
 }
 
-void write_metrics(const Pass& pass) {
+nlohmann::ordered_json metrics(const Pass& pass) {
     const RunSummary& s = pass.summary;
     nlohmann::ordered_json json = nlohmann::ordered_json::object();
     if (s.scores) json = to_json(*s.scores);
@@ -237,7 +259,7 @@ void write_metrics(const Pass& pass) {
     json["points"] = {{"static", s.still}, {"dynamic", s.dynamic}, {"unknown", s.unknown}};
     json["rejected"] = s.rejected;
     json["dropped"] = s.dropped;
-    io::write_file(pass.output.path() / "metrics.json", text_of(json));
+    return json;
 }
 
 void write_log(const Pass& pass) {
@@ -256,7 +278,7 @@ void write_log(const Pass& pass) {
     io::write_file(pass.output.path() / "run.log", log + to_text(pass.summary));
 }
 
-void measure(Pass& pass, Clock::time_point start) {
+nlohmann::ordered_json measure(Pass& pass, Clock::time_point start) {
     RunSummary& s = pass.summary;
     s.seconds = seconds_since(start);
     rusage usage{};
@@ -270,24 +292,62 @@ void measure(Pass& pass, Clock::time_point start) {
     s.voxels = extent.voxels;
     s.front_end_scans_per_second = rate(s.scans, total(times, "front_end"));
     s.back_end_submaps_per_second = rate(s.submaps, total(times, "back_end"));
-    write_timing(pass, seconds(usage.ru_utime) + seconds(usage.ru_stime), 1024 * usage.ru_maxrss);
+    return timing(pass, seconds(usage.ru_utime) + seconds(usage.ru_stime), 1024 * usage.ru_maxrss);
+}
+
+void describe(PageRun& run, const Pass& pass) {
+    run.info["name"] = pass.output.name().filename().string();
+    run.info["command"] = "run";
+    run.info["version"] = DYNAMIC_FILTER_VERSION;
+    run.info["input"] = pass.sequence.root.string();
+    run.info["format"] = io::to_string(pass.sequence.format);
+    run.info["created"] = fmt::format("{:%FT%TZ}", fmt::gmtime(std::time(nullptr)));
+    run.info["voxel_size"] = pass.config.back_end.voxel_size;
+    run.info["keyframes_total"] = pass.filter.extent().keyframes_total;
+    run.info["config"] = to_toml(pass.config);
+    const RunSummary& s = pass.summary;
+    run.info["counts"] = {{"static", s.still}, {"dynamic", s.dynamic}, {"unknown", s.unknown}};
+    run.info["notes"] = pass.sequence.notes;
+    for (const std::string& note : s.notes) run.info["notes"].push_back(note);
+    run.info["rejected"] = s.rejected;
+    run.info["dropped"] = s.dropped;
+}
+
+/// The page that explains the result. What its writing took goes into `timing`.
+void write_report(const Pass& pass, const nlohmann::ordered_json& metrics,
+                  nlohmann::ordered_json& timing) {
+    if (viewer_page().empty()) return;
+    const auto start = Clock::now();
+    const bool has_evidence =
+        pass.config.back_end.enabled && pass.config.back_end.observers == Observers::scans;
+    PageRun run = view_of({pass.sequence, pass.filter, pass.scan_notes, pass.instant,
+                           pass.output.path() / "labels", has_evidence});
+    describe(run, pass);
+    run.info["scores"] = metrics;
+    run.info["timing"] = timing;
+    const std::string text = embedded(run, 0);
+    io::write_file(pass.output.path() / "report.html", page_with({&text, 1}));
+    timing["report_seconds"] = seconds_since(start);
 }
 
 }  // namespace
 
 RunSummary run_sequence(const io::Sequence& sequence, const Config& config, const Pace& pace,
-                        const OutputFolder& output, TopView* view) {
+                        const OutputFolder& output, const Watchers& watchers) {
     RunSummary summary;
     with_threads(pace.threads, [&] {
         const auto start = Clock::now();
-        Pass pass{sequence, config, pace, output};
+        Pass pass{sequence, config, pace, output, watchers};
         io::write_file(output.path() / "config.toml", to_toml(config));
         filter_scans(pass);
-        write_results(pass, view);
-        measure(pass, start);
+        write_results(pass);
+        nlohmann::ordered_json timing = measure(pass, start);
         pass.summary.interrupted |= interrupted();
         if (sequence.has_truth() && !pass.summary.interrupted) score(pass);
-        write_metrics(pass);
+        const nlohmann::ordered_json metrics = app::metrics(pass);
+        write_report(pass, metrics, timing);
+        io::write_file(output.path() / "metrics.json", text_of(metrics));
+        io::write_file(output.path() / "timing.json", text_of(timing));
         write_log(pass);
         summary = std::move(pass.summary);
     });

@@ -12,6 +12,7 @@
 #include "dynamic_filter/io/sequence.hpp"
 #include "output_folder.hpp"
 #include "top_view.hpp"
+#include "view/live_view.hpp"
 
 namespace dynamic_filter::app {
 
@@ -27,15 +28,21 @@ struct RunSummary {
     bool interrupted = false;
 };
 
+/// Who looks on, if anybody.
+struct Watchers {
+    TopView* from_above = nullptr;  ///< collects the final verdicts
+    LiveView* live = nullptr;       ///< is told of every scan
+};
+
 struct Pace {
     int threads = 0;               ///< 0: all cores
     std::optional<double> online;  ///< times the sensor's rate; 0: as fast as it can
 };
 
-/// Filters the sequence and writes everything a run leaves behind. `view`, if given, collects the
-/// final verdicts. Throws InputError if not a single scan is usable.
+/// Filters the sequence and writes everything a run leaves behind. Throws InputError if not a
+/// single scan is usable.
 RunSummary run_sequence(const io::Sequence& sequence, const Config& config, const Pace& pace,
-                        const OutputFolder& output, TopView* view = nullptr);
+                        const OutputFolder& output, const Watchers& watchers = {});
 
 /// The closing table.
 std::string to_text(const RunSummary& summary);

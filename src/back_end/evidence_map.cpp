@@ -18,7 +18,8 @@ namespace dynamic_filter {
 namespace {
 
 Observer make_observer(const Scan& scan, const BeamPattern& beams, float reach) {
-    return {BeamImage(scan.points, beams), scan.T_world_sensor.inverse().cast<float>(), reach};
+    return {BeamImage(scan.points, beams), scan.T_world_sensor.inverse().cast<float>(), reach,
+            scan.index};
 }
 
 /// [m] A keyframe that is one because the sensor moved, soon after the last, looks no farther: it
@@ -68,6 +69,7 @@ PointVoxels EvidenceMap::insert(const Scan& scan, StageTimes& times) {
     });
     rest_ = observes ? known : 0;
     ++scans_;
+    indices_.push_back(scan.index);
     return voxels_of_points;
 }
 
@@ -160,8 +162,9 @@ Point EvidenceMap::middle_of(std::uint32_t block) const {
     return (voxels_.corner(block).cast<float>().array() + 2.0F) * voxel_size_;
 }
 
-void EvidenceMap::look_at(std::span<const std::uint32_t> blocks, Glance& glance,
-                          const Observer& observer) {
+/// Fills `glance` with the voxels that may be within sight, and what the observer sees there.
+void EvidenceMap::see(std::span<const std::uint32_t> blocks, Glance& glance,
+                      const Observer& observer) const {
     SightMargins margins = margins_;
     margins.farthest = observer.reach;
     const float radius = 3.5F * voxel_size_;  // of the sphere around a block, and a little
@@ -188,6 +191,11 @@ void EvidenceMap::look_at(std::span<const std::uint32_t> blocks, Glance& glance,
     }
     to_spherical(glance.centroids, observer.T_sensor_map, glance.seen);
     look(observer.image, glance.seen, margins, glance.sights);
+}
+
+void EvidenceMap::look_at(std::span<const std::uint32_t> blocks, Glance& glance,
+                          const Observer& observer) {
+    see(blocks, glance, observer);
     for (std::size_t i = 0; i < glance.voxels.size(); ++i) {
         if (glance.sights[i] == Sight::nothing) continue;
         State& state = states_[glance.voxels[i]];
@@ -314,6 +322,37 @@ std::vector<std::uint32_t> EvidenceMap::keep_within(const Point& center, float r
     neighbors_ = {};
     neighbors_.update(voxels_);
     return kept;
+}
+
+std::vector<std::size_t> EvidenceMap::keyframes() const {
+    std::vector<std::size_t> indices;
+    for (const Observer& observer : observers_) indices.push_back(observer.index);
+    return indices;
+}
+
+std::vector<std::vector<std::size_t>> EvidenceMap::seen_through(
+    std::span<const std::uint32_t> voxels) const {
+    std::vector<std::uint32_t> place(voxels_.size(), kNoVoxel), blocks;  // place among `voxels`
+    for (std::size_t i = 0; i < voxels.size(); ++i) {
+        place[voxels[i]] = static_cast<std::uint32_t>(i);
+        blocks.push_back(voxels_.block_of_voxel(voxels[i]));
+    }
+    std::sort(blocks.begin(), blocks.end());
+    blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+    std::vector<std::vector<std::size_t>> result(voxels.size());
+    constexpr std::size_t kGrain = 64;  // blocks
+    parallel_for(blocks.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+        Glance glance{.first = 0, .end = static_cast<std::uint32_t>(voxels_.size())};
+        for (const Observer& observer : observers_) {
+            see({&blocks[begin], end - begin}, glance, observer);
+            for (std::size_t i = 0; i < glance.voxels.size(); ++i) {
+                const std::uint32_t at = place[glance.voxels[i]];
+                if (glance.sights[i] != Sight::passed || at == kNoVoxel) continue;
+                result[at].push_back(observer.index);
+            }
+        }
+    });
+    return result;
 }
 
 /// Those who may vote on the voxels of a block.

@@ -277,6 +277,36 @@ std::pair<Label, float> DynamicFilter::decision_on(std::uint32_t voxel, const Po
     return {label_of(std::optional(probability)), probability};
 }
 
+std::vector<VoxelHistory> DynamicFilter::histories(std::span<const std::uint32_t> voxels) const {
+    std::vector<VoxelHistory> histories(voxels.size());
+    if (!scans_observe()) {
+        for (std::size_t i = 0; i < voxels.size(); ++i) {
+            if (voxels[i] >= merged_.probability.size()) continue;
+            const float probability = merged_.probability[voxels[i]];
+            if (probability >= 0.0F) histories[i].probability = probability;
+        }
+        return histories;
+    }
+    std::vector<std::uint32_t> passed;
+    std::vector<std::size_t> at;
+    for (std::size_t i = 0; i < voxels.size(); ++i) {
+        const Evidence& evidence = evidence_.evidence(voxels[i]);
+        histories[i] = {decided_[voxels[i]].probability,
+                        evidence,
+                        evidence_.index_of_owner(evidence.first_owner),
+                        evidence_.index_of_owner(evidence.last_owner),
+                        {}};
+        if (evidence.passed == 0) continue;
+        passed.push_back(voxels[i]);
+        at.push_back(i);
+    }
+    auto seen_through = evidence_.seen_through(passed);
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        histories[at[i]].seen_through = std::move(seen_through[i]);
+    }
+    return histories;
+}
+
 Verdict DynamicFilter::settled(const Scan& scan) const {
     auto [in_map, voxels, verdict] = locate(scan);
     PointVoxels own = voxels;
@@ -308,8 +338,7 @@ void DynamicFilter::judge_contacts(const Points& map_points, const PointVoxels& 
     }
     for (const std::size_t i : above) {
         bool touches = false;
-        evidence_.each_within(1, voxels[i],
-                              [&](std::uint32_t v, int) { touches |= moving[v]; });
+        evidence_.each_within(1, voxels[i], [&](std::uint32_t v, int) { touches |= moving[v]; });
         if (touches) labels[i] = Label::dynamic;
     }
 }

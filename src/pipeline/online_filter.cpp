@@ -88,6 +88,7 @@ struct OnlineFilter::Engine {
     void settle_until(std::size_t left);
     void forget_far(const Pose& T_world_sensor);
 
+    [[nodiscard]] std::optional<std::size_t> map_of(const Scan& scan) const;
     void end_map();
     void guarded(const std::function<void()>& loop, const std::function<void()>& give_up);
     void drop_waiting();
@@ -392,16 +393,45 @@ std::optional<Verdict> OnlineFilter::ask(Scan scan) {
 void OnlineFilter::flush() { engine_->idle(); }
 void OnlineFilter::finish() { engine_->finish(); }
 
-Verdict OnlineFilter::verdict(const Scan& scan) const {
-    const auto& maps = engine_->maps;
-    auto map =
+std::optional<std::size_t> OnlineFilter::Engine::map_of(const Scan& scan) const {
+    const auto next =
         std::upper_bound(maps.begin(), maps.end(), scan.index,
                          [](std::size_t index, const Map& m) { return index < m.first_index; });
-    if (map == maps.begin()) {
-        return {scan.index, Labels(scan.points.size(), Label::unknown),
-                std::vector<float>(scan.points.size(), 0.0F)};
+    if (next == maps.begin()) return std::nullopt;  // it is forgotten
+    return static_cast<std::size_t>(next - maps.begin()) - 1;
+}
+
+Verdict OnlineFilter::verdict(const Scan& scan) const {
+    if (const auto map = engine_->map_of(scan)) return engine_->maps[*map].filter->verdict(scan);
+    return {scan.index, Labels(scan.points.size(), Label::unknown),
+            std::vector<float>(scan.points.size(), 0.0F)};
+}
+
+std::vector<std::uint64_t> OnlineFilter::places_of(const Scan& scan) const {
+    std::vector<std::uint64_t> places(scan.points.size(), kNoPlace);
+    const auto map = engine_->map_of(scan);
+    if (!map) return places;
+    const PointVoxels voxels = engine_->maps[*map].filter->voxels_of(scan);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        if (voxels[i] != kNoVoxel) places[i] = std::uint64_t{*map} << 32 | voxels[i];
     }
-    return std::prev(map)->filter->verdict(scan);
+    return places;
+}
+
+std::vector<VoxelHistory> OnlineFilter::histories(std::span<const std::uint64_t> places) const {
+    std::vector<VoxelHistory> histories(places.size());
+    for (std::size_t map = 0; map < engine_->maps.size(); ++map) {
+        std::vector<std::uint32_t> voxels;
+        std::vector<std::size_t> at;
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            if (places[i] >> 32 != map) continue;
+            voxels.push_back(static_cast<std::uint32_t>(places[i]));
+            at.push_back(i);
+        }
+        auto of_map = engine_->maps[map].filter->histories(voxels);
+        for (std::size_t i = 0; i < at.size(); ++i) histories[at[i]] = std::move(of_map[i]);
+    }
+    return histories;
 }
 
 Counters OnlineFilter::counters() const {
@@ -436,6 +466,9 @@ OnlineFilter::Extent OnlineFilter::extent() const {
         extent.submaps += map.filter->submaps();
         extent.voxels += map.filter->voxels().size();
         if (map.filter->beams()) extent.beams = map.filter->beams();
+        const std::vector<std::size_t> keyframes = map.filter->keyframes();
+        extent.keyframes_total += map.filter->keyframes_total();
+        extent.keyframes.insert(extent.keyframes.end(), keyframes.begin(), keyframes.end());
     }
     return extent;
 }

@@ -13,6 +13,7 @@
 #include "dynamic_filter/io/sequence.hpp"
 #include "dynamic_filter/io/writers.hpp"
 #include "support/temporary_folder.hpp"
+#include "view/page.hpp"
 
 namespace fs = std::filesystem;
 
@@ -58,7 +59,8 @@ protected:
         std::map<std::string, std::string> files;
         for (const auto& entry : fs::recursive_directory_iterator(folder_ / output)) {
             const std::string name = entry.path().filename();
-            if (entry.is_regular_file() && name != "timing.json" && name != "run.log") {
+            if (entry.is_regular_file() && name != "timing.json" && name != "run.log" &&
+                name != "report.html") {
                 files[fs::relative(entry.path(), folder_ / output)] = slurp(entry.path());
             }
         }
@@ -425,6 +427,34 @@ TEST_F(Command, ConvertWritesMapsAndSplitScans) {
     EXPECT_EQ(run("convert nothing.pcd x.pcd"), 3);
     EXPECT_EQ(run("convert " + data + " y.mcap --labels " + data + "/velodyne"), 3);
     EXPECT_FALSE(fs::exists(folder_ / "y.mcap"));
+}
+
+TEST_F(Command, ReportsOfRunsAndMapsAreSetSideBySide) {
+    if (app::viewer_page().empty()) GTEST_SKIP() << "built WITHOUT THE VIEWER: npm was missing";
+    ASSERT_EQ(run("run " + recording().string() + " -o out"), 0);
+    const std::string report = slurp(folder_ / "out/report.html");
+    EXPECT_NE(report.find("\"scans\":24"), std::string::npos);
+    EXPECT_LT(report.size(), 30'000'000U);
+    EXPECT_NE(slurp(folder_ / "out/timing.json").find("report_seconds"), std::string::npos);
+
+    ASSERT_EQ(
+        run("report out out/static_map.pcd --truth " + recording().string() + " -o both.html"), 0)
+        << said();
+    const std::string both = slurp(folder_ / "both.html");
+    EXPECT_NE(both.find("id=\"run-0-map-position\""), std::string::npos);
+    EXPECT_NE(both.find("id=\"run-1-map-position\""), std::string::npos);
+    EXPECT_EQ(both.find("id=\"run-1-frame-begin\""), std::string::npos);  // a map has no scans
+    EXPECT_NE(both.find("\"name\":\"static_map.pcd\""), std::string::npos);
+
+    EXPECT_EQ(run("report out/labels"), 3);
+    expect_said("holds no report.html");
+    EXPECT_EQ(run("report out/config.toml"), 3);
+    EXPECT_EQ(run("report out -o out/report.html"), 0) << said();  // the same again
+    EXPECT_EQ(run("report out/report.html -o out/report.html"), 2);
+    EXPECT_EQ(slurp(folder_ / "out/report.html"), report);
+    EXPECT_EQ(run("serve out/labels"), 3);
+    EXPECT_EQ(run("run " + recording().string() + " -o no --port 80"), 2);
+    EXPECT_EQ(run("run " + recording().string() + " -o no --view --port 99999"), 2);
 }
 
 TEST_F(Command, CheckSaysWhatToTypeAndThatWorks) {

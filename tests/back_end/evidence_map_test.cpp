@@ -154,6 +154,28 @@ TEST(EvidenceMap, ANewVoxelAsksASelectionOfManyKeyframes) {
     EXPECT_GT(seen_through, 0U);
 }
 
+// As long as every keyframe was asked by every voxel, those that see through it are those counted.
+TEST(EvidenceMap, NamesTheKeyframesThatSawThroughAVoxel) {
+    auto scans = drive(9, true);
+    for (auto& s : scans) s.scan.index += 100;
+    const EvidenceMap map = filled(scans, every_scan());
+    std::vector<std::uint32_t> some;
+    for (std::uint32_t v = 0; v < map.voxels().size(); v += 3) some.push_back(v);
+    const auto seen_through = map.seen_through(some);
+    ASSERT_EQ(seen_through.size(), some.size());
+    std::size_t passes = 0;
+    for (std::size_t i = 0; i < some.size(); ++i) {
+        EXPECT_EQ(seen_through[i].size(), map.evidence(some[i]).passed) << some[i];
+        EXPECT_TRUE(std::is_sorted(seen_through[i].begin(), seen_through[i].end()));
+        for (const std::size_t index : seen_through[i]) EXPECT_GE(index, 100U);
+        passes += seen_through[i].size();
+    }
+    EXPECT_GT(passes, 50U);
+    EXPECT_EQ(map.keyframes().size(), scans.size());
+    EXPECT_EQ(map.keyframes().front(), 100U);
+    EXPECT_EQ(map.index_of_owner(map.evidence(some.back()).first_owner), 108U);
+}
+
 TEST(EvidenceMap, WithinFindsWhatLiesNear) {
     const EvidenceMap map = filled(drive(6, true), every_scan());
     const Point center(1.0F, 0.5F, 1.0F);

@@ -21,7 +21,8 @@ namespace dynamic_filter {
 struct Observer {
     BeamImage image;
     Eigen::Isometry3f T_sensor_map = Eigen::Isometry3f::Identity();
-    float reach = 0.0F;  ///< [m] how far it looks
+    float reach = 0.0F;     ///< [m] how far it looks
+    std::size_t index = 0;  ///< Scan::index
 };
 
 /// The voxel of each point of a scan; kNoVoxel for points that were not measured or lie too far
@@ -60,6 +61,17 @@ public:
     /// above all that were there when they were there. Empty: unknown. In parallel.
     [[nodiscard]] std::vector<std::optional<float>> probabilities(
         std::span<const std::uint32_t> voxels) const;
+
+    /// For each of the voxels, the keyframes kept so far (their Scan::index, ascending) that see
+    /// through it. A voxel asked older ones at the time, and may have counted one for several. In
+    /// parallel; cost: blocks of those voxels times keyframes.
+    [[nodiscard]] std::vector<std::vector<std::size_t>> seen_through(
+        std::span<const std::uint32_t> voxels) const;
+
+    /// The keyframes kept so far, by their Scan::index.
+    [[nodiscard]] std::vector<std::size_t> keyframes() const;
+    /// Scan::index of an owner (Evidence::first_owner, last_owner).
+    [[nodiscard]] std::size_t index_of_owner(std::uint32_t owner) const { return indices_[owner]; }
 
     /// Scans that were taken in, without those that measured nothing.
     [[nodiscard]] std::uint32_t scans() const { return scans_; }
@@ -101,6 +113,7 @@ private:
     [[nodiscard]] Point middle_of(std::uint32_t block) const;
     struct Neighborhood;
     struct Glance;
+    void see(std::span<const std::uint32_t> blocks, Glance& glance, const Observer& observer) const;
     void look_at(std::span<const std::uint32_t> blocks, Glance& glance, const Observer& observer);
 
     float voxel_size_;
@@ -112,7 +125,8 @@ private:
     std::deque<Observer> observers_;
     std::size_t all_observers_ = 0;
     std::uint32_t scans_ = 0;
-    double last_far_look_ = 0.0;  // [s]
+    std::vector<std::size_t> indices_;  // by order of the scans
+    double last_far_look_ = 0.0;        // [s]
     std::size_t rest_ = 0;  // voxels below this number, but those in blocks touched, are to look at
 
     VoxelIndex voxels_;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -44,6 +45,15 @@ struct StaticVoxel {
     float probability = 0.0F;                          ///< occupancy 0..1
 };
 
+/// What the scans said about a voxel, to explain the verdict on a point in it.
+struct VoxelHistory {
+    std::optional<float> probability;  ///< occupancy 0..1; empty: unknown
+    Evidence evidence;                 ///< all zero where submaps observe: nothing is kept
+    std::size_t first = 0, last = 0;   ///< Scan::index of the first and last with a point in it
+    std::vector<std::size_t> seen_through;  ///< Scan::index of keyframes that see through it, of
+                                            ///< the newest `back_end.max_scans`
+};
+
 /// Usage: push() every scan, finish(), then verdict() of any scan. Single caller, but see judge();
 /// const members may run in several threads while no other runs. Same scans and config give the
 /// same bits for any number of threads. Scans are not kept. Memory: scans observe: about 80 bytes a
@@ -78,6 +88,15 @@ public:
     /// The verdict on a scan from the evidence so far, where scans observe; what stands on a static
     /// surface is told from it by the final verdict only.
     [[nodiscard]] Verdict settled(const Scan& scan) const;
+
+    /// The voxel of each point of a scan; kNoVoxel: none.
+    [[nodiscard]] PointVoxels voxels_of(const Scan& scan) const { return locate(scan).voxels; }
+    /// After finish(): of each of the voxels. Costs as much as it cost to observe those of them
+    /// that were ever seen through.
+    [[nodiscard]] std::vector<VoxelHistory> histories(std::span<const std::uint32_t> voxels) const;
+    /// Scan::index of the keyframes that `VoxelHistory::seen_through` knows.
+    [[nodiscard]] std::vector<std::size_t> keyframes() const { return evidence_.keyframes(); }
+    [[nodiscard]] std::size_t keyframes_total() const { return evidence_.observers(); }
 
     /// Forgets the map beyond `radius` [m] of a pose, and the farthest of it until its size() is at
     /// most `most`. What is forgotten is unknown.

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -99,6 +100,12 @@ public:
     /// the horizon forgot what it saw: unknown.
     [[nodiscard]] Verdict verdict(const Scan& scan) const;
 
+    /// After finish(), to explain verdicts: a number for the voxel of each point of a scan that was
+    /// pushed (kNoPlace: none), and what DynamicFilter knows of such voxels.
+    static constexpr std::uint64_t kNoPlace = UINT64_MAX;
+    [[nodiscard]] std::vector<std::uint64_t> places_of(const Scan& scan) const;
+    [[nodiscard]] std::vector<VoxelHistory> histories(std::span<const std::uint64_t> places) const;
+
     [[nodiscard]] Counters counters() const;
     /// The static voxels around a pose (DynamicFilter::local_static_map), as of now. Waits for the
     /// stage in work, and the next one waits for it.
@@ -109,6 +116,8 @@ public:
     struct Extent {
         std::size_t maps = 0, submaps = 0, voxels = 0;
         std::optional<BeamPattern> beams;
+        std::vector<std::size_t> keyframes;  ///< see DynamicFilter::keyframes()
+        std::size_t keyframes_total = 0;     ///< with those that are known no more
     };
     /// What there is, once flush() has returned.
     [[nodiscard]] Extent extent() const;

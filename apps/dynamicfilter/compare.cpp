@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "commands.hpp"
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/io/cloud.hpp"
+#include "dynamic_filter/io/file.hpp"
+#include "frames.hpp"
+#include "report.hpp"
+#include "view/run_view.hpp"
+
+namespace dynamic_filter::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string name_of(const fs::path& result) {
+    return fs::absolute(result / "").lexically_normal().parent_path().filename().string();
+}
+
+/// A map that somebody else made clean: its points, and its scores if there is ground truth.
+PageRun view_of_map(const fs::path& file, const io::Sequence* truth, double voxel) {
+    const io::Cloud cloud = io::read_cloud(file);
+    PageRun run = view_of(cloud);
+    run.info["name"] = file.filename().string();
+    run.info["command"] = "";
+    run.info["version"] = DYNAMIC_FILTER_VERSION;
+    run.info["input"] = file.string();
+    run.info["scores"] = nullptr;
+    if (truth == nullptr) return run;
+    const Eigen::Vector3d origin = scoring_origin(*truth, voxel);
+    run.info["scores"] = to_json(eval::score_map(truth->size(), scan_source(*truth, origin, {}),
+                                                 positions_from(cloud, origin), voxel));
+    return run;
+}
+
+std::string run_of(const fs::path& result, std::size_t number, const io::Sequence* truth,
+                   double voxel) {
+    if (fs::is_directory(result)) {
+        const fs::path page = result / "report.html";
+        if (!fs::exists(page)) {
+            throw InputError(result, "",
+                             "holds no report.html; expected the output folder of a run (older "
+                             "ones have none: run again with --overwrite)");
+        }
+        return run_of_report(page, number);
+    }
+    if (result.extension() == ".html") return run_of_report(result, number);
+    return embedded(view_of_map(result, truth, voxel), number);
+}
+
+}  // namespace
+
+int report(const ReportOptions& o) {
+    std::optional<io::Sequence> truth;
+    if (!o.truth.data.empty()) truth = open(o.truth);
+    if (truth && !truth->has_truth()) {
+        throw InputError(o.truth.data, "",
+                         "has no ground truth (labels/*.label, or 0/1 intensities)");
+    }
+    std::vector<std::string> runs;
+    for (const fs::path& result : o.results) {
+        if (fs::exists(o.output) && fs::equivalent(result, o.output)) {
+            throw ConfigError(o.output.string() + ": is what is to be shown; choose another -o");
+        }
+        runs.push_back(run_of(result, runs.size(), truth ? &*truth : nullptr, o.voxel));
+        fmt::print("{:<10} {}\n", runs.size() == 1 ? "shown" : "beside it", name_of(result));
+    }
+    io::write_file(o.output, page_with(runs));
+    fmt::print("written    {}\n", o.output.string());
+    return kDone;
+}
+
+}  // namespace dynamic_filter::app

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "http_request.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace dynamic_filter::app {
+
+namespace {
+
+/// Up to the separator, which is taken away, too.
+std::string_view take(std::string_view& text, std::string_view separator) {
+    const std::size_t at = std::min(text.find(separator), text.size());
+    const std::string_view taken = text.substr(0, at);
+    text.remove_prefix(std::min(at + separator.size(), text.size()));
+    return taken;
+}
+
+std::string_view trimmed(std::string_view text) {
+    while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
+    while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
+    return text;
+}
+
+std::string lower(std::string_view text) {
+    std::string result(text);
+    std::transform(result.begin(), result.end(), result.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return result;
+}
+
+int hex_digit(char c) {
+    if (c >= '0' && c <= '9') return c - '0';
+    const int letter = std::tolower(static_cast<unsigned char>(c));
+    return letter >= 'a' && letter <= 'f' ? letter - 'a' + 10 : -1;
+}
+
+/// "%20" becomes a blank; what is no such escape stays.
+std::string decoded(std::string_view text) {
+    std::string result;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const int high = i + 2 < text.size() && text[i] == '%' ? hex_digit(text[i + 1]) : -1;
+        const int low = high >= 0 ? hex_digit(text[i + 2]) : -1;
+        result += low >= 0 ? static_cast<char>(16 * high + low) : text[i];
+        if (low >= 0) i += 2;
+    }
+    return result;
+}
+
+bool is_here(std::string_view host, std::uint16_t port) {
+    return host == fmt::format("127.0.0.1:{}", port) || host == fmt::format("localhost:{}", port);
+}
+
+}  // namespace
+
+HttpRequest parse_request(std::string_view head) {
+    HttpRequest request;
+    std::string_view line = take(head, "\r\n");
+    const std::string_view method = take(line, " ");
+    std::string_view target = take(line, " ");
+    if (!line.starts_with("HTTP/1.") || !target.starts_with("/")) return request;
+    request.method = method;
+    request.path = decoded(take(target, "?"));
+    request.query = target;
+    while (!head.empty()) {
+        std::string_view value = take(head, "\r\n");
+        const std::string name = lower(take(value, ":"));
+        value = trimmed(value);
+        if (name == "host") request.host = lower(value);
+        if (name == "origin") request.origin = lower(value);
+        if (name == "transfer-encoding" || (name == "content-length" && value != "0")) {
+            request.has_body = true;
+        }
+    }
+    return request;
+}
+
+int refusal_of(const HttpRequest& request, std::uint16_t port) {
+    if (request.method.empty()) return 400;
+    if (request.method != "GET" && request.method != "HEAD") return 405;
+    if (request.has_body) return 413;
+    if (!is_here(request.host, port)) return 403;
+    std::string_view origin = request.origin;
+    if (origin.empty()) return 0;
+    take(origin, "://");
+    return is_here(origin, port) ? 0 : 403;
+}
+
+const char* reason_of(int status) {
+    switch (status) {
+        case 200:
+            return "OK";
+        case 400:
+            return "Bad Request";
+        case 403:
+            return "Forbidden";
+        case 404:
+            return "Not Found";
+        case 405:
+            return "Method Not Allowed";
+        case 413:
+            return "Content Too Large";
+        case 431:
+            return "Request Header Fields Too Large";
+        default:
+            return "Error";
+    }
+}
+
+}  // namespace dynamic_filter::app

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "shown.hpp"
+
+#include <algorithm>
+
+#include "dynamic_filter/io/writers.hpp"
+#include "frames.hpp"
+#include "lot.hpp"
+#include "verdict_code.hpp"
+
+namespace dynamic_filter::app {
+
+namespace {
+
+/// 3: not kept.
+std::uint8_t code_at(const Labels& labels, std::size_t i) {
+    return labels.empty() ? std::uint8_t{3} : verdict_code(labels[i]);
+}
+
+/// Of a scan's measured points, about `most` by lot: what moves fills up to half of it.
+std::vector<std::uint32_t> drawn(const io::Frame& frame, const Labels& labels, std::size_t scan,
+                                 std::size_t most) {
+    const auto moving =
+        static_cast<double>(std::count(labels.begin(), labels.end(), Label::dynamic));
+    const double others = static_cast<double>(labels.size()) - moving,
+                 room = static_cast<double>(most);
+    const double room_of_moving = std::min(moving, std::max(0.5 * room, room - others));
+    const double share_of_moving = moving > 0 ? room_of_moving / moving : 0.0,
+                 share_of_others = others > 0 ? (room - room_of_moving) / others : 0.0;
+    std::vector<std::uint32_t> chosen;
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        const double share = labels[i] == Label::dynamic ? share_of_moving : share_of_others;
+        if (is_drawn(scan, i, share) && is_measured(frame.points[i])) {
+            chosen.push_back(static_cast<std::uint32_t>(i));
+        }
+    }
+    return chosen;
+}
+
+/// The chosen points of one scan.
+struct Drawn {
+    std::vector<ShownPoint> points;
+    bool has_intensity = false;
+};
+
+Drawn draw(const ViewInput& in, std::size_t row, const io::Frame& frame, const Labels& labels,
+           const Eigen::Vector3d& origin, std::size_t most) {
+    const std::size_t index = in.scans[row].index;
+    const auto chosen = drawn(frame, labels, index, most);
+    Scan scan{{}, frame.T_world_sensor, frame.stamp, index};
+    for (const std::uint32_t i : chosen) scan.points.push_back(frame.points[i]);
+    const auto places = in.filter.places_of(scan);
+    const auto intensity =
+        in.sequence.intensity_is_truth ? std::vector<double>{} : intensities(frame.cloud);
+    Pose T_page_sensor = frame.T_world_sensor;
+    T_page_sensor.translation() -= origin;
+    const Labels& instant = in.instant[index];
+    Drawn drawn{{}, !intensity.empty()};
+    for (std::size_t k = 0; k < chosen.size(); ++k) {
+        const std::uint32_t i = chosen[k];
+        const auto verdict = static_cast<std::uint8_t>(
+            verdict_code(labels[i]) | code_at(frame.truth, i) << 2 | code_at(instant, i) << 4);
+        drawn.points.push_back({(T_page_sensor * scan.points[k].cast<double>()).cast<float>(),
+                                intensity.empty() ? 0.0F : static_cast<float>(intensity[i]),
+                                static_cast<std::uint32_t>(row), verdict, places[k]});
+    }
+    return drawn;
+}
+
+/// The stride that takes about `most` of `count`, and no more.
+std::size_t stride_for(std::size_t count, std::size_t most) {
+    return std::max<std::size_t>(1, (count + most - 1) / most);
+}
+
+}  // namespace
+
+bool is_shown(std::size_t index, std::size_t scans) {
+    return index % stride_for(scans, kFrames) == 0;
+}
+
+std::vector<double> intensities(const io::Cloud& cloud) {
+    const io::Field* field = cloud.find("intensity");
+    return field == nullptr ? std::vector<double>{} : values(cloud, *field);
+}
+
+Shown collect(const ViewInput& in, const Eigen::Vector3d& origin) {
+    constexpr std::size_t kMostScans = 2000;  // more do not show in so few points
+    constexpr std::size_t kPerMapPoint = 8;   // offered, so that the cubes are well filled
+    const std::size_t n = in.scans.size(), stride = stride_for(n, kMostScans);
+    const auto is_frame = [&](std::size_t i) { return is_shown(i, in.sequence.size()); };
+    std::vector<std::size_t> rows, scans;
+    std::size_t frames = 0;
+    for (std::size_t row = 0; row < n; ++row) {
+        if (row % stride != 0 && !is_frame(in.scans[row].index)) continue;
+        rows.push_back(row);
+        scans.push_back(in.scans[row].index);
+        if (is_frame(scans.back())) ++frames;
+    }
+    const std::size_t for_map = kPerMapPoint * kMapPoints / std::max<std::size_t>(1, rows.size()),
+                      for_frame = kFramePoints / std::max<std::size_t>(1, frames);
+    Shown shown{.map = ThinnedCloud(kMapPoints)};
+    shown.frame_of_scan.assign(n, -1);
+    std::size_t at = 0;
+    const auto use = [&](std::size_t i, MaybeFrame& maybe) {
+        const std::size_t row = rows[at++];
+        if (!maybe.frame) return true;  // it was readable a moment ago; the page can do without
+        const Labels labels = io::read_labels(in.labels / (io::stem(in.sequence, i) + ".label"));
+        const Drawn of_map = draw(in, row, *maybe.frame, labels, origin, for_map);
+        for (const ShownPoint& point : of_map.points) shown.map.add(point);
+        shown.has_intensity |= of_map.has_intensity;
+        if (is_frame(i)) {
+            shown.frame_of_scan[row] = static_cast<std::int32_t>(shown.frame_begin.size());
+            shown.frame_begin.push_back(static_cast<std::uint32_t>(shown.frames.size()));
+            const Drawn of_frame = draw(in, row, *maybe.frame, labels, origin, for_frame);
+            shown.frames.insert(shown.frames.end(), of_frame.points.begin(), of_frame.points.end());
+        }
+        return true;
+    };
+    for_each_frame(in.sequence, scans, {}, use);
+    shown.frame_begin.push_back(static_cast<std::uint32_t>(shown.frames.size()));
+    return shown;
+}
+
+}  // namespace dynamic_filter::app
