@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 import assert from "node:assert/strict";
 import { after, before, describe, test } from "node:test";
+import { makeRun, pageOf } from "./fixture.mjs";
 import { correctionRecord, LiveServer, scanRecord } from "./live_server.mjs";
-import { isBlue, isGrey, isOrange, open, picture, setValues, shot, state, until } from "./support.mjs";
+import { isBlue, isGrey, isOrange, open, picture, setValues, shot, state, until, VIEWER } from "./support.mjs";
 import { scanPoints, sensorAt, stampOf } from "./street.mjs";
 
-const STATIC = 1, DYNAMIC = 2;
+const STATIC = 1, DYNAMIC = 2, NOT_RECORDED = 0b111100;
 const POINTS = 3000;
 
 /** A scan relative to the first sensor position; every twentieth of what moves is missed at first. */
@@ -19,7 +20,7 @@ function scanOf(row) {
   };
 }
 
-const settledOf = ({ points, verdicts }) => points.map(({ moving }, i) => (moving ? DYNAMIC : STATIC) | (verdicts[i] << 4));
+const settledOf = ({ points }) => points.map(({ moving }) => (moving ? DYNAMIC : STATIC) | NOT_RECORDED);
 
 describe("the live view", () => {
   const server = new LiveServer();
@@ -35,7 +36,6 @@ describe("the live view", () => {
   });
   after(async () => {
     await page.close();
-    await server.stop();
   });
 
   test("waits for the first scan", async () => {
@@ -111,11 +111,18 @@ describe("the live view", () => {
   test("says at the end that the report is there", async () => {
     push((n) => scanRecord(n, { ...scans[29], places: scans[29].places.map((p, i) => (i < 3 ? [NaN, Infinity, 0] : p)) }));
     await received(30);
+    server.report = pageOf(VIEWER, [makeRun({ points: 5000 })]);
     Object.assign(server.state, { done: true, report: true });
     const link = page.getByRole("alert").getByRole("link", { name: "Open the report" });
     await link.waitFor();
-    assert.equal(await link.getAttribute("href"), "/report.html");
     await shot(page, "live-done");
     assert.deepEqual(complaints, []);
+    await server.stop();  // as the command does, once the report is fetched
+    const [report] = await Promise.all([page.waitForEvent("popup"), link.click()]);
+    await report.waitForFunction(() => window.viewer);
+    await report.evaluate(() => window.viewer.ready);
+    assert.equal(await report.locator("h1").textContent(), "street");
+    assert.match(await page.locator(".banner").textContent(), /finished/);
+    await report.close();
   });
 });

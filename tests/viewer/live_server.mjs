@@ -13,6 +13,8 @@ function record(number, kind, size, fill) {
   return { number, buffer };
 }
 
+const NOT_RECORDED = 3;
+
 export function scanRecord(number, { index, stamp, sensor, places, verdicts }) {
   const n = verdicts.length;
   return record(number, 1, 40 + 13 * n, (b) => {
@@ -22,7 +24,7 @@ export function scanRecord(number, { index, stamp, sensor, places, verdicts }) {
     const dynamic = verdicts.filter((v) => v === DYNAMIC).length;
     [n - dynamic, dynamic, 0, n].forEach((value, c) => b.writeUInt32LE(value, 36 + 4 * c));
     places.flat().forEach((value, i) => b.writeFloatLE(value, 52 + 4 * i));
-    b.set(verdicts, 52 + 12 * n);
+    b.set(verdicts.map((v) => v | (NOT_RECORDED << 2) | (v << 4)), 52 + 12 * n);
   });
 }
 
@@ -36,6 +38,7 @@ export function correctionRecord(number, { index, verdicts }) {
 
 export class LiveServer {
   records = [];
+  report = "";
   state = { name: "street, live", input: "recordings/street", total: 60, done: false, newest: 0, version: "0.0.0-test", report: false };
   #server = null;
   #sockets = new Set();
@@ -66,6 +69,7 @@ export class LiveServer {
     const { pathname, searchParams } = new URL(url, "http://localhost");
     if (pathname === "/state") return answer.end(JSON.stringify(this.state));
     if (pathname === "/live") return answer.writeHead(200, { "Content-Type": "application/octet-stream" }).end(this.#after(Number(searchParams.get("after"))));
+    if (pathname === "/report.html" && this.state.report) return answer.writeHead(200, { "Content-Type": "text/html; charset=utf-8" }).end(this.report);
     if (pathname === "/") return answer.writeHead(200, { "Content-Type": "text/html; charset=utf-8" }).end(VIEWER);
     return answer.writeHead(404).end();
   }

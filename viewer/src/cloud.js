@@ -126,7 +126,7 @@ export class Cloud {
   shows(i, x, y, z) {
     const { layers, instant, height, range, fromPath, sensor } = this.settings;
     const verdict = this.verdicts[i];
-    if (((layers >> (instant ? instantOf(verdict) : finalOf(verdict))) & 1) === 0) return false;
+    if (((layers >> ((instant ? instantOf(verdict) : finalOf(verdict)) % 3)) & 1) === 0) return false;
     if (z < height[0] || z > height[1]) return false;
     if (range === ALL) return true;
     const away = fromPath ? this.field.at(x, y) : Math.hypot(x - sensor[0], y - sensor[1], z - sensor[2]);

@@ -26,6 +26,8 @@ const SCAN_LAYERS = [
   { name: "dim", label: "Dim the map below them" }, { name: "trail", label: "Removed of earlier scans" },
 ];
 
+const reportLink = (address, words) => h("a", { href: address, target: "_blank" }, words);
+
 /** The numbers that change while scans come in. */
 function counters() {
   const names = ["scans", "points", "removed", "corrected", "skipped", "damaged"];
@@ -37,7 +39,7 @@ function counters() {
   return {
     element,
     show: (numbers) => names.forEach((name) => (values[name].textContent = numbers[name])),
-    offerReport: () => link.replaceChildren(h("a", { href: "/report.html" }, "Open the finished report")),
+    offerReport: (address) => link.replaceChildren(reportLink(address, "Open the finished report"), " or ", h("a", { href: address, download: "report.html" }, "save it")),
   };
 }
 
@@ -102,23 +104,31 @@ class LivePage {
     document.title = `${name}, live – DynamicFilter`;
     document.querySelector(".head h1").textContent = name;
     document.querySelector(".subtitle").textContent = [input, done ? "finished" : "under way"].filter(Boolean).join(" · ");
-    if (done && report) this.counters.offerReport();
-    if (done && report) this.#say("finished");
+    if (done && report && !this.report) this.report = this.#takeReport().catch(() => (this.report = null));  // to be tried again
     this.#show();
   }
 
+  /** The server leaves soon after the run: the report is fetched now, and the link works without it. */
+  async #takeReport() {
+    const answer = await fetch("/report.html");
+    this.address = URL.createObjectURL(new Blob([await answer.arrayBuffer()], { type: "text/html" }));
+    this.counters.offerReport(this.address);
+    this.#say("finished");
+  }
+
   #say(kind) {
-    const words = { lost: ["Connection lost. Trying again …"], finished: ["The run is finished. ", h("a", { href: "/report.html" }, "Open the report")], none: [] }[kind];
+    const words = { lost: ["Connection lost. Trying again …"], finished: ["The run is finished. ", reportLink(this.address, "Open the report")], none: [] }[kind];
     this.banner.dataset.kind = kind;
     this.banner.replaceChildren(...words);
   }
 
   lost() {
+    if (this.address) return;  // nothing more is wanted of the server
     this.#say("lost");
   }
 
   back() {
-    this.#say("none");
+    if (!this.address) this.#say("none");
   }
 
   take(records, { skipped, damaged }) {

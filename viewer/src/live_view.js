@@ -2,7 +2,7 @@
 // Scans as they come: the newest bright, what stayed of all others below it.
 import { Cloud } from "./cloud.js";
 import { CloudView, midstOf } from "./cloud_view.js";
-import { finalOf, instantOf } from "./data.js";
+import { finalOf } from "./data.js";
 import { Ring } from "./ring.js";
 
 const RECENT = 3_000_000;  // newest points
@@ -20,11 +20,8 @@ function thinnedBy(every, positions, verdicts) {
   return result;
 }
 
-/** A verdict given at once is settled until it is corrected. */
-const atOnce = (verdict) => {
-  const said = instantOf(verdict) || finalOf(verdict);
-  return (verdict & 0b1100) | said | (said << 4);
-};
+/** A verdict given at once stands until it is corrected. */
+const atOnce = (verdict) => (verdict & 0b1111) | (finalOf(verdict) << 4);
 
 export class LiveView extends CloudView {
   scans = [];  // {index, stamp, sensor, counts, n, recent, older}, where recent and older are begins in the rings, or -1

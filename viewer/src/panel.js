@@ -7,6 +7,7 @@ import { explain, verdictWord } from "./explain.js";
 import { fixed, plural } from "./format.js";
 
 const MOST_LISTED = 200;
+const WITHOUT_VOXEL = 0.1;  // m, of the box around a point
 
 const empty = () => h("div", { class: "empty-state" },
   h("h2", {}, "Why is this point gone?"),
@@ -83,17 +84,23 @@ function about(session, point) {
   ].filter(Boolean);
 }
 
+/** A box around the point's voxel, at the same place of the world in all views. */
+function markPlace({ views }, point) {
+  const { owner, voxel, position } = point;
+  const edge = owner.run.meta.voxel_size;
+  const hasVoxel = voxel !== undefined && voxel !== NO_VOXEL && edge;
+  const middle = hasVoxel ? owner.voxelMiddle(point) : position;
+  for (const { overlay, view } of views) {
+    overlay.showBox(middle.map((m, c) => m + owner.view.offset[c] - view.offset[c]), hasVoxel ? edge : WITHOUT_VOXEL);
+  }
+}
+
 export function pointPanel(session) {
   const element = h("div", { "aria-live": "polite" });
   session.store.watch(["selection"], ({ selection: point }) => {
     element.replaceChildren(...(point ? about(session, point) : [empty()]));
     if (!point) return;
-    const { owner } = point;
-    if (point.voxel !== undefined && point.voxel !== NO_VOXEL && owner.run.meta.voxel_size) {
-      owner.overlay.showBox(owner.voxelMiddle(point), owner.run.meta.voxel_size);
-    } else {
-      owner.overlay.showBox(point.position, 0.1);
-    }
+    markPlace(session, point);
   });
   return element;
 }

@@ -4,7 +4,7 @@ import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import { kindColour } from "./colours.js";
 import { debounce, h } from "./dom.js";
-import { compact, count, short } from "./format.js";
+import { compact, count, plural, short } from "./format.js";
 import { heatmap } from "./heatmap.js";
 import { countSeries, evidenceHistogram, probabilityHistogram, scoreSeries } from "./series.js";
 import { currentTheme, watchTheme } from "./theme.js";
@@ -84,7 +84,7 @@ function timePlots(run, jump, current) {
   const counts = countSeries(run);
   if (counts) {
     add("Points removed per scan", [{ label: "removed", values: counts.removed }]);
-    if (run.meta.has_instant) add("Points whose first verdict was corrected later", [{ label: "corrected", values: counts.corrected }]);
+    if (counts.corrected.some((n) => n !== null) && run.meta.has_instant) add("Points whose first verdict was corrected later", [{ label: "corrected", values: counts.corrected }]);
   }
   const settled = scoreSeries(run, 0), instant = run.meta.has_instant ? scoreSeries(run, 1) : null;
   if (settled) {
@@ -101,7 +101,7 @@ function latency(timing) {
   if (stages.length === 0) return null;
   const most = Math.max(...stages.map(([, stage]) => stage.p99 ?? 0)) || 1;
   const rows = stages.map(([name, { p50, p95, p99, count: calls }]) => h("tr", {},
-    h("th", { scope: "row" }, name.replaceAll("_", " "), h("small", {}, `${count(calls)} calls`)),
+    h("th", { scope: "row" }, name.replaceAll("_", " "), h("small", {}, plural(calls, "call"))),
     h("td", {}, short(p50)), h("td", {}, short(p95)), h("td", {}, short(p99)),
     h("td", { class: "bars", "aria-hidden": "true" }, [p99, p95, p50].map((value, i) => h("i", { class: `bar bar-${i}`, style: `width:${(100 * value) / most}%` })))));
   return h("section", {}, h("h2", {}, "Latency by stage [ms]"),

@@ -22,7 +22,8 @@ import { Timeline } from "./timeline.js";
 const MOST_VIEWS = 4;
 const SHOWN = ["colour", "static", "dynamic", "unknown", "path", "scan", "dim", "corrections", "height", "range", "rangeFrom", "size"];
 
-function subtitleOf(metas) {
+function subtitleOf(metas, total) {
+  if (total > metas.length) return `the first ${metas.length} of ${total} maps side by side`;
   if (metas.length > 1) return `${metas.length} maps side by side`;
   const [{ scans, counts, preset }] = metas;
   return [scans ? `${count(scans)} scans` : null, counts?.dynamic ? `${count(counts.dynamic)} points removed` : null, preset && `preset ${preset}`].filter(Boolean).join(" · ");
@@ -135,7 +136,7 @@ export async function startReport(runs) {
   const panels = panelsOf(session, shown);
   const timeline = timelineOf(session);
   document.title = `${metas.map(({ name }) => name).join(", ")} – DynamicFilter`;
-  const page = frame({ title: metas.length > 1 ? "DynamicFilter" : metas[0].name, subtitle: subtitleOf(metas), panels, timeline: timeline.element });
+  const page = frame({ title: metas.length > 1 ? "DynamicFilter" : metas[0].name, subtitle: subtitleOf(metas, runs.length), panels, timeline: timeline.element });
   const automation = expose(session);
   try {
     const cells = cellsOf(metas, page.stage);

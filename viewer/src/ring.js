@@ -2,6 +2,8 @@
 // A cloud of bounded size: new points take the place of the oldest.
 import { Cloud } from "./cloud.js";
 
+const MOST_RANGES = 500;
+
 export class Ring extends Cloud {
   #head = 0;
 
@@ -32,6 +34,10 @@ export class Ring extends Cloud {
   changed(name, begin, n) {
     const attribute = this.geometry.getAttribute(name);
     attribute.addUpdateRange(begin, n);
+    if (attribute.updateRanges.length > MOST_RANGES) {  // a hidden page draws nothing for hours
+      attribute.clearUpdateRanges();
+      attribute.addUpdateRange(0, attribute.array.length);
+    }
     attribute.needsUpdate = true;
   }
 }

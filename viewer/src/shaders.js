@@ -39,12 +39,12 @@ void main() {
   vec3 p = low + stepSize * position;
   int bits = int(verdict + 0.5);
   int settled = bits & 3, truth = (bits >> 2) & 3, instant = (bits >> 4) & 3;
-  int shown = mode == ${mode("instant")} ? instant : settled;
+  int shown = mode == ${mode("instant")} ? instant : settled;  // 3: not recorded
 
   float away = fromPath
     ? pathReach * texture(pathDistance, (p.xy - pathBox.xy) * pathBox.zw).r
     : distance(p, sensor);
-  bool hidden = ((layers >> shown) & 1) == 0 || p.z < heightCut.x || p.z > heightCut.y || away < rangeCut.x || away > rangeCut.y;
+  bool hidden = ((layers >> (shown % 3)) & 1) == 0 || p.z < heightCut.x || p.z > heightCut.y || away < rangeCut.x || away > rangeCut.y;
   if (hidden) {
     gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
     gl_PointSize = 0.0;
@@ -59,16 +59,17 @@ void main() {
   else if (mode == ${mode("time")}) colour = scaled(time);
   else if (mode == ${mode("error")}) {
     bool removed = settled == 2;
-    stress = truth != 0 && removed != (truth == 2) ? 2.0 : 1.0;  // errors are few: they have to be found
-    colour = truth == 0 ? ${kind("none")} : truth == 1
+    bool known = truth == 1 || truth == 2;
+    stress = known && removed != (truth == 2) ? 2.0 : 1.0;  // errors are few: they have to be found
+    colour = !known ? ${kind("none")} : truth == 1
       ? (removed ? ${kind("falseRemoved")} : ${kind("rightStatic")})
       : (removed ? ${kind("rightDynamic")} : ${kind("missed")});
   } else {
-    colour = shown == 1 ? ${kind("static")} : shown == 2 ? ${kind("dynamic")} : ${kind("unknown")};
+    colour = shown == 1 ? ${kind("static")} : shown == 2 ? ${kind("dynamic")} : shown == 3 ? ${kind("none")} : ${kind("unknown")};
     // A little height in the grey, so that a street can be read without another colouring.
     if (shown == 1) colour *= 0.86 + 0.2 * clamp(height, 0.0, 1.0);
   }
-  bool corrected = markCorrected && settled != instant;
+  bool corrected = markCorrected && instant != 3 && settled != instant;
   if (corrected) {
     colour = ${kind("corrected")};
     stress = 1.5;

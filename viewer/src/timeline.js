@@ -115,7 +115,10 @@ export class Timeline {
     const context = strip.getContext("2d");
     context.beginPath();
     context.moveTo(0, height);
-    amounts.forEach((n, i) => context.lineTo((i / (amounts.length - 1)) * width, height * (1 - (0.95 * n) / most)));
+    const every = Math.max(1, Math.floor(amounts.length / width));
+    for (let i = 0; i < amounts.length; i += every) {
+      context.lineTo((i / (amounts.length - 1)) * width, height * (1 - (0.95 * amounts[i]) / most));
+    }
     context.lineTo(width, height);
     context.fillStyle = getComputedStyle(strip).color;
     context.fill();

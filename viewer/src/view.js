@@ -56,6 +56,7 @@ export class View {
     this.target = new THREE.WebGLRenderTarget(1, 1, { depthTexture: new THREE.DepthTexture(1, 1, THREE.UnsignedIntType) });
     this.screen = screenPass();
     new ResizeObserver(() => this.resize()).observe(element);
+    this.canvas.addEventListener("webglcontextrestored", () => this.redraw());
     orbit.watch(() => this.move());
     this.resize();
   }
