@@ -9,7 +9,7 @@ const LISTED = 50;
 /** What is shown of how much, as a sentence. */
 export function thinned({ points_shown: shown, points_total: total, spacing }) {
   if (!(total > shown)) return `All ${count(shown)} points of the map are shown.`;
-  return `One point a cube of ${metres(spacing)} and verdict: ${count(shown)} of ${count(total)} are shown.`;
+  return `One point a cube of ${metres(spacing)}: ${count(shown)} of ${count(total)} shown.`;
 }
 
 function playback(meta) {

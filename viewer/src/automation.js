@@ -9,7 +9,7 @@ function settled(views) {
 }
 
 const plain = (point) => point && {
-  run: point.owner.run.number, source: point.source, index: point.index, position: point.position,
+  run: point.owner.run.number ?? 0, source: point.source, index: point.index, position: point.position,
   verdict: point.verdict, voxel: point.voxel, row: point.row,
 };
 
@@ -17,11 +17,10 @@ function camera({ target, yaw, pitch, distance }) {
   return { target, yaw, pitch, distance };
 }
 
-export function exposeReport(session) {
+/** `more`: functions of a kind of page. */
+export function expose(session, more = {}) {
   let done, failed;
-  const started = performance.timeOrigin;
   const times = {};
-  const since = () => performance.timeOrigin + performance.now() - started;
   const ready = new Promise((resolve, reject) => ([done, failed] = [resolve, reject]));
   ready.catch(() => {});  // the page says it itself
   const viewsOf = () => session.views.map(({ view }) => view);
@@ -43,14 +42,12 @@ export function exposeReport(session) {
     settled: () => settled(viewsOf()),
     project: (place, run = 0) => session.views[run].project(place),
     pick: (x, y, run = 0) => plain(session.views[run].pickAt(x, y)),
+    ...more,
   };
   return {
-    mapIsShown: () => {
-      times.mapReady = since();
-      requestAnimationFrame(() => requestAnimationFrame(() => (times.firstPoints = since())));
-    },
+    mapIsShown: () => (times.firstPoints = performance.now()),
     done: () => {
-      times.ready = since();
+      times.ready = performance.now();
       done();
     },
     failed,

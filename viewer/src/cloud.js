@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Points on the GPU as they are in the page: quantised, one attribute per array, no copies.
 import * as THREE from "three";
-import { COLOURINGS, colouringIndex, kindPalette, kindColour, rgb, scaleImage, scaleRow } from "./colours.js";
+import { colouringIndex, kindPalette, kindColour, rgb, scaleImage, scaleRow } from "./colours.js";
 import { finalOf, instantOf } from "./data.js";
 import { pointFragment, pointVertex } from "./shaders.js";
 
@@ -35,8 +35,8 @@ function uniforms({ low, step }) {
 }
 
 export class Cloud {
-  /** `positions` are low + step * p. The order is that of drawing: see draw(). */
-  constructor({ positions, verdicts, low, step }) {
+  /** `positions` are low + step * p, drawn in this order. `shares`: a cloud of the same arrays, of which only a range is drawn. */
+  constructor({ positions, verdicts, low, step, shares = null }) {
     this.positions = positions;
     this.verdicts = verdicts;
     this.low = low;
@@ -46,8 +46,12 @@ export class Cloud {
     this.settings = { layers: 7, instant: false, height: ALL, range: ALL, fromPath: false, sensor: [0, 0, 0] };
     this.field = null;  // distance from the path
     this.geometry = new THREE.BufferGeometry();
-    this.setAttribute("position", positions, 3);
-    this.setAttribute("verdict", verdicts);
+    if (shares) {
+      for (const name of ["position", "verdict"]) this.geometry.setAttribute(name, shares.geometry.getAttribute(name));
+    } else {
+      this.setAttribute("position", positions, 3);
+      this.setAttribute("verdict", verdicts);
+    }
     this.material = new THREE.ShaderMaterial({
       glslVersion: THREE.GLSL3, vertexShader: pointVertex, fragmentShader: pointFragment, uniforms: uniforms(this),
     });
@@ -122,7 +126,7 @@ export class Cloud {
   shows(i, x, y, z) {
     const { layers, instant, height, range, fromPath, sensor } = this.settings;
     const verdict = this.verdicts[i];
-    if (((layers >> (instant ? instantOf(verdict) : finalOf(verdict))) & 1) === 0) return false;
+    if (((layers >> ((instant ? instantOf(verdict) : finalOf(verdict)) % 3)) & 1) === 0) return false;
     if (z < height[0] || z > height[1]) return false;
     if (range === ALL) return true;
     const away = fromPath ? this.field.at(x, y) : Math.hypot(x - sensor[0], y - sensor[1], z - sensor[2]);
@@ -134,5 +138,3 @@ export class Cloud {
     this.material.dispose();
   }
 }
-
-export const usesScale = (id) => COLOURINGS.find((c) => c.id === id)?.scale !== undefined;

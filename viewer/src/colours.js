@@ -47,6 +47,9 @@ export const colouringsOf = (run) =>
 export const kindColour = (theme, kind) => KINDS[theme][kind];
 export const scaleGradient = (scale) => `linear-gradient(to right, ${SCALES[scale].join(", ")})`;
 
+/** `known(id)`: which of them a view can show. */
+export const colouringsWhere = (known) => COLOURINGS.filter(({ id }) => known(id));
+
 const channels = (hex) => [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16));
 
 /** Flat rgb triples 0..1 of all kinds. */

@@ -27,7 +27,7 @@ function colourSelect(store, colourings) {
 
 function rangeFromSelect(store) {
   const select = h("select", { "aria-label": "Range is measured from", onchange: () => store.set({ rangeFrom: select.value }) },
-    h("option", { value: "sensor" }, "from the sensor at the slider"),
+    h("option", { value: "sensor" }, "from the sensor"),
     h("option", { value: "path" }, "from the trajectory"));
   store.watch(["rangeFrom"], ({ rangeFrom }) => (select.value = rangeFrom));
   return select;

@@ -11,21 +11,27 @@ const TYPES = {
 };
 
 export const NO_VOXEL = 0xffffffff;
-export const UNKNOWN = 0, STATIC = 1, DYNAMIC = 2;
+export const UNKNOWN = 0, STATIC = 1, DYNAMIC = 2, NOT_RECORDED = 3;
+export const NO_COUNT = 0xffffffff;
 
 export const finalOf = (verdict) => verdict & 3;
 export const truthOf = (verdict) => (verdict >> 2) & 3;
 export const instantOf = (verdict) => (verdict >> 4) & 3;
 
+export const hasTruth = (verdict) => truthOf(verdict) === STATIC || truthOf(verdict) === DYNAMIC;
+export const isCorrected = (verdict) => instantOf(verdict) !== NOT_RECORDED && instantOf(verdict) !== finalOf(verdict);
+
+const bytesOf = Uint8Array.fromBase64?.bind(Uint8Array) ?? ((text) => {
+  const binary = atob(text);
+  const bytes = new Uint8Array(binary.length);
+  for (let i = 0; i < bytes.length; ++i) bytes[i] = binary.charCodeAt(i);
+  return bytes;
+});
+
 /** Base64 in pieces, so that a large array is never in memory as one more string. */
 async function* decoded(text) {
   const PIECE = 1 << 20;  // a multiple of 4: no piece ends within a group
-  for (let at = 0; at < text.length; at += PIECE) {
-    const binary = atob(text.slice(at, at + PIECE));
-    const bytes = new Uint8Array(binary.length);
-    for (let i = 0; i < bytes.length; ++i) bytes[i] = binary.charCodeAt(i);
-    yield bytes;
-  }
+  for (let at = 0; at < text.length; at += PIECE) yield bytesOf(text.slice(at, at + PIECE));
 }
 
 async function feed(writer, pieces) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Why a point got its verdict, in words. No element is made here.
-import { DYNAMIC, finalOf, instantOf, NO_VOXEL, STATIC, truthOf } from "./data.js";
+import { DYNAMIC, finalOf, hasTruth, instantOf, isCorrected, NO_VOXEL, NOT_RECORDED, STATIC, truthOf } from "./data.js";
 import { expectedPasses, transience } from "./evidence.js";
 import { count, fixed, plural, short } from "./format.js";
 
@@ -39,14 +39,14 @@ function reason(verdict, { probability, evidence }) {
 
 function corrected(verdict, meta) {
   const first = instantOf(verdict);
-  if (!meta.has_instant) return null;
-  if (first === finalOf(verdict)) return { text: `The front-end said ${verdictWord(first)} at once.`, kind: "plain" };
+  if (!meta.has_instant || first === NOT_RECORDED) return null;
+  if (!isCorrected(verdict)) return { text: `The front-end said ${verdictWord(first)} at once.`, kind: "plain" };
   return { text: `Corrected: the front-end said ${verdictWord(first)} at first; later scans changed that.`, kind: "corrected" };
 }
 
 function judged(verdict, meta) {
   const truth = truthOf(verdict);
-  if (!meta.has_truth || truth === 0) return null;
+  if (!meta.has_truth || !hasTruth(verdict)) return null;
   const removed = finalOf(verdict) === DYNAMIC;
   if (truth === STATIC) {
     return removed ? { text: "False removal: the ground truth says it is static.", kind: "wrong" }
@@ -62,6 +62,10 @@ export function explain(point, facts, meta, words) {
   const result = {
     title: headline(verdict), verdict, notes: [corrected(point.verdict, meta), judged(point.verdict, meta)].filter(Boolean), counters: [],
   };
+  if (meta.live) {
+    result.reason = "While a run is under way the page has its verdicts only. The report of the finished run says why.";
+    return result;
+  }
   if (point.voxel === NO_VOXEL || point.voxel === undefined) {
     result.reason = "It has no voxel: the run keeps none for it, or the place was forgotten beyond the horizon.";
     return result;

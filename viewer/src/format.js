@@ -15,6 +15,9 @@ export function short(x) {
   return x.toFixed(size >= 10 ? 1 : size >= 1 ? 2 : size >= 0.1 ? 3 : 4);
 }
 
+const compacted = new Intl.NumberFormat("en-GB", { notation: "compact" });
+export const compact = (n) => compacted.format(n);
+
 export const metres = (x) => (Math.abs(x) < 1 ? `${count(Math.round(x * 100))} cm` : `${short(x)} m`);
 export const seconds = (x) => `${fixed(x, x < 1000 ? 2 : 1)} s`;
 

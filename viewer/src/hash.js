@@ -27,26 +27,34 @@ const write = (value) => (typeof value === "boolean" ? (value ? "1" : "0") : Arr
 
 export function toHash(values, orbit) {
   const parts = KEPT.filter((name) => values[name] !== DEFAULTS[name]).map((name) => `${name}=${write(values[name])}`);
+  const point = values.selection;
+  if (point) parts.push(`point=${point.owner.run.number}.${point.source}.${point.index}`);
   parts.push(`camera=${[...orbit.target, orbit.yaw, orbit.pitch, orbit.distance].map(round).join()}`);
   return `#${parts.join("&")}`;
 }
 
-/** What a link says: {settings, camera}; what makes no sense is left out. */
+function pointOf(text) {
+  const [, run, source, index] = /^(\d+)\.(map|scan)\.(\d{1,9})$/.exec(text) ?? [];
+  return run ? { run: Number(run), source, index: Number(index) } : null;
+}
+
+/** What a link says: {settings, camera, point}; what makes no sense is left out. */
 export function fromHash(hash) {
   const settings = {};
-  let camera = null;
+  let camera = null, point = null;
   for (const part of hash.slice(1).split("&")) {
     const [name, text = ""] = part.split("=");
     if (name === "camera") camera = numbers(text, 6);
+    if (name === "point") point = pointOf(text);
     const value = READERS[name]?.(text);
     if (value !== undefined) settings[name] = value;
   }
-  return { settings, camera: camera && { target: camera.slice(0, 3), yaw: camera[3], pitch: camera[4], distance: camera[5] } };
+  return { settings, point, camera: camera && { target: camera.slice(0, 3), yaw: camera[3], pitch: camera[4], distance: camera[5] } };
 }
 
 /** Keeps the address up to date, without an entry in the history for every turn of the view. */
 export function keepHash({ store, orbit }) {
   const write = debounce(() => history.replaceState(null, "", toHash(store.values, orbit)), 400);
-  store.watch(KEPT, write);
+  store.watch([...KEPT, "selection"], write);
   orbit.watch(write);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 import { COLOURINGS } from "./colours.js";
+import { goToNextError } from "./errors.js";
 import { helpIsOpen, openHelp } from "./help.js";
 import { toggleTheme } from "./theme.js";
 
@@ -26,6 +27,7 @@ export function bindKeys({ session, timeline, colourings, pickMiddle }) {
     end: () => timeline.jump(-1),
     0: () => session.fit(),
     t: () => session.top(),
+    g: () => session.centreOnSensor(),
     f: () => flip("follow"),
     w: () => orbit.pan(0, -MOVE),
     s: () => orbit.pan(0, MOVE),
@@ -43,6 +45,8 @@ export function bindKeys({ session, timeline, colourings, pickMiddle }) {
     c: () => flip("unknown"),
     p: () => flip("scan"),
     m: () => flip("corrections"),
+    n: () => goToNextError(session, "removed"),
+    b: () => goToNextError(session, "missed"),
     l: toggleTheme,
     "?": openHelp,
     escape: () => session.select(null),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 import { runsInPage } from "./data.js";
 import { h } from "./dom.js";
+import { startLive } from "./live.js";
 import { startReport } from "./report.js";
 import "./style.css";
 import "./panels.css";
@@ -11,14 +12,18 @@ function missing() {
   return null;
 }
 
+const say = (words) => document.getElementById("app").replaceChildren(h("p", { class: "boot", role: "alert" }, words));
+
 function start() {
   const problem = missing();
   if (problem) {
-    document.getElementById("app").replaceChildren(h("p", { class: "boot", role: "alert" }, problem));
+    say(problem);
     return;
   }
   const runs = runsInPage();
   if (runs.length > 0) startReport(runs);
+  else if (location.protocol.startsWith("http")) startLive();
+  else say("There are no data in this page, and no server behind it: it is a part of the command dynamicfilter, which fills it in.");
 }
 
 start();

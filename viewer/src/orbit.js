@@ -4,6 +4,10 @@
 export const FIELD_OF_VIEW = (50 * Math.PI) / 180;
 const STEEPEST = Math.PI / 2 - 1e-3;  // looking straight down leaves no direction to be up
 
+const OBLIQUE_YAWS = [-0.35, -0.6, -0.9, -1.2, -1.9, -2.2];
+
+const OBLIQUE_PITCH = 0.75;
+
 const clamp = (x, low, high) => Math.min(high, Math.max(low, x));
 
 export class Orbit {
@@ -61,15 +65,29 @@ export class Orbit {
     this.set({ distance, target: this.target.map((t, c) => t + shift * (x * right[c] + y * up[c])) });
   }
 
-  /** Looks obliquely at a box so that all of it is in view. */
-  fit([low, high], aspect) {
-    const target = low.map((l, c) => (l + high[c]) / 2);
-    const half = high.map((x, c) => (x - low[c]) / 2);
-    const alongX = half[0] > half[1];
-    const yaw = alongX ? -Math.PI / 2 - 0.35 : -0.35;  // the long side lies across the screen
-    const across = alongX ? half[0] : half[1], deep = alongX ? half[1] : half[0];
+  /** Looks obliquely at a box, from the side from which it fills a screen of this aspect best. */
+  fit(box, aspect) {
+    const target = box[0].map((low, c) => (low + box[1][c]) / 2);
+    const tried = OBLIQUE_YAWS.map((yaw) => {
+      Object.assign(this, { yaw, pitch: OBLIQUE_PITCH });
+      return { yaw, distance: this.#distanceToHold(box, target, aspect) };
+    });
+    const best = tried.reduce((a, b) => (b.distance < a.distance ? b : a));
+    this.set({ target, yaw: best.yaw, pitch: OBLIQUE_PITCH, distance: 1.04 * best.distance });
+  }
+
+  /** How far away all corners of a box are in view. */
+  #distanceToHold([low, high], target, aspect) {
+    const { right, up } = this.axes;
+    const { direction } = this;
     const tangent = Math.tan(FIELD_OF_VIEW / 2);
-    const distance = 1.12 * Math.max(across / (tangent * Math.max(aspect, 0.3)), 0.55 * deep / tangent) + 0.35 * deep;
-    this.set({ target, yaw, pitch: 0.55, distance: Math.max(distance, 2) });
+    let distance = 0;
+    for (let corner = 0; corner < 8; ++corner) {
+      const d = target.map((t, c) => ((corner >> c) & 1 ? high[c] : low[c]) - t);
+      const along = (axis) => Math.abs(axis[0] * d[0] + axis[1] * d[1] + axis[2] * d[2]);
+      const nearer = direction[0] * d[0] + direction[1] * d[1] + direction[2] * d[2];
+      distance = Math.max(distance, nearer + along(right) / (tangent * aspect), nearer + along(up) / tangent);
+    }
+    return distance;
   }
 }

@@ -3,7 +3,7 @@
 
 const CLICK_REACH = 4;  // px
 
-export function steer(canvas, orbit, { click, doubleClick, grabbed }) {
+export function steer(canvas, orbit, { click, doubleClick }) {
   const pointers = new Map();
   let travelled = 0;
 
@@ -25,7 +25,6 @@ export function steer(canvas, orbit, { click, doubleClick, grabbed }) {
     const dx = event.offsetX - before.x, dy = event.offsetY - before.y;
     travelled += Math.hypot(dx, dy);
     if (travelled < CLICK_REACH) return;
-    grabbed();
     if (pointers.size >= 2) {
       const was = spread();
       pointers.set(event.pointerId, { x: event.offsetX, y: event.offsetY });

@@ -7,6 +7,7 @@ import { explain, verdictWord } from "./explain.js";
 import { fixed, plural } from "./format.js";
 
 const MOST_LISTED = 200;
+const WITHOUT_VOXEL = 0.1;  // m, of the box around a point
 
 const empty = () => h("div", { class: "empty-state" },
   h("h2", {}, "Why is this point gone?"),
@@ -76,11 +77,22 @@ function about(session, point) {
       : h("p", {}, "Seen in ", h("button", { type: "button", class: "link", onclick: () => goTo(point.row) }, scanWords(run, point.row)), `${range}.`),
     passList(session, point, facts.passes, facts, goTo),
     told.counters.length ? h("section", {}, h("h2", {}, "Its voxel"), counterTable(told.counters)) : null,
-    run.meta.has_evidence || run.meta.scans === 0 ? null
-      : h("p", { class: "muted" }, `The preset ${run.meta.preset} keeps no counters of each voxel, so it cannot be said which scans saw through it.`),
+    run.meta.has_evidence || run.meta.live || run.meta.scans === 0 ? null
+      : h("p", { class: "muted" }, `${run.meta.preset ? `The preset ${run.meta.preset}` : "This run"} keeps no counters of each voxel, so it cannot be said which scans saw through it.`),
     facts.evidence ? h("p", { class: "muted" }, "The probability is not a function of these counts alone: the voxels within two cells vote too, most of all those that came and went at the same time.") : null,
     h("p", { class: "muted place" }, `x, y, z: ${world} m · verdict bits ${verdict}`),
   ].filter(Boolean);
+}
+
+/** A box around the point's voxel, at the same place of the world in all views. */
+function markPlace({ views }, point) {
+  const { owner, voxel, position } = point;
+  const edge = owner.run.meta.voxel_size;
+  const hasVoxel = voxel !== undefined && voxel !== NO_VOXEL && edge;
+  const middle = hasVoxel ? owner.voxelMiddle(point) : position;
+  for (const { overlay, view } of views) {
+    overlay.showBox(middle.map((m, c) => m + owner.view.offset[c] - view.offset[c]), hasVoxel ? edge : WITHOUT_VOXEL);
+  }
 }
 
 export function pointPanel(session) {
@@ -88,12 +100,7 @@ export function pointPanel(session) {
   session.store.watch(["selection"], ({ selection: point }) => {
     element.replaceChildren(...(point ? about(session, point) : [empty()]));
     if (!point) return;
-    const { owner } = point;
-    if (point.voxel !== undefined && point.voxel !== NO_VOXEL && owner.run.meta.voxel_size) {
-      owner.overlay.showBox(owner.voxelMiddle(point), owner.run.meta.voxel_size);
-    } else {
-      owner.overlay.showBox(point.position, 0.1);
-    }
+    markPlace(session, point);
   });
   return element;
 }

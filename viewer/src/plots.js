@@ -4,7 +4,7 @@ import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import { kindColour } from "./colours.js";
 import { debounce, h } from "./dom.js";
-import { count, short } from "./format.js";
+import { compact, count, plural, short } from "./format.js";
 import { heatmap } from "./heatmap.js";
 import { countSeries, evidenceHistogram, probabilityHistogram, scoreSeries } from "./series.js";
 import { currentTheme, watchTheme } from "./theme.js";
@@ -18,7 +18,7 @@ const style = (name) => getComputedStyle(document.documentElement).getPropertyVa
 function axes(unit) {
   const common = { stroke: style("--muted"), grid: { stroke: style("--line"), width: 1 }, ticks: { show: false }, font: "11px system-ui" };
   return [{ ...common, size: 26, values: (_, ticks) => ticks.map((t) => `${t} s`) },
-    { ...common, size: 46, values: (_, ticks) => ticks.map((t) => (t === null ? "" : unit === "%" ? `${Math.round(100 * t)}` : count(t))) }];
+    { ...common, size: 46, values: (_, ticks) => ticks.map((t) => (t === null ? "" : unit === "%" ? `${Math.round(100 * t)}` : compact(t))) }];
 }
 
 class TimePlot {
@@ -51,6 +51,13 @@ class TimePlot {
       const row = this.#plot.cursor.idx;
       if (row !== null && row !== undefined) this.jump(row);
     });
+    this.#plot.over.addEventListener("mouseleave", () => this.#showCurrent());
+    this.#showCurrent();
+  }
+
+  /** The numbers of the scan shown, while the pointer asks for no other. */
+  #showCurrent() {
+    requestAnimationFrame(() => this.#plot?.setLegend({ idx: this.current() }, false));
   }
 
   /** A line at the scan shown. */
@@ -64,6 +71,7 @@ class TimePlot {
 
   refresh() {
     this.#plot?.redraw(false, false);
+    this.#showCurrent();
   }
 }
 
@@ -75,9 +83,8 @@ function timePlots(run, jump, current) {
   const add = (title, lines, unit) => plots.push(new TimePlot({ title, lines, times, jump, current, unit }));
   const counts = countSeries(run);
   if (counts) {
-    const lines = [{ label: "removed", values: counts.removed }];
-    if (run.meta.has_instant) lines.push({ label: "corrected later", values: counts.corrected });
-    add("Points removed per scan", lines);
+    add("Points removed per scan", [{ label: "removed", values: counts.removed }]);
+    if (counts.corrected.some((n) => n !== null) && run.meta.has_instant) add("Points whose first verdict was corrected later", [{ label: "corrected", values: counts.corrected }]);
   }
   const settled = scoreSeries(run, 0), instant = run.meta.has_instant ? scoreSeries(run, 1) : null;
   if (settled) {
@@ -94,7 +101,7 @@ function latency(timing) {
   if (stages.length === 0) return null;
   const most = Math.max(...stages.map(([, stage]) => stage.p99 ?? 0)) || 1;
   const rows = stages.map(([name, { p50, p95, p99, count: calls }]) => h("tr", {},
-    h("th", { scope: "row" }, name.replaceAll("_", " "), h("small", {}, `${count(calls)} calls`)),
+    h("th", { scope: "row" }, name.replaceAll("_", " "), h("small", {}, plural(calls, "call"))),
     h("td", {}, short(p50)), h("td", {}, short(p95)), h("td", {}, short(p99)),
     h("td", { class: "bars", "aria-hidden": "true" }, [p99, p95, p50].map((value, i) => h("i", { class: `bar bar-${i}`, style: `width:${(100 * value) / most}%` })))));
   return h("section", {}, h("h2", {}, "Latency by stage [ms]"),
@@ -128,6 +135,12 @@ export function plotsOf(view, session) {
     drawAll();
     map?.draw();
   }));
-  new ResizeObserver(debounce(drawAll, 80)).observe(element);
+  const drawSoon = debounce(drawAll, 80);
+  let width = 0;
+  new ResizeObserver(() => {
+    if (width === 0) drawAll();  // the panel is opened
+    else drawSoon();
+    width = element.clientWidth;
+  }).observe(element);
   return element;
 }

@@ -1,41 +1,32 @@
 // SPDX-License-Identifier: MIT
 // The page of one finished run, or of several side by side.
-import { about, licences, thinned } from "./about.js";
+import { about, licences } from "./about.js";
 import { frame } from "./app.js";
-import { exposeReport } from "./automation.js";
+import { expose } from "./automation.js";
 import { colouringsOf } from "./colours.js";
 import { controls } from "./controls.js";
 import { h } from "./dom.js";
 import { count, fixed } from "./format.js";
+import { errorButtons } from "./errors.js";
 import { fromHash, keepHash } from "./hash.js";
 import { bindKeys } from "./keys.js";
-import { legend } from "./legend.js";
-import { steer } from "./orbit_input.js";
 import { pointPanel } from "./panel.js";
 import { plotsOf } from "./plots.js";
 import { RunView } from "./run_view.js";
 import { scoreTable } from "./scores.js";
 import { Session } from "./session.js";
-import { currentTheme, watchTheme } from "./theme.js";
+import { AROUND_MIDDLE, bindCanvas, cellsOf, showLegend } from "./stage.js";
+import { watchTheme } from "./theme.js";
 import { Timeline } from "./timeline.js";
 
 const MOST_VIEWS = 4;
 const SHOWN = ["colour", "static", "dynamic", "unknown", "path", "scan", "dim", "corrections", "height", "range", "rangeFrom", "size"];
 
-function subtitleOf(metas) {
+function subtitleOf(metas, total) {
+  if (total > metas.length) return `the first ${metas.length} of ${total} maps side by side`;
   if (metas.length > 1) return `${metas.length} maps side by side`;
   const [{ scans, counts, preset }] = metas;
   return [scans ? `${count(scans)} scans` : null, counts?.dynamic ? `${count(counts.dynamic)} points removed` : null, preset && `preset ${preset}`].filter(Boolean).join(" · ");
-}
-
-function cellsOf(runs, stage) {
-  stage.dataset.views = runs.length;
-  return runs.map(({ meta }) => {
-    const cell = h("div", { class: "cell", role: "group", "aria-label": meta.name }, runs.length > 1 ? h("h2", { class: "cell-name" }, meta.name) : null,
-      h("p", { class: "thinned" }, meta.points_total > meta.points_shown ? thinned(meta) : ""));
-    stage.append(cell);
-    return cell;
-  });
 }
 
 /** What can be chosen in any of the runs. */
@@ -48,13 +39,13 @@ function layersOf(metas) {
   const layers = [{ name: "static", label: "Static", amount: amount("static"), hint: "Key Z" },
     { name: "dynamic", label: "Removed", amount: amount("dynamic"), hint: "Key X" }];
   if (sum(metas, "unknown") > 0) layers.push({ name: "unknown", label: "Unknown", amount: amount("unknown"), hint: "Key C" });
-  if (metas.some(({ has_instant }) => has_instant)) layers.push({ name: "corrections", label: "Mark what was corrected later", hint: "Key M: where the final verdict is not the front-end's" });
+  if (metas.some(({ has_instant }) => has_instant)) layers.push({ name: "corrections", label: "Mark corrections", hint: "Key M: where the final verdict is not the front-end's" });
   return layers;
 }
 
 const SCAN_LAYERS = [
   { name: "path", label: "Trajectory" },
-  { name: "scan", label: "Points of the scan at the slider", hint: "Key P" },
+  { name: "scan", label: "Scan at the slider", hint: "Key P" },
   { name: "dim", label: "Dim the map below them" },
 ];
 
@@ -65,20 +56,19 @@ function timelineOf(session) {
       const { arrays, meta } = leader.run;
       const seconds = fixed(arrays["path-stamp"][row] - arrays["path-stamp"][0], 1);
       const index = arrays["path-index"]?.[row] ?? row;
-      const without = leader.frameOf(row) < 0 ? ", points not in the page" : "";
-      return `scan ${index} · ${row + 1} of ${meta.scans} · ${seconds} s${without}`;
+      const without = leader.frameOf(row) < 0 ? ", no points here" : "";
+      return `scan ${index} · ${seconds} s\n${row + 1} of ${count(meta.scans)}${without}`;
     },
   });
 }
 
-function fillTimeline(timeline, { run, ...view }) {
+function fillTimeline(timeline, { run }) {
   const stamps = Array.from(run.arrays["path-stamp"] ?? []);
   const ofFrames = run.arrays["path-frame"];
   const rows = stamps.map((_, row) => row);
   const played = rows.filter((row) => ofFrames?.[row] >= 0);
   const counts = run.arrays["path-counts"];
   timeline.setRows({ frames: played.length ? played : rows, stamps, amounts: counts ? rows.map((row) => counts[4 * row + 1]) : [] });
-  return view;
 }
 
 function panelsOf(session, runs) {
@@ -86,32 +76,12 @@ function panelsOf(session, runs) {
   const plots = h("div", {}), run = h("div", {}, metas.map((meta) => about({ meta }, metas.length === 1)), licences());
   const panels = [
     { id: "view", label: "View", element: h("div", { class: "controls" }) },
-    { id: "point", label: "Point", element: pointPanel(session) },
+    { id: "point", label: "Point", element: h("div", {}, pointPanel(session)) },
     { id: "plots", label: "Plots", element: plots },
     { id: "run", label: metas.length > 1 ? "Runs" : "Run", element: run },
   ];
   if (metas.length > 1) panels.splice(1, 0, { id: "scores", label: "Scores", element: scoreTable(metas) });
   return panels;
-}
-
-function bindCanvas(session, view, open) {
-  const { canvas } = view.view;
-  canvas.setAttribute("aria-label", `Points of ${view.name}. Enter explains the one in the middle.`);
-  canvas.setAttribute("role", "application");
-  const choose = (x, y) => {
-    const point = view.pickAt(x, y);
-    session.select(point);
-    if (point) open("point");
-  };
-  steer(canvas, session.orbit, {
-    click: choose,
-    doubleClick: (x, y) => {
-      const point = view.pickAt(x, y, 12);
-      if (point) session.orbit.set({ target: point.position.map((p, c) => p + view.view.offset[c]) });
-    },
-    grabbed: () => session.store.get("follow") || undefined,
-  });
-  return choose;
 }
 
 /** Heights and ranges that the cuts reach over, in the frame of the first view. */
@@ -122,15 +92,9 @@ function extentOf(views) {
   return { heights: [low[2] - 0.5, high[2] + 0.5], reach: Math.max(10, Math.hypot(high[0] - low[0], high[1] - low[1])) };
 }
 
-function showLegend(session, stage, runs, extent) {
-  const box = h("div", { class: "legend", role: "region", "aria-label": "Legend" });
-  stage.append(box);
-  const stamps = () => session.leader?.run.arrays["path-stamp"];
-  const draw = () => box.replaceChildren(...legend(session.store.values, currentTheme(), {
-    heights: [extent.heights[0] + 0.5, extent.heights[1] - 0.5], duration: stamps()?.length ? stamps().at(-1) - stamps()[0] : 0,
-  }));
-  session.store.watch(["colour", "corrections"], draw);
-  watchTheme(draw);
+function durationOf({ leader }) {
+  const stamps = leader?.run.arrays["path-stamp"];
+  return stamps?.length ? stamps.at(-1) - stamps[0] : 0;
 }
 
 async function loadAll(session, panels, timeline, say) {
@@ -144,11 +108,25 @@ async function loadAll(session, panels, timeline, say) {
   session.showRow(session.store.get("row"));
   say("Reading the evidence …");
   for (const view of views) await view.loadEvidence();
+  session.refreshSelection();
   const several = views.length > 1;
   const plots = panels.find(({ id }) => id === "plots").element;
   plots.append(...views.map((view) => h("article", {}, several ? h("h2", { class: "run-name" }, view.name) : null, plotsOf(view, session))));
   say("");
 }
+
+/** The point of a link. */
+function chooseLinked(session, point) {
+  const view = point && session.views[point.run];
+  const cloud = view?.clouds[point.source];
+  if (cloud && point.index < cloud.positions.length / 3) session.select(view.point(point.source, point.index));
+}
+
+/** Until what was asked for is on the screen; not for ever, as a hidden tab draws nothing. */
+const nextPicture = () => new Promise((done) => {
+  setTimeout(done, 1000);
+  requestAnimationFrame(() => requestAnimationFrame(done));
+});
 
 export async function startReport(runs) {
   const shown = runs.slice(0, MOST_VIEWS);
@@ -158,10 +136,10 @@ export async function startReport(runs) {
   const panels = panelsOf(session, shown);
   const timeline = timelineOf(session);
   document.title = `${metas.map(({ name }) => name).join(", ")} – DynamicFilter`;
-  const page = frame({ title: metas.length > 1 ? "DynamicFilter" : metas[0].name, subtitle: subtitleOf(metas), panels, timeline: timeline.element });
-  const automation = exposeReport(session);
+  const page = frame({ title: metas.length > 1 ? "DynamicFilter" : metas[0].name, subtitle: subtitleOf(metas, runs.length), panels, timeline: timeline.element });
+  const automation = expose(session);
   try {
-    const cells = cellsOf(shown, page.stage);
+    const cells = cellsOf(metas, page.stage);
     const middle = metas[0].origin ?? [0, 0, 0];
     session.views = shown.map((run, i) =>
       new RunView(run, cells[i], session.orbit, (run.meta.origin ?? [0, 0, 0]).map((o, c) => o - middle[c])));
@@ -172,6 +150,7 @@ export async function startReport(runs) {
     for (const view of session.views) await view.loadMap();
     if (link.camera) session.orbit.set(link.camera);
     else session.fit();
+    await nextPicture();
     automation.mapIsShown();
     const extent = extentOf(session.views);
     const colourings = allColourings(shown);
@@ -180,7 +159,9 @@ export async function startReport(runs) {
       camera: [{ label: "All", key: "0", act: () => session.fit() }, { label: "Top", key: "T", act: () => session.top() },
         { label: "Sensor", key: "G", act: () => session.centreOnSensor() }],
     }));
-    showLegend(session, page.stage, shown, extent);
+    const wrong = errorButtons(session, shown);
+    if (wrong) panels.find(({ id }) => id === "point").element.append(wrong);
+    showLegend(session, page.stage, { heights: () => [extent.heights[0] + 0.5, extent.heights[1] - 0.5], duration: () => durationOf(session) });
     session.store.watch(["row"], ({ row }) => {
       for (const { overlay } of session.views) overlay.setVisible("sight", false);
       session.showRow(row);
@@ -188,9 +169,10 @@ export async function startReport(runs) {
     session.store.watch(["follow"], ({ follow }) => follow && session.centreOnSensor());
     bindKeys({ session, timeline, colourings: colourings.map(({ id }) => id), pickMiddle: (canvas) => {
       const i = session.views.findIndex(({ view }) => view.canvas === canvas);
-      pickers[i](canvas.clientWidth / 2, canvas.clientHeight / 2);
+      pickers[i](canvas.clientWidth / 2, canvas.clientHeight / 2, AROUND_MIDDLE);
     } });
     await loadAll(session, panels, timeline, page.say);
+    chooseLinked(session, link.point);
     keepHash(session);
     automation.done();
   } catch (error) {

@@ -6,7 +6,7 @@ import { fixed, percent } from "./format.js";
 const READINGS = {
   excluded: "mixed voxels left out", static_wins: "mixed voxels static", majority: "mixed voxels by majority", erasor: "as ERASOR's script",
 };
-const POINT_ROWS = [["sa", "static accuracy SA"], ["da", "dynamic accuracy DA"], ["aa", "associated accuracy AA"], ["ha", "harmonic accuracy HA"], ["iou", "moving IoU"]];
+const POINT_ROWS = [["sa", "static accuracy SA"], ["da", "dynamic accuracy DA"], ["aa", "geometric mean AA"], ["ha", "harmonic mean HA"], ["iou", "moving IoU"]];
 
 const at = (object, path) => path.reduce((value, key) => value?.[key], object);
 

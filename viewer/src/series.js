@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the plots show, from the arrays of a run.
+import { NO_COUNT } from "./data.js";
 
 const column = (array, columns, c) => {
   const values = new Float64Array(array.length / columns);
@@ -9,11 +10,11 @@ const column = (array, columns, c) => {
 
 const ratio = (a, b) => (a + b > 0 ? a / (a + b) : null);
 
-/** Removed points of each scan and how many of its points were corrected later; null without scans. */
+/** Removed points of each scan and how many of its points were corrected later, null where that is not known; null without scans. */
 export function countSeries(run) {
   const counts = run.arrays["path-counts"];
   if (!counts?.length) return null;
-  return { removed: column(counts, 4, 1), corrected: column(counts, 4, 3) };
+  return { removed: column(counts, 4, 1), corrected: Array.from(column(counts, 4, 3), (n) => (n === NO_COUNT ? null : n)) };
 }
 
 /**

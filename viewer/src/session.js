@@ -49,6 +49,12 @@ export class Session {
     this.store.set({ selection: point });
   }
 
+  /** More is known of the point chosen. */
+  refreshSelection() {
+    const { selection } = this.store.values;
+    if (selection) this.select(selection.owner.point(selection.source, selection.index));
+  }
+
   centreOnSensor() {
     const sensor = this.leader?.sensorAt(this.leader.row);
     if (sensor) this.orbit.set({ target: sensor.map((s, c) => s + this.leader.view.offset[c]) });

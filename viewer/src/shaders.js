@@ -31,6 +31,7 @@ uniform float pathReach;    // m at the value 1
 uniform float pointWorld, pointLeast, pixelsPerMetre;
 
 out vec3 colour;
+out float size;
 
 vec3 scaled(float value) { return texture(scales, vec2(0.998 * clamp(value, 0.0, 1.0) + 0.001, scaleCoordinate)).rgb; }
 
@@ -38,18 +39,19 @@ void main() {
   vec3 p = low + stepSize * position;
   int bits = int(verdict + 0.5);
   int settled = bits & 3, truth = (bits >> 2) & 3, instant = (bits >> 4) & 3;
-  int shown = mode == ${mode("instant")} ? instant : settled;
+  int shown = mode == ${mode("instant")} ? instant : settled;  // 3: not recorded
 
   float away = fromPath
     ? pathReach * texture(pathDistance, (p.xy - pathBox.xy) * pathBox.zw).r
     : distance(p, sensor);
-  bool out_ = ((layers >> shown) & 1) == 0 || p.z < heightCut.x || p.z > heightCut.y || away < rangeCut.x || away > rangeCut.y;
-  if (out_) {
+  bool hidden = ((layers >> (shown % 3)) & 1) == 0 || p.z < heightCut.x || p.z > heightCut.y || away < rangeCut.x || away > rangeCut.y;
+  if (hidden) {
     gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
     gl_PointSize = 0.0;
     return;
   }
 
+  float stress = 1.0;
   float height = (p.z - heightScale.x) / max(heightScale.y - heightScale.x, 1e-3);
   if (mode == ${mode("height")}) colour = scaled(height);
   else if (mode == ${mode("intensity")}) colour = scaled(intensity);
@@ -57,27 +59,38 @@ void main() {
   else if (mode == ${mode("time")}) colour = scaled(time);
   else if (mode == ${mode("error")}) {
     bool removed = settled == 2;
-    colour = truth == 0 ? ${kind("none")} : truth == 1
+    bool known = truth == 1 || truth == 2;
+    stress = known && removed != (truth == 2) ? 2.0 : 1.0;  // errors are few: they have to be found
+    colour = !known ? ${kind("none")} : truth == 1
       ? (removed ? ${kind("falseRemoved")} : ${kind("rightStatic")})
       : (removed ? ${kind("rightDynamic")} : ${kind("missed")});
   } else {
-    colour = shown == 1 ? ${kind("static")} : shown == 2 ? ${kind("dynamic")} : ${kind("unknown")};
+    colour = shown == 1 ? ${kind("static")} : shown == 2 ? ${kind("dynamic")} : shown == 3 ? ${kind("none")} : ${kind("unknown")};
     // A little height in the grey, so that a street can be read without another colouring.
     if (shown == 1) colour *= 0.86 + 0.2 * clamp(height, 0.0, 1.0);
   }
-  bool corrected = markCorrected && settled != instant;
-  if (corrected) colour = ${kind("corrected")};
+  bool corrected = markCorrected && instant != 3 && settled != instant;
+  if (corrected) {
+    colour = ${kind("corrected")};
+    stress = 1.5;
+  }
   colour = mix(colour, background, fade);
 
   vec4 eye = modelViewMatrix * vec4(p, 1.0);
   gl_Position = projectionMatrix * eye;
-  gl_PointSize = clamp(pointWorld * pixelsPerMetre / max(-eye.z, 0.01), pointLeast, 24.0) * (corrected ? 1.5 : 1.0);
+  size = stress * clamp(pointWorld * pixelsPerMetre / max(-eye.z, 0.01), pointLeast * stress, 24.0);
+  gl_PointSize = size;
 }`;
 
 export const pointFragment = /* glsl */ `
 in vec3 colour;
+in float size;
 out vec4 pixel;
-void main() { pixel = vec4(colour, 1.0); }`;
+void main() {
+  vec2 off = gl_PointCoord - 0.5;
+  if (size > 4.0 && dot(off, off) > 0.25) discard;
+  pixel = vec4(colour, 1.0);
+}`;
 
 export const screenVertex = /* glsl */ `
 out vec2 at;

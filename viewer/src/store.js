@@ -44,6 +44,7 @@ export const DEFAULTS = {
   size: 1,
   follow: false,
   row: 0,  // of the path
-  playing: false,
+  playing: false,  // in a live view: showing the newest
+  trail: false,  // in a live view: what was removed from earlier scans
   speed: 1,
 };

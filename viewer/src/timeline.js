@@ -12,18 +12,16 @@ const icon = (path) => {
 };
 const ICONS = { play: "M4 2.5v11l9-5.5z", pause: "M4 3h3v10H4zM9 3h3v10H9z", back: "M12 3v10L5.5 8zM3 3h2v10H3z", next: "M4 3v10l6.5-5zM11 3h2v10h-2z" };
 
-/**
- * `frames`: rows that can be shown, ascending; `stamps`: by row, s; `amounts`: by row, drawn above the slider;
- * `words`: what a row is called.
- */
 export class Timeline {
   #timer = 0;
   #clock = 0;  // ms, when the row being played was due
   #time = 0;  // s, of the recording
 
-  constructor(store, { words }) {
+  /** `words(row)`: what a row is called. Where `lives`, playing means to show the newest, and whoever adds rows sees to it. */
+  constructor(store, { words, lives = false }) {
     this.store = store;
     this.words = words;
+    this.lives = lives;
     this.frames = [];
     this.stamps = [];
     this.amounts = [];
@@ -36,12 +34,12 @@ export class Timeline {
     this.playButton = h("button", { type: "button", class: "play", onclick: () => this.toggle() });
     const speed = h("select", { "aria-label": "Speed", onchange: () => store.set({ speed: Number(speed.value) }) },
       SPEEDS.map((s) => h("option", { value: s }, `${s}×`)));
-    this.element = h("div", { class: "timeline", role: "group", "aria-label": "Playback" },
+    this.element = h("div", { class: "timeline empty", role: "group", "aria-label": "Playback" },
       h("div", { class: "transport" },
         h("button", { type: "button", "aria-label": "Scan before", title: "Key ←", onclick: () => this.step(-1) }, icon(ICONS.back)),
         this.playButton,
         h("button", { type: "button", "aria-label": "Next scan", title: "Key →", onclick: () => this.step(1) }, icon(ICONS.next)),
-        speed),
+        lives ? null : speed),
       h("div", { class: "track" }, this.strip, this.slider), this.label);
     store.watch(["speed"], (values) => (speed.value = values.speed));
     store.watch(["row"], ({ row }) => this.#showRow(row));
@@ -49,6 +47,7 @@ export class Timeline {
     new ResizeObserver(() => this.#drawStrip()).observe(this.strip);
   }
 
+  /** `frames`: rows that can be shown, ascending; `stamps`: by row, s; `amounts`: by row, drawn above the slider. */
   setRows({ frames, stamps, amounts }) {
     Object.assign(this, { frames, stamps, amounts });
     this.slider.max = Math.max(0, stamps.length - 1);
@@ -59,8 +58,9 @@ export class Timeline {
 
   toggle() {
     const { playing, row } = this.store.values;
-    const atEnd = row >= (this.frames.at(-1) ?? 0);
-    this.store.set({ playing: !playing, scan: true, ...(!playing && atEnd ? { row: this.frames[0] ?? 0 } : {}) });
+    const last = this.frames.at(-1) ?? 0;
+    const start = this.lives ? last : row >= last ? this.frames[0] ?? 0 : row;
+    this.store.set({ playing: !playing, scan: true, ...(playing ? {} : { row: start }) });
   }
 
   /** To the frame before or after the row. */
@@ -87,7 +87,7 @@ export class Timeline {
     this.playButton.setAttribute("aria-label", playing ? "Pause" : "Play");
     this.playButton.title = "Space";
     clearTimeout(this.#timer);
-    if (!playing) return;
+    if (!playing || this.lives) return;
     this.#time = this.stamps[this.store.get("row")] ?? 0;
     this.#clock = performance.now();
     this.#timer = setTimeout(() => this.#tick(), TICK);
@@ -115,7 +115,10 @@ export class Timeline {
     const context = strip.getContext("2d");
     context.beginPath();
     context.moveTo(0, height);
-    amounts.forEach((n, i) => context.lineTo((i / (amounts.length - 1)) * width, height * (1 - (0.95 * n) / most)));
+    const every = Math.max(1, Math.floor(amounts.length / width));
+    for (let i = 0; i < amounts.length; i += every) {
+      context.lineTo((i / (amounts.length - 1)) * width, height * (1 - (0.95 * amounts[i]) / most));
+    }
     context.lineTo(width, height);
     context.fillStyle = getComputedStyle(strip).color;
     context.fill();

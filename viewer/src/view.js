@@ -7,7 +7,8 @@ import { screenFragment, screenVertex } from "./shaders.js";
 
 const NEAR = 0.1, FAR = 4000;
 const REST = 160;  // ms without a movement after which everything is drawn
-const SLOW = 45, QUICK = 24;  // ms from frame to frame: fewer, or more, points in the next
+const PAUSE = 1500;  // ms from frame to frame: not the same movement
+const SLOW = 80, QUICK = 34;  // ms from frame to frame: fewer, or more, points in the next
 
 function screenPass() {
   const material = new THREE.ShaderMaterial({
@@ -38,7 +39,7 @@ export class View {
     this.orbit = orbit;
     this.offset = offset;
     this.clouds = [];  // drawn in this order
-    this.budget = 250_000;  // points a frame while something moves
+    this.budget = 150_000;  // points a frame while something moves
     this.drawn = 0;  // points of the current picture so far
     this.frames = 0;
     this.moving = false;
@@ -55,6 +56,7 @@ export class View {
     this.target = new THREE.WebGLRenderTarget(1, 1, { depthTexture: new THREE.DepthTexture(1, 1, THREE.UnsignedIntType) });
     this.screen = screenPass();
     new ResizeObserver(() => this.resize()).observe(element);
+    this.canvas.addEventListener("webglcontextrestored", () => this.redraw());
     orbit.watch(() => this.move());
     this.resize();
   }
@@ -110,8 +112,11 @@ export class View {
   }
 
   #settle() {
+    if (this.#wanted) {  // frames take longer than the rest: the last of the movement is not drawn yet
+      this.#restTimer = setTimeout(() => this.#settle(), REST);
+      return;
+    }
     this.moving = false;
-    this.#last = 0;
     this.redraw();
   }
 
@@ -130,11 +135,12 @@ export class View {
     });
   }
 
+  /** From frame to frame of a movement; its first one says nothing. */
   #adapt(now) {
     const took = now - this.#last;
     this.#last = now;
-    if (took > 1000 || took <= 0) return;
-    if (took > SLOW) this.budget = Math.max(20_000, this.budget * 0.75);
+    if (took > PAUSE) return;
+    if (took > SLOW) this.budget = Math.max(60_000, this.budget * 0.75);
     else if (took < QUICK) this.budget = Math.min(20_000_000, this.budget * 1.2);
   }
 
@@ -181,7 +187,7 @@ export class View {
     screen.uniforms.colours.value = this.target.texture;
     screen.uniforms.depths.value = this.target.depthTexture;
     screen.uniforms.texel.value.set(1 / this.target.width, 1 / this.target.height).multiplyScalar(renderer.getPixelRatio());
-    screen.uniforms.strength.value = lit ? 3 : 0;
+    screen.uniforms.strength.value = lit ? (this.theme === "light" ? 1.4 : 3) : 0;
     renderer.setRenderTarget(null);
     renderer.render(screen.scene, this.camera);
     renderer.render(this.overlay, this.camera);
