@@ -5,7 +5,6 @@
 #include <functional>
 #include <limits>
 #include <new>
-#include <numeric>
 
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/io/bag.hpp"
@@ -70,11 +69,12 @@ std::string bytes_of(const io::Cloud& cloud) {
 }
 std::string bytes_of(const fs::path& bag) {
     std::string bytes;
-    const auto notes = io::Bag(bag).for_each([&](const io::Message& message) {
+    const auto defects = io::Bag(bag).for_each([&](const io::Message& message) {
         bytes += message.topic.name + " ";
         append(bytes, message.data.data(), message.data.size());
     });
-    return std::accumulate(notes.begin(), notes.end(), bytes);
+    for (const io::Defect& defect : defects) bytes += defect.what;
+    return bytes;
 }
 std::string bytes_of(const io::PoseFile& file) {
     std::string bytes;
