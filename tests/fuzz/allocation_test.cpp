@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <new>
+#include <numeric>
 
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/io/bag.hpp"
