@@ -29,8 +29,8 @@ void say(const std::string& note) {
 Labels labels_of(const ConvertOptions& o, const io::Sequence& sequence, std::size_t i,
                  const io::Frame& frame) {
     if (!o.labels) {
-        return frame.truth_fault.empty() ? frame.truth
-                                         : Labels(frame.points.size(), Label::unknown);
+        const bool has_own = !sequence.has_truth() || !frame.truth.empty();
+        return has_own ? frame.truth : Labels(frame.points.size(), Label::unknown);
     }
     const fs::path folder =
         fs::is_directory(*o.labels / "labels") ? *o.labels / "labels" : *o.labels;

@@ -52,7 +52,7 @@ Points into_sensor(const Cloud& cloud, const Pose& T_world_sensor) {
 
 Labels truth_of(const Sequence& sequence, std::size_t i, const Cloud& cloud) {
     if (sequence.intensity_is_truth) return intensity_truth(cloud, sequence.scan_files[i]);
-    if (sequence.label_files.empty()) return {};
+    if (sequence.label_files.empty() || sequence.label_files[i].empty()) return {};
     Labels truth = read_labels(sequence.label_files[i]);
     if (truth.size() != cloud.size()) {
         throw InputError(sequence.label_files[i], "",

@@ -200,35 +200,25 @@ Layout find_layout(const fs::path& data, const OpenOptions& options) {
     return layout;
 }
 
-Paths find_labels(const Layout& layout) {
+Paths find_labels(const Layout& layout, std::vector<std::string>& notes) {
     if (!layout.labels) return {};
     std::map<std::string, fs::path> files;
     for (const fs::path& path : list_files(*layout.labels, {".label"})) {
         files[path.stem().string()] = path;
     }
+    const std::size_t found = files.size();
     Paths labels;
-    const fs::path* missing = nullptr;
     for (const fs::path& scan : layout.scans) {
         auto file = files.extract(scan.stem().string());
-        if (!file.empty())
-            labels.push_back(file.mapped());
-        else if (missing == nullptr)
-            missing = &scan;
+        labels.push_back(file.empty() ? fs::path() : file.mapped());
     }
-    if (labels.empty())
-        throw InputError(*layout.labels, "",
-                         "holds no label for any scan of " + layout.scan_folder.string());
-    if (missing != nullptr) {
-        throw InputError(*layout.labels, "",
-                         fmt::format("{} scans but {} label files; the first without is {}",
-                                     layout.scans.size(), labels.size(), missing->string()));
+    const std::size_t used = found - files.size();
+    if (used < labels.size() || !files.empty()) {
+        notes.push_back(fmt::format(
+            "{} holds labels of {} of {} scans, and {} of no scan; scans without are not scored",
+            layout.labels->string(), used, labels.size(), files.size()));
     }
-    if (!files.empty()) {
-        throw InputError(files.begin()->second, "",
-                         fmt::format("labels no scan of {}; {} label files too many",
-                                     layout.scan_folder.string(), files.size()));
-    }
-    return labels;
+    return used == 0 ? Paths{} : labels;
 }
 
 }  // namespace dynamic_filter::io

@@ -29,8 +29,8 @@ Layout find_layout(const std::filesystem::path& data, const OpenOptions& options
 /// True if a folder holds scans as files, in it or in one of the usual folders below.
 bool has_scans(const std::filesystem::path& data);
 
-/// One label file per scan, or none if there is no labels folder. Throws InputError for a missing
-/// and for an extra one.
-Paths find_labels(const Layout& layout);
+/// The label file of each scan, an empty path for scans without; empty if no scan has one. What is
+/// missing or belongs to no scan is told in `notes`: ground truth decides nothing.
+Paths find_labels(const Layout& layout, std::vector<std::string>& notes);
 
 }  // namespace dynamic_filter::io

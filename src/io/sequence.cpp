@@ -154,7 +154,7 @@ Sequence open_folder(const std::filesystem::path& data, const OpenOptions& optio
     sequence.root = data;
     sequence.scan_files = layout.scans;
     sequence.notes = layout.notes;
-    sequence.label_files = find_labels(layout);
+    sequence.label_files = find_labels(layout, sequence.notes);
     assign_stamps(sequence, assign_poses(sequence, layout));
     if (layout.format == Format::benchmark && !layout.poses) require_viewpoints(sequence);
     select(sequence, options);

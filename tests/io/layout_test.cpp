@@ -65,17 +65,21 @@ TEST_F(LayoutTest, SeveralTumFilesAreAmbiguous) {
     EXPECT_HAS(open_error(), "2 .tum files");
 }
 
-TEST_F(LayoutTest, LabelsForEachScan) {
+TEST_F(LayoutTest, LabelsMayBeOfSomeScansOnly) {
     put_bins("velodyne", 3);
     data.put("poses.txt", kitti_rows(3));
     std::filesystem::create_directories(data / "labels");
-    EXPECT_HAS(open_error(), "no label for any scan");
+    EXPECT_FALSE(open().has_truth());
+    EXPECT_HAS(open().notes.back(), "labels of 0 of 3 scans");
     put_labels(2);
-    EXPECT_HAS(open_error(), "000002.bin");
+    EXPECT_TRUE(open().has_truth());
+    EXPECT_TRUE(open().label_files[2].empty());
+    EXPECT_HAS(open().notes.back(), "labels of 2 of 3 scans");
     put_labels(3);
     EXPECT_TRUE(open().has_truth());
+    for (const std::string& note : open().notes) EXPECT_EQ(note.find("labels of"), note.npos);
     put_labels(4);
-    EXPECT_HAS(open_error(), "000003.label");
+    EXPECT_HAS(open().notes.back(), "labels of 3 of 3 scans, and 1 of no scan");
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace dynamic_filter::app {
 
 namespace {
 
-constexpr io::Color kPaper{250, 250, 250}, kKept{125, 135, 145};
+constexpr io::Color kPaper{250, 250, 250}, kDim{222, 226, 230}, kKept{105, 115, 125};
 
 /// A scan thinned by lot, and where its points are in the picture's frame.
 struct Sample {
@@ -67,27 +67,43 @@ Stage stage_for(const std::vector<Sample>& samples, const RenderOptions& o) {
     return stage;
 }
 
-io::Image draw_scan(const Stage& stage, const Sample& sample, const Labels& labels) {
+/// Of each sample, the points that are not dynamic by the evidence so far.
+std::vector<Points> kept_of(const std::vector<Sample>& samples, std::size_t count,
+                            const DynamicFilter& filter) {
+    std::vector<Points> kept(count);
+    for (std::size_t s = 0; s < count; ++s) {
+        const Labels labels = filter.settled(samples[s].scan).labels;
+        for (std::size_t i = 0; i < labels.size(); ++i) {
+            if (labels[i] != Label::dynamic) kept[s].push_back(samples[s].in_world[i]);
+        }
+    }
+    return kept;
+}
+
+io::Image draw_map(const Stage& stage, const std::vector<Points>& kept) {
     Canvas canvas = stage.canvas();
-    canvas.draw(sample.in_world, 1.5F * stage.size, [&](std::size_t i) {
-        return labels[i] == Label::dynamic ? kRemovedColor
-               : labels[i] == Label::still ? kKept
-                                           : kUnknownColor;
-    });
+    for (const Points& points : kept) {
+        canvas.draw(points, stage.size, [&](std::size_t i) { return stage.by_height(points[i]); });
+    }
     return canvas.picture(kPaper);
 }
 
-/// The samples until `count`, without what is dynamic by now.
-io::Image draw_map(const Stage& stage, const std::vector<Sample>& samples, std::size_t count,
-                   const DynamicFilter& filter) {
+/// A scan with its verdict, over the dimmed map.
+io::Image draw_scan(const Stage& stage, const Sample& sample, const Labels& labels,
+                    const std::vector<Points>& kept) {
     Canvas canvas = stage.canvas();
-    for (std::size_t s = 0; s < count; ++s) {
-        const Labels labels = filter.settled(samples[s].scan).labels;
-        Points kept;
+    const auto draw = [&](Label label, float size, const io::Color& color) {
+        Points points;
         for (std::size_t i = 0; i < labels.size(); ++i) {
-            if (labels[i] != Label::dynamic) kept.push_back(samples[s].in_world[i]);
+            if (labels[i] == label) points.push_back(sample.in_world[i]);
         }
-        canvas.draw(kept, stage.size, [&](std::size_t i) { return stage.by_height(kept[i]); });
+        canvas.draw(points, size, [&](std::size_t) { return color; });
+    };
+    draw(Label::dynamic, 2.0F * stage.size, kRemovedColor);
+    draw(Label::unknown, stage.size, kUnknownColor);
+    draw(Label::still, stage.size, kKept);
+    for (const Points& points : kept) {
+        canvas.draw(points, stage.size, [&](std::size_t) { return kDim; });
     }
     return canvas.picture(kPaper);
 }
@@ -132,12 +148,14 @@ void animate_cleaning(const io::Sequence& sequence, const Config& config, const 
     std::size_t done = 0;
     for_each_frame(sequence, scans, {}, [&](std::size_t i, MaybeFrame& maybe) {
         if (!maybe.frame) return true;
-        const Sample& sample = samples[done++];
+        const bool drawn = ++done % stride == 0 || done == samples.size();
+        constexpr double kOfNewest = 20'000.0;
+        const Sample newest = sample_of(*maybe.frame, i, *origin, drawn ? kOfNewest : 0.0);
         filter.push(take_scan(*maybe.frame, i));
-        if (done % stride == 0 || done == samples.size()) {
-            const Labels now = filter.settled(sample.scan).labels;
-            animation.add(
-                stacked(draw_scan(stage, sample, now), draw_map(stage, samples, done, filter)));
+        if (drawn) {
+            const auto kept = kept_of(samples, done, filter);
+            const Labels labels = filter.settled(newest.scan).labels;
+            animation.add(stacked(draw_scan(stage, newest, labels, kept), draw_map(stage, kept)));
         }
         progress.advance();
         return true;

@@ -42,7 +42,8 @@ struct Sequence {
     std::filesystem::path root;
     std::vector<std::filesystem::path> scan_files;   ///< in natural order of their names; of a bag
                                                      ///< not files, but numbers below its path
-    std::vector<std::filesystem::path> label_files;  ///< parallel to scan_files, or empty
+    std::vector<std::filesystem::path> label_files;  ///< parallel to scan_files (empty path: none),
+                                                     ///< or empty
     std::vector<Pose> T_world_sensor;  ///< parallel; empty for `benchmark` (poses are in the files)
     std::vector<double> stamps;        ///< parallel [s]; made up at 10 Hz where not measured
     bool measured_stamps = false;
@@ -71,7 +72,7 @@ struct Frame {
     std::string truth_fault;  ///< why this scan's truth cannot be used; the scan itself can
 };
 
-/// Recognises the layout, checks that scans, poses, stamps and labels agree in number.
+/// Recognises the layout, checks that scans, poses and stamps agree in number.
 /// Throws InputError (nothing there, counts that differ, pose file missing, bad rotation) and
 /// ConfigError (topics to choose from).
 Sequence open_sequence(const std::filesystem::path& data, const OpenOptions& options = {});
