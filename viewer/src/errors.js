@@ -29,6 +29,7 @@ export function goToNextError(session, kind) {
   if (index < 0) index = verdicts.findIndex(is);
   if (index < 0) return;
   const point = view.point("map", index);
+  session.store.set(kind === "removed" ? { dynamic: true } : { static: true, unknown: true });  // or it would not be seen
   session.select(point);
   session.orbit.set({ target: point.position.map((p, c) => p + view.view.offset[c]), distance: Math.min(session.orbit.distance, CLOSE) });
 }
