@@ -6,7 +6,7 @@ import { count } from "./format.js";
 
 const CLOSE = 12;  // m, from where one sees what is around
 
-export const ERRORS = {
+const ERRORS = {
   removed: { label: "False removals", key: "N", is: (verdict) => truthOf(verdict) === STATIC && finalOf(verdict) === DYNAMIC },
   missed: { label: "Missed", key: "B", is: (verdict) => truthOf(verdict) === DYNAMIC && finalOf(verdict) !== DYNAMIC },
 };
