@@ -6,7 +6,7 @@ foreach(unit config parallel stage_times
              back_end/back_end back_end/contact back_end/evidence back_end/evidence_map
              back_end/line_of_sight back_end/sight_kernel back_end/normals back_end/occupancy back_end/submap_buffer
              back_end/visibility_check
-             pipeline/dynamic_filter pipeline/merge pipeline/online_filter pipeline/pose_jump pipeline/scan_queue)
+             pipeline/dynamic_filter pipeline/merge pipeline/odd_scans pipeline/online_filter pipeline/pose_jump pipeline/scan_queue)
   df_test(${unit} dynamic_filter)
 endforeach()
 

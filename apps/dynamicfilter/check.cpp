@@ -15,15 +15,19 @@ int check(const DataOptions& options) {
     for (const io::Overlay& overlay : preflight.overlays) {
         fmt::print("overlay   {:>3.0f} %  {}\n", 100.0 * overlay.share, overlay.reading);
     }
+    for (const std::string& line : sequence.losses) fmt::print("LOST      {}\n", line);
+    for (const std::string& line : preflight.unusable) fmt::print("UNUSABLE  {}\n", line);
     for (const io::Finding& finding : preflight.findings) {
         const bool is_option = finding.advice.starts_with("--");
         fmt::print("FOUND     {}\n", finding.what);
         fmt::print(
-            fmt::runtime(is_option ? "try       dynamicfilter run {} {}\n" : "try       {1}\n"),
+            fmt::runtime(is_option ? "try       dynamicfilter run {} {}\n" : "advice    {1}\n"),
             options.data.string(), finding.advice);
     }
-    if (preflight.findings.empty()) fmt::print("nothing suspicious\n");
-    return preflight.findings.empty() ? kDone : kRejected;
+    const bool fine =
+        preflight.findings.empty() && preflight.unusable.empty() && sequence.losses.empty();
+    if (fine) fmt::print("nothing suspicious\n");
+    return fine ? kDone : kRejected;
 }
 
 }  // namespace dynamic_filter::app

@@ -81,6 +81,16 @@ struct ServeOptions {
     std::uint16_t port = 0;
 };
 
+struct RenderOptions {
+    DataOptions data;  ///< output folder of a run, cloud, or recording to animate
+    std::filesystem::path output;
+    bool from_above = false, clean = false;
+    int width = 1600, height = 1000;
+    double azimuth_deg = 60.0, elevation_deg = 35.0, point_size = 1.5;
+    int pictures = 60;  ///< of an animation
+    ConfigOptions config;
+};
+
 struct DemoOptions {
     std::filesystem::path output = "demo";
 };
@@ -92,6 +102,7 @@ int demo(const DemoOptions& options);
 int check(const DataOptions& options);
 int convert(const ConvertOptions& options);
 int report(const ReportOptions& options);
+int render(const RenderOptions& options);
 int serve(const ServeOptions& options);
 int info(const std::filesystem::path& file);
 int show_config(const ConfigOptions& options);

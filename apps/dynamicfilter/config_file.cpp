@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <sstream>
 #include <vector>
 
@@ -37,12 +38,21 @@ void apply_table(Config& config, const toml::table& table, const std::string& pr
     }
 }
 
+/// toml++ has no limit to the depth of dotted keys, but the stack has.
+std::string read_shallow(const std::filesystem::path& file) {
+    constexpr std::ptrdiff_t kMostDots = 1000;  // of all settings together: some forty
+    std::string text = io::read_file(file);
+    if (std::count(text.begin(), text.end(), '.') <= kMostDots) return text;
+    throw ConfigError(
+        fmt::format("{}: holds more than {} dots; are these settings?", file.string(), kMostDots));
+}
+
 }  // namespace
 
 void apply_toml(Config& config, const std::filesystem::path& file) {
     std::vector<std::string> errors;
     try {
-        apply_table(config, toml::parse(io::read_file(file)), "", errors);
+        apply_table(config, toml::parse(read_shallow(file)), "", errors);
     } catch (const toml::parse_error& error) {
         throw ConfigError(fmt::format("{} (line {}): not TOML: {}", file.string(),
                                       error.source().begin.line, error.description()));

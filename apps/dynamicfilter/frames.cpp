@@ -133,6 +133,7 @@ eval::ScanSource scan_source(const io::Sequence& sequence, const Eigen::Vector3d
             labels_of = std::move(labels_of)](std::size_t i) -> std::optional<eval::LabelledScan> {
         try {
             io::Frame frame = io::read_frame(sequence, i);
+            if (!frame.truth_fault.empty()) return std::nullopt;
             eval::LabelledScan scan{{}, std::move(frame.truth), {}};
             if (labels_of) {
                 auto labels = labels_of(i);

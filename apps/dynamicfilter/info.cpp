@@ -71,7 +71,7 @@ void describe_bag(const std::filesystem::path& path) {
     std::map<std::string, Count> topics;
     std::int64_t first = INT64_MAX, last = INT64_MIN;
     const io::Bag bag(path);
-    const auto notes = bag.for_each([&](const io::Message& message) {
+    const auto defects = bag.for_each([&](const io::Message& message) {
         Count& count = topics[message.topic.name];
         count.topic = message.topic;
         ++count.messages;
@@ -85,7 +85,9 @@ void describe_bag(const std::filesystem::path& path) {
     for (const auto& [name, count] : topics) {
         fmt::print("  {:<28} {:<40} {:>7} messages\n", name, count.topic.type, count.messages);
     }
-    for (const std::string& note : notes) fmt::print("  note    {}\n", note);
+    for (const io::Defect& defect : defects) {
+        fmt::print("  {}    {}\n", defect.lost ? "LOST" : "note", defect.what);
+    }
 }
 
 }  // namespace

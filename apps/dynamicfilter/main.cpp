@@ -3,6 +3,8 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
 #include <csignal>
 
 #include "commands.hpp"
@@ -12,6 +14,18 @@ namespace {
 
 using namespace dynamic_filter;
 using namespace dynamic_filter::app;
+
+/// CLI11's own name the bounds with all 309 digits of the greatest double.
+CLI::Validator whole_from(std::size_t least) {
+    const auto check = [least](const std::string& text) -> std::string {
+        std::size_t value = 0;
+        const char* const end = text.data() + text.size();
+        const auto [stop, error] = std::from_chars(text.data(), end, value);
+        if (error == std::errc{} && stop == end && value >= least) return "";
+        return fmt::format("'{}' is no whole number of {} or more", text, least);
+    };
+    return CLI::Validator(check, fmt::format("whole, {} or more", least));
+}
 
 void add_config_options(CLI::App& command, ConfigOptions& o) {
     command.add_option("--preset", o.preset, "default or paper")->capture_default_str();
@@ -44,12 +58,9 @@ void add_reading_options(CLI::App& command, DataOptions& o) {
 }
 
 void add_selection_options(CLI::App& command, DataOptions& o) {
-    command.add_option("--first", o.open.first, "index of the first scan")
-        ->check(CLI::NonNegativeNumber);
-    command.add_option("--last", o.open.last, "index of the last scan")
-        ->check(CLI::NonNegativeNumber);
-    command.add_option("--stride", o.open.stride, "use every n-th scan")
-        ->check(CLI::PositiveNumber);
+    command.add_option("--first", o.open.first, "index of the first scan")->check(whole_from(0));
+    command.add_option("--last", o.open.last, "index of the last scan")->check(whole_from(0));
+    command.add_option("--stride", o.open.stride, "use every n-th scan")->check(whole_from(1));
 }
 
 void add_run(CLI::App& app, std::function<int()>& chosen) {
@@ -112,7 +123,7 @@ void add_simulate(CLI::App& app, std::function<int()>& chosen) {
     c.add_option("--sensor", s.sensor, fmt::format("{}", fmt::join(sim::sensor_names(), ", ")))
         ->capture_default_str();
     c.add_option("--frames", s.frames, "number of scans (default: the whole scene)")
-        ->check(CLI::PositiveNumber);
+        ->check(whole_from(1));
     c.add_option("--rate", s.rate_hz, "scans per second (default: the scene's own)")
         ->check(CLI::Range(0.0, 100.0));
     c.add_option("--pose-noise", s.pose_noise_m, "standard deviation of each axis [m]")
@@ -168,6 +179,40 @@ void add_report(CLI::App& app, std::function<int()>& chosen) {
     serve_command.callback([s, &chosen] { chosen = [s] { return serve(*s); }; });
 }
 
+void add_render(CLI::App& app, std::function<int()>& chosen) {
+    auto o = std::make_shared<RenderOptions>();
+    CLI::App& c = *app.add_subcommand("render", "Draw a map, or a recording being cleaned");
+    c.add_option("IN", o->data.data,
+                 "output folder of a run, cloud file, or a recording to animate")
+        ->required();
+    c.add_option("-o,--output", o->output, ".png; of a recording, .webp")->required();
+    CLI::Option* const above = c.add_flag("--top", o->from_above, "from straight above");
+    c.add_flag("--clean", o->clean, "without the removed points");
+    c.add_option("--width", o->width, "[pixels]")
+        ->check(CLI::Range(16, 16384))
+        ->capture_default_str();
+    c.add_option("--height", o->height, "[pixels]")
+        ->check(CLI::Range(16, 16384))
+        ->capture_default_str();
+    c.add_option("--azimuth", o->azimuth_deg, "direction of view, from the x axis [deg]")
+        ->excludes(above)
+        ->capture_default_str();
+    c.add_option("--elevation", o->elevation_deg, "below the horizon [deg]")
+        ->excludes(above)
+        ->check(CLI::Range(1.0, 89.0))
+        ->capture_default_str();
+    c.add_option("--point-size", o->point_size, "[pixels]")
+        ->check(CLI::Range(0.5, 50.0))
+        ->capture_default_str();
+    c.add_option("--pictures", o->pictures, "of an animation")
+        ->check(CLI::Range(2, 1000))
+        ->capture_default_str();
+    add_reading_options(c, o->data);
+    add_selection_options(c, o->data);
+    add_config_options(c, o->config);
+    c.callback([o, &chosen] { chosen = [o] { return render(*o); }; });
+}
+
 void add_others(CLI::App& app, std::function<int()>& chosen) {
     auto demo_options = std::make_shared<DemoOptions>();
     CLI::App& d = *app.add_subcommand("demo", "Simulate, filter, score and draw: no data needed");
@@ -193,6 +238,18 @@ void add_others(CLI::App& app, std::function<int()>& chosen) {
     c.callback([=, &chosen] { chosen = [=] { return show_config(*config_options); }; });
 }
 
+/// CLI11 would only ask for a subcommand.
+void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
+    const std::string given = argc > 1 ? argv[1] : "-";
+    std::vector<std::string> known;
+    for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
+    if (given.starts_with('-') || std::find(known.begin(), known.end(), given) != known.end()) {
+        return;
+    }
+    throw ConfigError(
+        fmt::format("unknown command '{}'; there are: {}", given, fmt::join(known, ", ")));
+}
+
 int failed(ExitCode code, const std::exception& error) {
     fmt::print(stderr, "dynamicfilter: {}\n", error.what());
     return code;
@@ -211,8 +268,10 @@ int main(int argc, char** argv) {
     add_simulate(app, chosen);
     add_convert(app, chosen);
     add_report(app, chosen);
+    add_render(app, chosen);
     add_others(app, chosen);
     try {
+        refuse_unknown_command(app, argc, argv);
         app.parse(argc, argv);
         const int code = chosen();
         // A result that could not be printed (a full disk, say) is not a result.

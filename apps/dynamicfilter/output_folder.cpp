@@ -34,7 +34,7 @@ Names written_by(Contents contents) {
     switch (contents) {
         case Contents::result:
             return {{"static_map.pcd", "dynamic_points.pcd", "metrics.json", "timing.json",
-                     "config.toml", "run.log", "report.html", ".run"},
+                     "config.toml", "run.log", "report.html", kRunState},
                     {{"labels", ".label"}}};
         case Contents::recording:
             return {{"poses.txt", "times.txt"}, {{"labels", ".label"}, {"velodyne", ".bin"}}};
@@ -97,6 +97,19 @@ bool holds_something(const fs::path& path) {
     return false;
 }
 
+/// A run's labels stand for themselves, but half a recording or map misleads whoever reads it.
+bool is_of_use_in_part(Contents contents) {
+    return contents == Contents::result || contents == Contents::demo;
+}
+
+/// What one command leaves is not replaced by another's: the rest of it would stay and mislead.
+void refuse_result_of_a_run(const fs::path& folder, Contents contents) {
+    if (contents == Contents::result || !fs::exists(folder / kRunState)) return;
+    throw ConfigError(folder.string() +
+                      ": holds the result of a run, which only a run may overwrite; choose "
+                      "another folder");
+}
+
 }  // namespace
 
 OutputFolder::Lock::Lock(const fs::path& folder) : file(folder / kLock) {
@@ -124,15 +137,23 @@ OutputFolder::OutputFolder(fs::path path, Contents contents, Existing existing)
         if (fs::exists(path_) && !fs::is_directory(path_)) {
             throw ConfigError(path_.string() + ": the output must be a folder, and this is a file");
         }
-        fs::create_directories(path_);
+        made_ = fs::create_directories(path_);
         lock_.emplace(path_);
-        fs::remove_all(path_ / kBeside);  // of a process that was killed
         remove_stale(path_, contents_);
-        if (!holds_something(path_) || existing == Existing::go_on) return;
-        if (existing == Existing::refuse) {
+        if (existing == Existing::go_on) {
+            if (!fs::exists(path_ / kBeside)) return;
+            beside_ = path_ / kBeside;
+            remove_stale(beside_, contents_);
+            return;
+        }
+        fs::remove_all(path_ / kBeside);  // of a process that was killed
+        const bool empty = !holds_something(path_);
+        if (!empty && existing == Existing::refuse) {
             throw ConfigError(path_.string() +
                               ": the folder is not empty; choose another -o, or --overwrite");
         }
+        refuse_result_of_a_run(path_, contents_);
+        if (empty && is_of_use_in_part(contents_)) return;
         beside_ = path_ / kBeside;
         fs::create_directory(beside_);
     } catch (const fs::filesystem_error& error) {
@@ -157,6 +178,7 @@ void OutputFolder::commit() {
         }
         fs::remove_all(beside_);
         beside_.clear();
+        made_ = false;
     } catch (const fs::filesystem_error& error) {
         throw OutputError(path_, error.code().message());
     }
@@ -164,8 +186,13 @@ void OutputFolder::commit() {
 
 OutputFolder::~OutputFolder() {
     std::error_code ignored;
-    if (!beside_.empty()) fs::remove_all(beside_, ignored);
+    if (beside_.empty()) return;
+    fs::remove_all(beside_, ignored);
+    lock_.reset();
+    if (made_) fs::remove(path_, ignored);
 }
+
+bool OutputFolder::is_empty() const { return !holds_something(path()); }
 
 fs::path OutputFolder::subfolder(const char* name) const {
     std::error_code error;

@@ -13,8 +13,12 @@ enum class Contents { result, recording, benchmark, tiles, demo };
 enum class Existing {
     refuse,   ///< ConfigError
     replace,  ///< it stays until commit(), and then goes: what such a command leaves, nothing else
-    go_on,    ///< it is written over, file by file
+    go_on,    ///< it is written over, file by file; or, where a killed process was replacing it,
+              ///< what that one left beside it
 };
+
+/// The mark of a run: what it was begun with.
+inline constexpr const char* kRunState = ".run";
 inline Existing replaced_if(bool overwrite) {
     return overwrite ? Existing::replace : Existing::refuse;
 }
@@ -28,7 +32,8 @@ public:
     OutputFolder& operator=(const OutputFolder&) = delete;
     ~OutputFolder();
 
-    /// Where to write: beside an earlier result, as long as there is one.
+    /// Where to write: beside an earlier result, as long as there is one. What is of no use in
+    /// part is written beside in any case, and without commit() nothing of it is left.
     [[nodiscard]] const std::filesystem::path& path() const {
         return beside_.empty() ? path_ : beside_;
     }
@@ -37,6 +42,8 @@ public:
     void commit();
     /// Creates and returns a folder inside.
     [[nodiscard]] std::filesystem::path subfolder(const char* name) const;
+    /// Whether path() holds anything yet.
+    [[nodiscard]] bool is_empty() const;
 
 private:
     /// Lives and dies on its own, so that a constructor that throws gives it back.
@@ -47,6 +54,7 @@ private:
         ~Lock();
     };
     std::filesystem::path path_, beside_;
+    bool made_ = false;  ///< by us, so that it goes if nothing comes of it
     Contents contents_;
     std::optional<Lock> lock_;
 };

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char *kState = ".run", *kComplete = "complete\n";
+constexpr const char* kComplete = "complete\n";
 
 /// What a run was begun with: whoever resumes it must come with the same.
 std::string begun_with(const io::Sequence& sequence, const Config& config) {
@@ -35,7 +35,7 @@ std::string begun_with(const io::Sequence& sequence, const Config& config) {
 
 /// Labels that no run left may be somebody's ground truth.
 void refuse_foreign_labels(const fs::path& folder) {
-    const bool of_a_run = fs::exists(folder / kState) || fs::exists(folder / "config.toml");
+    const bool of_a_run = fs::exists(folder / kRunState) || fs::exists(folder / "config.toml");
     if (of_a_run || !fs::exists(folder / "labels")) return;
     throw ConfigError(
         folder.string() +
@@ -43,18 +43,19 @@ void refuse_foreign_labels(const fs::path& folder) {
 }
 
 /// True if nothing is left to do. Throws ConfigError if that run was another one.
-bool is_complete(const fs::path& folder, const std::string& state) {
-    if (!fs::exists(folder / kState)) {
-        if (!fs::exists(folder / "run.log") && !fs::exists(folder / "labels")) return false;
-        throw ConfigError(folder.string() +
-                          ": holds a result that does not say what it was begun with; use "
-                          "--overwrite or another -o");
+bool is_complete(const OutputFolder& output, const std::string& state) {
+    if (output.is_empty()) return false;
+    const fs::path file = output.path() / kRunState;
+    if (!fs::exists(file)) {
+        throw ConfigError(output.name().string() +
+                          ": holds something that no run of this version began; use --overwrite "
+                          "or another -o");
     }
-    const std::string found = io::read_file(folder / kState);
+    const std::string found = io::read_file(file);
     if (found == state + kComplete) return true;
     if (found == state) return false;
     throw ConfigError(
-        folder.string() +
+        output.name().string() +
         ": was begun with another recording, other settings or another version; go on "
         "with those (see config.toml and run.log there), or start afresh with "
         "--overwrite");
@@ -81,15 +82,16 @@ int run(const RunOptions& o) {
     OutputFolder output(folder, Contents::result,
                         o.resume ? Existing::go_on : replaced_if(o.overwrite));
     const std::string state = begun_with(sequence, config);
-    if (o.resume && is_complete(output.path(), state)) {
+    if (o.resume && is_complete(output, state)) {
+        output.commit();
         fmt::print("complete {}\n", output.name().string());
         return kDone;
     }
-    io::write_file(output.path() / kState, state);
+    io::write_file(output.path() / kRunState, state);
     for (const std::string& note : sequence.notes) fmt::print(stderr, "note: {}\n", note);
     for (const io::Finding& finding : io::check_recording(sequence, io::Depth::quick).findings) {
-        fmt::print(stderr, "warning: {}; try {} (`dynamicfilter check` looks closer)\n",
-                   finding.what, finding.advice);
+        fmt::print(stderr, "warning: {}; {}{} (`dynamicfilter check` looks closer)\n", finding.what,
+                   finding.advice.starts_with("--") ? "try " : "", finding.advice);
     }
 
     catch_interrupts();
@@ -99,9 +101,10 @@ int run(const RunOptions& o) {
         run_sequence(sequence, config, pace, output, {.live = live ? &*live : nullptr});
 
     for (const std::string& line : summary.notes) fmt::print(stderr, "note: {}\n", line);
+    for (const std::string& line : sequence.losses) fmt::print(stderr, "lost     {}\n", line);
     for (const std::string& line : summary.rejected) fmt::print(stderr, "rejected {}\n", line);
     for (const std::string& line : summary.dropped) fmt::print(stderr, "dropped {}\n", line);
-    if (!summary.interrupted) io::write_file(output.path() / kState, state + kComplete);
+    if (!summary.interrupted) io::write_file(output.path() / kRunState, state + kComplete);
     if (summary.interrupted && output.path() != output.name()) {
         fmt::print("interrupted; the earlier result in {} stays\n", output.name().string());
         return kInterrupted;
@@ -116,7 +119,8 @@ int run(const RunOptions& o) {
     }
     if (summary.interrupted) return kInterrupted;
     if (live) live->linger();
-    return summary.rejected.empty() && summary.dropped.empty() ? kDone : kRejected;
+    const bool all = summary.rejected.empty() && summary.dropped.empty() && sequence.losses.empty();
+    return all ? kDone : kRejected;
 }
 
 }  // namespace dynamic_filter::app

@@ -123,10 +123,14 @@ void filter_scans(Pass& pass) {
         if (!maybe.frame) {
             reject(pass, i, maybe.error);
         } else if (!fields.empty() && maybe.frame->cloud.fields != fields) {
-            reject(pass, i, "its fields are not those of the first scan; one map cannot hold both");
+            reject(pass, i, io::kOtherFields);
         } else {
             if (fields.empty()) fields = maybe.frame->cloud.fields;
             pass.accepted[i] = true;
+            if (!maybe.frame->truth_fault.empty()) {
+                pass.summary.notes.push_back(maybe.frame->truth_fault +
+                                             "; the scan is filtered, but not scored");
+            }
             keep_pace(pass, *start, maybe.frame->stamp);
             if (pass.watchers.live) {
                 pass.watchers.live->feed().expect(maybe.frame->points, maybe.frame->T_world_sensor,
@@ -259,6 +263,7 @@ nlohmann::ordered_json metrics(const Pass& pass) {
     json["points"] = {{"static", s.still}, {"dynamic", s.dynamic}, {"unknown", s.unknown}};
     json["rejected"] = s.rejected;
     json["dropped"] = s.dropped;
+    json["lost"] = pass.sequence.losses;
     return json;
 }
 
@@ -267,6 +272,7 @@ void write_log(const Pass& pass) {
                                   io::to_string(pass.sequence.format), pass.sequence.size());
     for (const std::string& note : pass.sequence.notes) log += "note     " + note + "\n";
     for (const std::string& note : pass.summary.notes) log += "note     " + note + "\n";
+    for (const std::string& line : pass.sequence.losses) log += "lost     " + line + "\n";
     for (const std::string& line : pass.summary.rejected) log += "rejected " + line + "\n";
     for (const std::string& line : pass.summary.dropped) log += "dropped  " + line + "\n";
     if (const auto beams = pass.filter.extent().beams) {

@@ -4,21 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "draw/canvas.hpp"
+
 namespace dynamic_filter::app {
 
 namespace {
 
 constexpr float kPixel = 0.1F;  // [m]
 constexpr int kMargin = 10, kLongSide = 2400;
-constexpr io::Color kBackground{250, 250, 250}, kRemoved{214, 39, 40};
-
-/// Dark blue at the ground to light green-grey above; none of it near red.
-io::Color height_color(float share) {
-    const auto mix = [&](double a, double b) {
-        return static_cast<std::uint8_t>(a + (b - a) * static_cast<double>(share));
-    };
-    return {mix(30, 150), mix(50, 190), mix(90, 175)};
-}
+constexpr io::Color kBackground{250, 250, 250};
 
 /// The value below which `share` of the (sorted here) values lie.
 template <class T>
@@ -86,8 +80,8 @@ io::Image TopView::draw(bool removed) const {
             image.pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
                          static_cast<std::size_t>(x)];
         if (removed && column.removed > 0) {
-            pixel = kRemoved;
-        } else if (column.kept > 0 && pixel != kRemoved) {
+            pixel = kRemovedColor;
+        } else if (column.kept > 0 && pixel != kRemovedColor) {
             pixel =
                 height_color(std::clamp((column.highest_kept - low) / (high - low), 0.0F, 1.0F));
         }

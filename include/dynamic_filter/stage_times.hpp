@@ -22,6 +22,11 @@ class Durations {
 public:
     static constexpr std::size_t kNewest = 4096;
 
+    /// For one call more, whose add() then needs no memory.
+    void make_room() {
+        if (newest_.size() < newest_.capacity()) return;
+        newest_.reserve(std::min(2 * newest_.size() + 16, kNewest));
+    }
     void add(double seconds) {
         keep(seconds);
         ++count_;
@@ -69,7 +74,10 @@ decltype(auto) timed(StageTimes& times, const std::string& stage, F&& work) {
         Durations& durations;
         std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
         ~Note() { durations.add(seconds_since(start)); }
-    } note{times[stage]};
+    };
+    Durations& durations = times[stage];
+    durations.make_room();  // destructors must not throw
+    const Note note{durations};
     return std::forward<F>(work)();
 }
 

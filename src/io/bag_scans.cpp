@@ -37,7 +37,7 @@ struct Contents {
     std::map<std::string, CloudTopic> clouds;
     std::map<std::string, PoseTopic> poses;
     FrameTree frames;
-    std::vector<std::string> notes;
+    std::vector<std::string> notes, losses;
 };
 
 void take(Contents& contents, const Message& message) {
@@ -78,20 +78,32 @@ void take(Contents& contents, const Message& message) {
     }
 }
 
+bool is_scan(const Topic& topic) {
+    const MessageKind kind = kind_of(topic.type);
+    return kind == MessageKind::cloud || kind == MessageKind::livox;
+}
+
 Contents contents_of(const Bag& bag) {
     Contents contents;
     std::size_t malformed = 0;
+    bool scans = false;  // among them
     std::string first;
-    contents.notes = bag.for_each([&](const Message& message) {
+    const auto defects = bag.for_each([&](const Message& message) {
         try {
             take(contents, message);
         } catch (const Malformed& error) {
             if (malformed++ == 0) first = message.topic.name + ": " + error.what();
+            scans = scans || is_scan(message.topic);
         }
     });
+    for (const Defect& defect : defects) {
+        (defect.lost ? contents.losses : contents.notes).push_back(defect.what);
+    }
     if (malformed > 0) {
-        contents.notes.push_back(fmt::format(
-            "{} messages cannot be read and are left out; the first is of {}", malformed, first));
+        (scans ? contents.losses : contents.notes)
+            .push_back(
+                fmt::format("{} messages cannot be read and are left out; the first is of {}",
+                            malformed, first));
     }
     contents.frames.put_in_order();
     for (auto& [name, topic] : contents.poses) put_in_order(topic.trajectory);
@@ -102,7 +114,7 @@ template <class Topics>
 std::string names_of(const Topics& topics) {
     std::string names;
     for (const auto& [name, topic] : topics) names += (names.empty() ? "" : ", ") + name;
-    return names.empty() ? "none" : names;
+    return names;
 }
 
 /// What `convert` made of the scans of another topic, or of them all.
@@ -123,10 +135,11 @@ const CloudTopic& choose_clouds(const Contents& contents, const std::filesystem:
         const auto found = clouds.find(options.topic);
         if (found != clouds.end()) return found->second;
         throw ConfigError(fmt::format("no point clouds on topic {}; there are: {}", options.topic,
-                                      names_of(clouds)));
+                                      clouds.empty() ? "none" : names_of(clouds)));
     }
     if (clouds.empty()) {
-        std::string why = contents.notes.empty() ? "" : " (" + contents.notes.front() + ")";
+        const auto& known = contents.losses.empty() ? contents.notes : contents.losses;
+        const std::string why = known.empty() ? "" : " (" + known.front() + ")";
         throw InputError(
             data, "", "holds no point clouds (sensor_msgs/PointCloud2 or Livox's CustomMsg)" + why);
     }
@@ -218,8 +231,10 @@ PoseSource choose_poses(const Contents& contents, const CloudTopic& clouds,
     if (!options.pose_topic.empty()) {
         if (options.pose_topic == "/tf" && by_frames) return from_frames(frames, clouds.frame);
         if (named != contents.poses.end()) return source(*named);
-        throw ConfigError(fmt::format("no poses on topic {}; there are: {}{}", options.pose_topic,
-                                      names_of(contents.poses), by_frames ? ", /tf" : ""));
+        std::string known = names_of(contents.poses);
+        if (by_frames) known += (known.empty() ? "" : ", ") + std::string("/tf");
+        throw ConfigError(fmt::format("no poses on topic {}; there are: {}", options.pose_topic,
+                                      known.empty() ? "none" : known));
     }
     if (by_frames) return from_frames(frames, clouds.frame);
     if (contents.poses.empty()) {
@@ -298,6 +313,7 @@ Sequence open_bag(const std::filesystem::path& data, const OpenOptions& options)
     sequence.format = Format::bag;
     sequence.root = data;
     sequence.notes = contents.notes;
+    sequence.losses = contents.losses;
     sequence.notes.push_back("scans from " + clouds.topic.name);
     for (const FoundScan& scan : in_order(clouds, sequence.notes)) {
         sequence.stamps.push_back(scan.stamp);

@@ -5,13 +5,12 @@
 #include <cstring>
 
 #include "dynamic_filter/error.hpp"
+#include "frame.hpp"
 #include "input.hpp"
 #include "text.hpp"
 
 namespace dynamic_filter::io {
 namespace {
-
-constexpr std::size_t bin_point_bytes = 4 * sizeof(float);
 
 template <typename T>
 void gather(const Cloud& cloud, const Field& field, std::vector<double>& out) {
@@ -32,7 +31,29 @@ const Field& coordinate(const Cloud& cloud, const char* name) {
 std::string explain_bin_size(std::size_t bytes) {
     if (bytes % 20 == 0) return "it looks like 5 floats a point (nuScenes); name it .pcd.bin";
     if (bytes % 12 == 0) return "it looks like 3 floats a point (x y z); add an intensity";
-    return "it is truncated after point " + std::to_string(bytes / bin_point_bytes);
+    return "it is truncated after point " + std::to_string(bytes / 16);
+}
+
+Cloud empty_bin(const std::filesystem::path& file) {
+    const bool has_ring = to_lower(file.stem().extension().string()) == ".pcd";  // nuScenes
+    Cloud cloud;
+    for (const char* name : {"x", "y", "z", "intensity"}) add_field(cloud, name, FieldType::f32);
+    if (has_ring) add_field(cloud, "ring", FieldType::f32);
+    return cloud;
+}
+
+void refuse_bad_bin_size(const std::filesystem::path& file, std::size_t bytes) {
+    const std::size_t stride = empty_bin(file).point_bytes;
+    if (bytes == 0) {
+        throw InputError(file, "byte 0",
+                         "is empty; expected " + std::to_string(stride) + " bytes a point");
+    }
+    if (bytes % stride == 0) return;
+    throw InputError(
+        file, "byte " + std::to_string(bytes - bytes % stride),
+        "its size of " + std::to_string(bytes) + " bytes is no multiple of " +
+            std::to_string(stride) + " (float32 x y z intensity" +
+            (stride > 16 ? " ring); it is truncated" : "); " + explain_bin_size(bytes)));
 }
 
 using Reader = Cloud (*)(const std::filesystem::path&);
@@ -78,9 +99,9 @@ std::size_t size_of(FieldType type) {
         case FieldType::i64:
         case FieldType::u64:
         case FieldType::f64:
-            return 8;
+            break;
     }
-    return 0;
+    return 8;
 }
 
 const Field* Cloud::find(const std::string& name) const {
@@ -156,25 +177,18 @@ Points positions(const Cloud& cloud) {
 }
 
 Cloud read_bin(const std::filesystem::path& file) {
-    const bool has_ring = to_lower(file.stem().extension().string()) == ".pcd";  // nuScenes
-    Cloud cloud;
-    for (const char* name : {"x", "y", "z", "intensity"}) add_field(cloud, name, FieldType::f32);
-    if (has_ring) add_field(cloud, "ring", FieldType::f32);
+    Cloud cloud = empty_bin(file);
     cloud.data = read_bytes(file);
-    const std::size_t bytes = cloud.data.size();
-    const std::size_t stride = cloud.point_bytes;
-    if (bytes == 0) {
-        throw InputError(file, "byte 0",
-                         "is empty; expected " + std::to_string(stride) + " bytes a point");
-    }
-    if (bytes % stride != 0) {
-        throw InputError(
-            file, "byte " + std::to_string(bytes - bytes % stride),
-            "its size of " + std::to_string(bytes) + " bytes is no multiple of " +
-                std::to_string(stride) + " (float32 x y z intensity" +
-                (has_ring ? " ring); it is truncated" : "); " + explain_bin_size(bytes)));
-    }
+    refuse_bad_bin_size(file, cloud.data.size());
     return cloud;
+}
+
+void refuse_bad_size(const std::filesystem::path& file) {
+    std::error_code unknown;  // whoever reads it says why
+    const auto bytes = std::filesystem::file_size(file, unknown);
+    if (unknown) return;
+    if (reader_of(file) == read_bin) refuse_bad_bin_size(file, static_cast<std::size_t>(bytes));
+    if (bytes == 0) throw InputError(file, "byte 0", "is empty; expected a point cloud");
 }
 
 Cloud read_cloud(const std::filesystem::path& file) {

@@ -175,17 +175,57 @@ std::string write_bin(const std::filesystem::path& path, const Cloud& cloud) {
     return note;
 }
 
-std::string write_cloud(const std::filesystem::path& path, const Cloud& cloud) {
-    const std::string extension = to_lower(path.extension().string());
-    if (extension == ".ply") return write_ply(path, cloud);
-    if (extension == ".las") return write_las(path, cloud);
-    if (extension == ".npy") return write_npy(path, cloud);
-    if (extension == ".bin") return write_bin(path, cloud);
-    if (extension != ".pcd") {
-        throw OutputError(path, "unknown kind of cloud; expected .pcd, .ply, .las, .npy or .bin");
-    }
+namespace {
+
+using Writer = Written (*)(const std::filesystem::path&, const Cloud&);
+
+template <std::string (*write)(const std::filesystem::path&, const Cloud&)>
+Written write_all(const std::filesystem::path& path, const Cloud& cloud) {
+    return {cloud.size(), write(path, cloud)};
+}
+
+std::string write_binary_pcd(const std::filesystem::path& path, const Cloud& cloud) {
     write_pcd(path, cloud);
     return "";
+}
+
+const std::vector<std::pair<std::string, Writer>>& writers() {
+    static const std::vector<std::pair<std::string, Writer>> all = {
+        {".pcd", write_all<write_binary_pcd>},
+        {".ply", write_all<write_ply>},
+        {".las", write_las},
+        {".npy", write_all<write_npy>},
+        {".bin", write_all<write_bin>},
+        {".xyz", write_all<write_text_cloud>},
+        {".txt", write_all<write_text_cloud>},
+        {".csv", write_all<write_text_cloud>}};
+    return all;
+}
+
+/// nullptr: no cloud.
+Writer writer_for(const std::filesystem::path& path) {
+    const std::string extension = to_lower(path.extension().string());
+    for (const auto& [known, writer] : writers()) {
+        if (extension == known) return writer;
+    }
+    return nullptr;
+}
+
+}  // namespace
+
+bool can_write_cloud(const std::filesystem::path& path) { return writer_for(path) != nullptr; }
+
+std::string cloud_kinds_written() {
+    std::string kinds;
+    for (const auto& [extension, writer] : writers()) {
+        kinds += (kinds.empty() ? "" : ", ") + extension;
+    }
+    return kinds;
+}
+
+Written write_cloud(const std::filesystem::path& path, const Cloud& cloud) {
+    if (const Writer write = writer_for(path)) return write(path, cloud);
+    throw OutputError(path, "unknown kind of cloud; expected " + cloud_kinds_written());
 }
 
 }  // namespace dynamic_filter::io

@@ -139,6 +139,17 @@ std::string read_file(const std::filesystem::path& file) {
     return read_up_to<std::string>(file, std::numeric_limits<std::size_t>::max());
 }
 
+std::string kind_by_content(std::string_view head) {
+    if (head.starts_with("\x89MCAP")) return "an MCAP bag";
+    if (head.starts_with("#ROSBAG V")) return "a ROS 1 bag";
+    if (head.starts_with("SQLite format 3")) return "a ROS 2 bag";
+    if (head.starts_with("LASF")) return "a LAS cloud";
+    if (head.starts_with("\x93NUMPY")) return "a NumPy array";
+    if (head.starts_with("ply\n") || head.starts_with("ply\r")) return "a PLY cloud";
+    if (head.starts_with("# .PCD")) return "a PCD cloud";
+    return head.find('\0') == std::string_view::npos ? "" : "a binary file";
+}
+
 InputFile::InputFile(std::filesystem::path path)
     : path_(std::move(path)), descriptor_(open_for_reading(path_)) {
     try {

@@ -62,6 +62,15 @@ Labels truth_of(const Sequence& sequence, std::size_t i, const Cloud& cloud) {
     return truth;
 }
 
+/// Ground truth decides nothing, not even whether its scan is used.
+void add_truth(Frame& frame, const Sequence& sequence, std::size_t i) {
+    try {
+        frame.truth = truth_of(sequence, i, frame.cloud);
+    } catch (const InputError& error) {
+        frame.truth_fault = error.what();
+    }
+}
+
 /// Farther than the Earth is round, a pose is a wrong number or a wrong unit.
 void refuse_absurd(const Pose& T_world_sensor, const std::filesystem::path& file) {
     constexpr double kEarth = 4e7;  // [m]
@@ -93,22 +102,32 @@ Cloud read_scan(const Sequence& sequence, std::size_t i) {
     return is_folder(file) ? read_submap(file) : read_cloud(file);
 }
 
-Frame read_frame(const Sequence& sequence, std::size_t i) {
+void refuse_unusable(const Sequence& sequence, std::size_t i) {
     const std::filesystem::path& file = sequence.scan_files.at(i);
-    const bool poses_in_files = sequence.T_world_sensor.empty();
-    Frame frame;
-    if (!poses_in_files) frame.T_world_sensor = sequence.T_world_sensor[i];
-    if (!frame.T_world_sensor.matrix().allFinite()) {
-        throw InputError(file, "",
-                         sequence.bag ? "no pose is known at its time"
-                                      : "its pose is not finite (lost tracking?)");
+    if (!sequence.T_world_sensor.empty()) {
+        const Pose& T_world_sensor = sequence.T_world_sensor[i];
+        if (!T_world_sensor.matrix().allFinite()) {
+            throw InputError(file, "",
+                             sequence.bag ? "no pose is known at its time"
+                                          : "its pose is not finite (lost tracking?)");
+        }
+        refuse_absurd(T_world_sensor, file);
     }
+    if (!sequence.bag && !is_folder(file)) refuse_bad_size(file);
+}
+
+Frame read_frame(const Sequence& sequence, std::size_t i) {
+    refuse_unusable(sequence, i);
+    const std::filesystem::path& file = sequence.scan_files[i];
+    Frame frame;
     frame.cloud = read_scan(sequence, i);
     if (frame.cloud.size() == 0) throw InputError(file, "", "has no points");
-    refuse_absurd(frame.T_world_sensor, file);
-    if (poses_in_files) {
+    if (sequence.T_world_sensor.empty()) {
         frame.T_world_sensor =
             fixed(sequence.pose_fix, frame.cloud.viewpoint.value_or(Pose::Identity()));
+        refuse_absurd(frame.T_world_sensor, file);
+    } else {
+        frame.T_world_sensor = sequence.T_world_sensor[i];
     }
     frame.points = sequence.points_in_world ? into_sensor(frame.cloud, frame.T_world_sensor)
                                             : positions(frame.cloud);
@@ -120,7 +139,7 @@ Frame read_frame(const Sequence& sequence, std::size_t i) {
         undo_motion(frame.points, point_times(frame.cloud, frame.stamp), frame.stamp,
                     sequence.trajectory);
     }
-    frame.truth = truth_of(sequence, i, frame.cloud);
+    add_truth(frame, sequence, i);
     return frame;
 }
 

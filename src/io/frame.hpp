@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 
 #include "dynamic_filter/io/sequence.hpp"
 
@@ -9,5 +10,8 @@ namespace dynamic_filter::io {
 
 /// The record of scan i alone. Throws InputError.
 Cloud read_scan(const Sequence& sequence, std::size_t i);
+
+/// Throws InputError if the size alone says that the file holds no cloud.
+void refuse_bad_size(const std::filesystem::path& file);
 
 }  // namespace dynamic_filter::io

@@ -16,6 +16,10 @@ std::vector<std::byte> read_bytes(const std::filesystem::path& file);
 /// At most `most` bytes from the beginning.
 std::string read_head(const std::filesystem::path& file, std::size_t most);
 
+/// What kind of file the first bytes say that this is, other than text: "a ROS 1 bag"; empty if
+/// nothing.
+std::string kind_by_content(std::string_view head);
+
 /// A regular file of which parts are read. Thread-safe.
 class InputFile {
 public:

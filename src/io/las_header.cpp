@@ -111,12 +111,13 @@ private:
         header_.record_bytes = counts.number<std::uint16_t>();
         header_.points = counts.number<std::uint32_t>();
         if (minor >= 4) {
-            header_.points = ByteReader(bytes_, skip_to(wide_count_at)).number<std::uint64_t>();
+            const auto wide = ByteReader(bytes_, skip_to(wide_count_at)).number<std::uint64_t>();
+            if (wide != 0) header_.points = wide;  // some writers fill in the old count only
         }
-        check_layout();
+        check_layout(minor >= 4 ? 375 : 227);
     }
 
-    void check_layout() const {
+    void check_layout(std::size_t least_header) const {
         if ((format_ & 0xC0U) != 0) {
             throw Malformed("compressed LAZ is not read; unpack it to LAS first, e.g. with laszip");
         }
@@ -127,7 +128,7 @@ private:
             throw Malformed(fmt::format("points of {} bytes; point format {} has at least {}",
                                         header_.record_bytes, format_, format_bytes[format_]));
         }
-        if (header_size_ < wide_count_at - 20 || header_.begin < header_size_ ||
+        if (header_size_ < least_header || header_.begin < header_size_ ||
             header_.begin > bytes_.size()) {
             throw Malformed(
                 fmt::format("the points begin at byte {}, behind a header of {}, in a "
@@ -143,6 +144,7 @@ private:
             value = numbers.number<double>();
             if (!std::isfinite(value)) throw Malformed("a scale or an offset is not finite");
         }
+        if (v[0] == 0.0 || v[1] == 0.0 || v[2] == 0.0) throw Malformed("a scale is 0");
         for (std::size_t axis = 0; axis < 3; ++axis) {
             header_.fields.push_back({std::string(1, "xyz"[axis]), FieldType::i32, 4 * axis,
                                       FieldType::f64, v[axis], v[3 + axis]});
@@ -212,15 +214,18 @@ private:
         return count * size_of(type);
     }
 
+    /// Extra Bytes come behind what they stand for.
     void put_exact_in_place() {
         std::vector<LasField>& fields = header_.fields;
-        for (std::size_t i = 0; i < fields.size(); ++i) {
-            const auto exact = std::find_if(fields.begin(), fields.end(), [&](const LasField& f) {
-                return f.name == fields[i].name + std::string(las_exact);
-            });
-            if (exact == fields.end()) continue;
-            exact->name = fields[i].name;
-            fields[i] = *exact;
+        for (std::size_t i = fields.size(); i-- > 0;) {
+            if (!fields[i].name.ends_with(las_exact)) continue;
+            const auto exact = fields.begin() + static_cast<std::ptrdiff_t>(i);
+            const std::string name = exact->name.substr(0, exact->name.size() - las_exact.size());
+            const auto rounded = std::find_if(
+                fields.begin(), exact, [&](const LasField& field) { return field.name == name; });
+            if (rounded == exact) continue;
+            *rounded = *exact;
+            rounded->name = name;
             fields.erase(exact);
         }
     }

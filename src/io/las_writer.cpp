@@ -142,8 +142,13 @@ std::vector<std::size_t> finite_points(const std::array<Axis, 3>& axes) {
     return finite;
 }
 
-/// The offset is amid the data, in whole metres, so that 32 bits reach to both sides.
-void span_axis(Axis& axis, const std::vector<std::size_t>& points,
+std::int32_t steps(const Axis& axis, double value) {
+    return static_cast<std::int32_t>(std::llround((value - axis.offset) / scale));
+}
+
+/// The offset is amid the data, in whole metres, so that 32 bits reach to both sides. The bounds
+/// are those of the coordinates as written: readers look whether a point lies outside.
+void span_axis(Axis& axis, char name, const std::vector<std::size_t>& points,
                const std::filesystem::path& path) {
     if (points.empty()) return;
     axis.least = axis.greatest = axis.values[points[0]];
@@ -153,12 +158,15 @@ void span_axis(Axis& axis, const std::vector<std::size_t>& points,
     }
     axis.offset = std::round(axis.least / 2 + axis.greatest / 2);
     if (!(axis.greatest - axis.offset < scale * std::numeric_limits<std::int32_t>::max() - 1)) {
-        throw OutputError(path, "the cloud is wider than the 4,000 km that LAS holds at 1 mm");
+        throw OutputError(
+            path, fmt::format("the cloud goes from {0} = {1:.6g} to {2:.6g} m, wider than the "
+                              "4,000 km that LAS holds at its scale of 1 mm; are these "
+                              "coordinates right? .pcd, .ply and .npy hold any",
+                              name, axis.least, axis.greatest));
     }
-}
-
-std::int32_t steps(const Axis& axis, std::size_t i) {
-    return static_cast<std::int32_t>(std::llround((axis.values[i] - axis.offset) / scale));
+    for (double* bound : {&axis.least, &axis.greatest}) {
+        *bound = steps(axis, *bound) * scale + axis.offset;
+    }
 }
 
 /// Writes where the standard's bits are, beside those of another field in the same byte.
@@ -186,7 +194,8 @@ std::vector<std::byte> records_of(const Cloud& cloud, const std::vector<Placed>&
     for (std::size_t n = 0; n < points.size(); ++n) {
         std::byte* record = records.data() + n * stride;
         const std::byte* from = cloud.data.data() + points[n] * cloud.point_bytes;
-        for (std::size_t a = 0; a < 3; ++a) store_at(record + 4 * a, steps(axes[a], points[n]));
+        for (std::size_t a = 0; a < 3; ++a)
+            store_at(record + 4 * a, steps(axes[a], axes[a].values[points[n]]));
         for (const Placed& p : placed) {
             if (p.standard != nullptr) {
                 put_standard(record, *p.standard, from + p.field.offset);
@@ -234,11 +243,11 @@ Bytes header_of(const Sizes& sizes, const std::array<Axis, 3>& axes,
 
 }  // namespace
 
-std::string write_las(const std::filesystem::path& path, const Cloud& cloud) {
+Written write_las(const std::filesystem::path& path, const Cloud& cloud) {
     std::array<Axis, 3> axes = {axis_of(cloud, "x", path), axis_of(cloud, "y", path),
                                 axis_of(cloud, "z", path)};
     const std::vector<std::size_t> points = finite_points(axes);
-    for (Axis& axis : axes) span_axis(axis, points, path);
+    for (std::size_t a = 0; a < 3; ++a) span_axis(axes[a], "xyz"[a], points, path);
     const std::vector<Placed> placed = place(cloud);
     const std::vector<std::byte> extra = extra_record(placed, path);
     const std::vector<std::byte> records = records_of(cloud, placed, axes, points);
@@ -255,8 +264,9 @@ std::string write_las(const std::filesystem::path& path, const Cloud& cloud) {
     file.commit();
     const std::size_t lost = cloud.size() - points.size();
     const std::string rounded = "coordinates are rounded to 1 mm";
-    return lost == 0 ? rounded
-                     : rounded + fmt::format("; {} points that are not finite are left out", lost);
+    if (lost == 0) return {points.size(), rounded};
+    return {points.size(),
+            rounded + fmt::format("; {} points that are not finite are left out", lost)};
 }
 
 }  // namespace dynamic_filter::io

@@ -9,6 +9,7 @@
 
 #include "dynamic_filter/error.hpp"
 #include "folders.hpp"
+#include "input.hpp"
 #include "layouts/layouts.hpp"
 
 namespace dynamic_filter::io {
@@ -64,9 +65,17 @@ void refuse_inner_folder(const fs::path& data, const OpenOptions& options) {
 void require_folder(const fs::path& data) {
     if (!present(data)) throw InputError(data, "", "does not exist; expected a recording's folder");
     if (!is_folder(data)) {
+        const std::string kind = kind_by_content(read_head(data, 100));
+        const std::string force = kind.ends_with("bag") ? "; force --format bag" : "";
         throw InputError(data, "",
-                         "is a file; expected a bag (.mcap, .bag, .db3), or a folder with "
-                         "velodyne/*.bin, pcd/*.pcd, or scans and a pose file");
+                         "is " + (kind.empty() ? "a file" : kind) + force +
+                             "; expected a bag (.mcap, .bag, .db3), or a folder with "
+                             "velodyne/*.bin, pcd/*.pcd, or scans and a pose file");
+    }
+    if (present(data / "run.log") && present(data / "config.toml")) {
+        throw InputError(data, "",
+                         "is what a run left, not a recording; run.log there names the recording, "
+                         "and static_map.pcd is its clean map");
     }
 }
 

@@ -71,8 +71,11 @@ Match match_by_time(const Layout& layout, const PoseFile& file, std::vector<doub
 Match match_poses(const Layout& layout, const PoseFile& file, const std::vector<double>& times) {
     const std::size_t scans = layout.scans.size();
     if (file.poses.size() == scans) {
-        return {file.poses, times.empty() ? file.stamps : times,
-                fmt::format("{} scans matched to poses by order", scans)};
+        const std::string note = fmt::format("{} scans matched to poses by order", scans);
+        if (file.stamps.empty()) return {file.poses, times, note};
+        const std::vector<double> own = times.empty() ? times_in_names(layout.scans) : times;
+        if (own.empty()) return {file.poses, file.stamps, note};
+        return {file.poses, own, note, file.stamps};
     }
     if (!file.stamps.empty()) {
         if (times.size() == scans) return match_by_time(layout, file, times, "times.txt");

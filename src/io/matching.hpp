@@ -13,8 +13,9 @@ namespace dynamic_filter::io {
 /// A pose for each scan.
 struct Match {
     std::vector<Pose> poses;
-    std::vector<double> stamps;  ///< [s] of the scans, empty if nothing says
-    std::string note;            ///< how scans and poses were matched
+    std::vector<double> stamps;         ///< [s] of the scans, empty if nothing says
+    std::string note;                   ///< how scans and poses were matched
+    std::vector<double> pose_stamps{};  ///< [s] where matched by order though both have stamps
 };
 
 /// By order if the numbers agree; otherwise by time, from `times` (may be empty) or from file names

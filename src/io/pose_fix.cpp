@@ -29,7 +29,7 @@ const std::vector<PoseFix>& pose_fixes() {
 std::string to_string(PoseFix fix) {
     switch (fix) {
         case PoseFix::none:
-            return "none";
+            break;
         case PoseFix::inverse:
             return "inverse";
         case PoseFix::camera:
@@ -43,7 +43,7 @@ std::string to_string(PoseFix fix) {
         case PoseFix::millimetres:
             return "mm";
     }
-    return "?";
+    return "none";
 }
 
 Pose fixed(PoseFix fix, const Pose& pose) {
@@ -52,7 +52,7 @@ Pose fixed(PoseFix fix, const Pose& pose) {
     Pose result = pose;
     switch (fix) {
         case PoseFix::none:
-            return pose;
+            break;
         case PoseFix::inverse:
             return pose.inverse();
         case PoseFix::camera:

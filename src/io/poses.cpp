@@ -11,6 +11,7 @@
 
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/io/file.hpp"
+#include "input.hpp"
 #include "pose_table.hpp"
 #include "rigid.hpp"
 #include "text.hpp"
@@ -132,6 +133,35 @@ PoseFile read_g2o(Lines& lines) {
     return file;
 }
 
+void refuse_other_kind(std::string_view text, const std::filesystem::path& file) {
+    const std::string kind = kind_by_content(text.substr(0, 1000));
+    if (kind.empty()) return;
+    throw InputError(file, "",
+                     "is " + kind + "; expected a pose file (KITTI, TUM, EuRoC, g2o or CSV)" +
+                         (kind.ends_with("bag") ? "; poses of a bag come with its scans: give the "
+                                                  "bag in place of the recording"
+                                                : ""));
+}
+
+/// As spreadsheets write where the comma is decimal. One row tells.
+void refuse_decimal_commas(std::string_view text, const std::filesystem::path& file) {
+    Lines lines(text, file);
+    while (lines.next() && is_comment(trim(lines.line()))) {
+    }
+    const auto within = [](std::string_view token) {
+        const std::size_t comma = token.find(',');
+        return comma != token.npos && comma + 1 < token.size();
+    };
+    const auto tokens = split_tokens(lines.line());
+    if (lines.line().find(';') != std::string_view::npos) {
+        lines.fail(
+            "has semicolons; expected columns parted by commas or blanks, and decimal points");
+    }
+    if (tokens.size() >= tum_columns && std::all_of(tokens.begin(), tokens.end() - 1, within)) {
+        lines.fail("has decimal commas; expected decimal points, as in 1.5");
+    }
+}
+
 PoseFile read_any(const std::string& text, const std::filesystem::path& file) {
     Lines lines(text, file);
     if (is_g2o(text, file)) return read_g2o(lines);
@@ -150,7 +180,10 @@ void append_stamp(PoseFile& file, double stamp, const Lines& where) {
 }
 
 PoseFile read_poses(const std::filesystem::path& file) {
-    PoseFile poses = read_any(read_file(file), file);
+    const std::string text = read_file(file);
+    refuse_other_kind(text, file);
+    refuse_decimal_commas(text, file);
+    PoseFile poses = read_any(text, file);
     if (poses.poses.empty()) throw InputError(file, "", "holds no pose");
     return poses;
 }

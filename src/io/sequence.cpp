@@ -68,6 +68,7 @@ std::vector<double> assign_poses(Sequence& sequence, const Layout& layout) {
     Match match = match_poses(layout, file, times);
     sequence.T_world_sensor = std::move(match.poses);
     sequence.notes.push_back(match.note);
+    sequence.pose_stamps = std::move(match.pose_stamps);
     if (layout.calib && file.stamps.empty()) {
         if (sequence.pose_fix == PoseFix::lidar) {
             sequence.pose_fix = PoseFix::none;
@@ -118,6 +119,7 @@ void select(Sequence& sequence, const OpenOptions& options) {
     keep(sequence.label_files, options.first, last, options.stride);
     keep(sequence.T_world_sensor, options.first, last, options.stride);
     keep(sequence.stamps, options.first, last, options.stride);
+    keep(sequence.pose_stamps, options.first, last, options.stride);
     keep(sequence.bag_scans, options.first, last, options.stride);
 }
 
@@ -186,9 +188,9 @@ std::string to_string(Format format) {
         case Format::folder:
             return "folder";
         case Format::bag:
-            return "bag";
+            break;
     }
-    return "?";
+    return "bag";
 }
 
 Sequence open_sequence(const std::filesystem::path& data, const OpenOptions& options) {

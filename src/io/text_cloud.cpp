@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <array>
+#include <iterator>
 
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/io/cloud.hpp"
 #include "dynamic_filter/io/file.hpp"
+#include "dynamic_filter/io/writers.hpp"
+#include "field_types.hpp"
 #include "records.hpp"
 #include "text.hpp"
 
@@ -57,10 +62,54 @@ Body survey(std::string_view text, const std::filesystem::path& file) {
     return body;
 }
 
+/// A comma beside semicolons is no separator; 1,5 would be read as two numbers.
+void refuse_decimal_commas(std::string_view text, const std::filesystem::path& file) {
+    for (Lines lines(text, file); lines.next();) {
+        const std::string_view line = trim(lines.line());
+        const bool both = line.find(';') != line.npos && line.find(',') != line.npos;
+        if (!both || is_comment(line)) continue;
+        lines.fail("has semicolons and commas: decimal commas? write decimal points, as in 1.5");
+    }
+}
+
+/// Shortest text that reads back as the same number.
+template <class T>
+void append_number(std::string& text, T value) {
+    if constexpr (sizeof(T) == 1) {
+        fmt::format_to(std::back_inserter(text), "{}", static_cast<int>(value));
+    } else {
+        fmt::format_to(std::back_inserter(text), "{}", value);
+    }
+}
+
 }  // namespace
+
+std::string write_text_cloud(const std::filesystem::path& path, const Cloud& cloud) {
+    const std::vector<Field> fields = single_fields(cloud);
+    const char separator = to_lower(path.extension().string()) == ".csv" ? ',' : ' ';
+    std::string text;
+    for (const Field& field : fields)
+        text += (text.empty() ? "" : std::string(1, separator)) + field.name;
+    AtomicFile file(path);
+    file.write(text + "\n");
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+        const std::byte* const record = cloud.data.data() + i * cloud.point_bytes;
+        text.clear();
+        for (const Field& field : fields) {
+            if (!text.empty()) text += separator;
+            with_type(field.type, [&](auto type) {
+                append_number(text, load<typename decltype(type)::type>(record + field.offset));
+            });
+        }
+        file.write(text + "\n");
+    }
+    file.commit();
+    return "";
+}
 
 Cloud read_text_cloud(const std::filesystem::path& file) {
     std::string text = read_file(file);
+    refuse_decimal_commas(text, file);
     for (char& c : text) {
         if (c == ',' || c == ';') c = ' ';
     }

@@ -59,13 +59,18 @@ struct OnlineFilter::Engine {
                         ++counters.rejected;
                     });
         });
-        back = std::thread([this] {
-            guarded([this] { integrate_tasks(); },
-                    [this] {
-                        integrating = false;
-                        tasks.clear();
-                    });
-        });
+        try {
+            back = std::thread([this] {
+                guarded([this] { integrate_tasks(); },
+                        [this] {
+                            integrating = false;
+                            tasks.clear();
+                        });
+            });
+        } catch (...) {  // the first must not outlive what it uses
+            stop();
+            throw;
+        }
     }
 
     // Called by users.

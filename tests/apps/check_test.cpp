@@ -115,6 +115,10 @@ TEST_F(Check, NamesPointsInTheWorldAndMergedSensors) {
     as_they_are.points_in_world = true;
     EXPECT_TRUE(check_recording(open_sequence(in_world->path(), as_they_are), Depth::thorough)
                     .findings.empty());
+    for (const Depth depth : {Depth::quick, Depth::thorough}) {  // and where they are not
+        expect_only(check_recording(open_sequence(folder->path(), as_they_are), depth),
+                    "in the sensor's frame", "leave out --points-in-world");
+    }
 
     const auto merged = write_copy([](const Frame& frame) {
         Points points = frame.points;
@@ -151,14 +155,34 @@ TEST_F(Check, NamesTheUnitOfTime) {
     }
 }
 
-TEST_F(Check, EveryFixUndoesItsMistake) {
-    EXPECT_EQ(pose_fixes().size(), 6U);
-    Pose pose = Pose(Eigen::Translation3d(1, 2, 3)) *
-                Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, -1).normalized());
-    EXPECT_TRUE(fixed(PoseFix::inverse, fixed(PoseFix::inverse, pose)).isApprox(pose, 1e-12));
-    EXPECT_TRUE(fixed(PoseFix::camera, fixed(PoseFix::lidar, pose)).isApprox(pose, 1e-12));
-    EXPECT_TRUE(fixed(PoseFix::wxyz, fixed(PoseFix::xyzw, pose)).isApprox(pose, 1e-12));
-    EXPECT_TRUE(fixed(PoseFix::none, pose).isApprox(pose, 0.0));
+TEST_F(Check, NamesStampsOfPosesThatAreNotThoseOfTheScans) {
+    const auto with = [](double from, double factor, double shift) {
+        return after([=](Sequence& sequence) {
+            for (double& stamp : sequence.stamps) stamp += from;
+            for (const double stamp : sequence.stamps)
+                sequence.pose_stamps.push_back(factor * (stamp + shift));
+        });
+    };
+    EXPECT_TRUE(with(1e9, 1.0, 0.05).findings.empty());
+    EXPECT_TRUE(with(0.0, 1.0, 1e9).findings.empty()) << "a clock that begins at 0";
+    expect_only(with(1e9, 1.0, -3.0), "3 s before those of the scans", "--poses");
+    expect_only(with(1e9, 1e9, 0.0), "the poses' stamps are in ns", "in seconds");
+    expect_only(with(1e9, 1e3, 0.0), "the poses' stamps are in ms", "in seconds");
+    expect_only(with(1e9, 1e-3, 0.0), "the scans' stamps are in ms", "--time-unit ms");
+}
+
+TEST_F(Check, ListsTheScansThatARunRejects) {
+    const auto copy = write_copy([](const Frame& frame) { return frame.points; });
+    const auto scan = [&](const char* name) { return copy->path() / "velodyne" / name; };
+    std::filesystem::resize_file(scan("000007.bin"), 1001);
+    std::filesystem::resize_file(scan("000058.bin"), 0);
+    test::spill(scan("000000.bin"), std::string(160, '\0'));  // at the sensor, all of them
+    const Preflight result = check_recording(open_sequence(copy->path()), Depth::thorough);
+    ASSERT_EQ(result.unusable.size(), 3U);
+    EXPECT_NE(result.unusable[0].find("000000: "), std::string::npos);
+    EXPECT_NE(result.unusable[1].find("000007: "), std::string::npos);
+    EXPECT_NE(result.unusable[2].find("is empty"), std::string::npos);
+    EXPECT_TRUE(result.findings.empty());
 }
 
 }  // namespace

@@ -188,6 +188,7 @@ TEST_F(Command, EvalOfLabelsAndOfTheMapAgreeWithTheRun) {
 TEST_F(Command, UsageErrorsExitWithTwo) {
     EXPECT_EQ(run(""), 2);
     EXPECT_EQ(run("fly"), 2);
+    expect_said("unknown command 'fly'; there are: run, eval, simulate, convert");
     EXPECT_EQ(run("run"), 2);
     EXPECT_EQ(run("run " + recording().string() + " --set back_end.voxle_size=1"), 2);
     expect_said("back_end.voxel_size");
@@ -196,6 +197,7 @@ TEST_F(Command, UsageErrorsExitWithTwo) {
     EXPECT_EQ(run("run " + recording().string() + " --format cloud"), 2);
     EXPECT_EQ(run("run " + recording().string() + " --first 99"), 2);
     EXPECT_EQ(run("run " + recording().string() + " --stride -1"), 2);
+    expect_said("'-1' is no whole number of 1 or more");
     EXPECT_EQ(run("simulate crowd --frames 0 -o x"), 2);
     EXPECT_EQ(run("simulate moon -o x"), 2);
     expect_said("crowd");
@@ -266,13 +268,38 @@ TEST_F(Command, BadScansAreRejectedCountedAndNamed) {
     fs::resize_file(data / "labels/000007.label", 8);
     EXPECT_EQ(run("run data -o out"), 4) << said();
     const auto metrics = nlohmann::json::parse(slurp(folder_ / "out/metrics.json"));
-    EXPECT_EQ(metrics["rejected"].size(), 3U);
-    for (const char* stem : {"000003", "000005", "000007"}) {
+    EXPECT_EQ(metrics["rejected"].size(), 2U);
+    for (const char* stem : {"000003", "000005"}) {
         EXPECT_FALSE(fs::exists(folder_ / "out/labels" / (std::string(stem) + ".label")));
         EXPECT_NE(slurp(folder_ / "out/run.log").find(std::string("rejected ") + stem),
                   std::string::npos);
     }
     EXPECT_TRUE(fs::exists(folder_ / "out/labels/000004.label"));
+    EXPECT_EQ(run("check data"), 4);
+    expect_said("UNUSABLE  000003");
+    expect_said("UNUSABLE  000005");
+}
+
+TEST_F(Command, GroundTruthThatDoesNotFitChangesNoLabel) {
+    const fs::path data = copy();
+    fs::resize_file(data / "labels/000007.label", 8);
+    ASSERT_EQ(run("run data -o out"), 0) << said();
+    expect_said("labels/000007.label: 2 labels but ");
+    expect_said("not scored");
+    fs::remove_all(data / "labels");
+    ASSERT_EQ(run("run data -o without"), 0) << said();
+    EXPECT_TRUE(bytes_of("out/labels") == bytes_of("without/labels"));
+}
+
+TEST_F(Command, ABagThatLostScansIsNotDone) {
+    ASSERT_EQ(run("convert " + recording().string() + " a.mcap"), 0);
+    fs::resize_file(folder_ / "a.mcap", fs::file_size(folder_ / "a.mcap") / 2);
+    EXPECT_EQ(run("run a.mcap -o out"), 4);
+    expect_said("lost     a.mcap: the record at byte ");
+    EXPECT_NE(slurp(folder_ / "out/run.log").find("lost     a.mcap"), std::string::npos);
+    EXPECT_FALSE(nlohmann::json::parse(slurp(folder_ / "out/metrics.json"))["lost"].empty());
+    EXPECT_EQ(run("check a.mcap"), 4);
+    EXPECT_EQ(run("convert a.mcap b.bag"), 4);
 }
 
 TEST_F(Command, PointsThatAreNoMeasurementsEndAsUnknown) {
@@ -288,6 +315,20 @@ TEST_F(Command, PointsThatAreNoMeasurementsEndAsUnknown) {
     EXPECT_NE(labels.substr(8, 4), std::string(4, '\0'));
 }
 
+TEST_F(Command, NamesNeedNotBeUtf8) {
+    const std::string odd = "d\xff\xfe";
+    fs::rename(copy(), folder_ / odd);
+    fs::resize_file(folder_ / odd / "velodyne/000003.bin", 1001);
+    for (const char* kind : {"velodyne/000004.bin", "labels/000004.label"}) {
+        const fs::path file = folder_ / odd / kind;
+        fs::rename(file, file.parent_path() / ("000004\xe9" + file.extension().string()));
+    }
+    EXPECT_EQ(run("run " + odd + " -o out"), 4) << said();
+    EXPECT_TRUE(fs::exists(folder_ / "out/labels/000004\xe9.label"));
+    EXPECT_TRUE(nlohmann::json::accept(slurp(folder_ / "out/metrics.json")));
+    EXPECT_EQ(run("info " + odd), 0);
+}
+
 TEST_F(Command, FailingToWriteExitsWithOne) {
     spill(folder_ / "file", "");
     EXPECT_EQ(run("run " + recording().string() + " -o file/out"), 1);
@@ -300,6 +341,17 @@ TEST_F(Command, InfoDescribesFilesAndFolders) {
     expect_said("intensity");
     EXPECT_EQ(run("info " + (recording() / "velodyne/000000.bin").string()), 0);
     EXPECT_EQ(run("info nothing.pcd"), 3);
+    ASSERT_EQ(run("run " + recording().string() + " -o out"), 0) << said();
+    for (const char* command : {"info out", "check out", "run out -o x"}) {
+        EXPECT_EQ(run(command), 3) << command;
+        expect_said("is what a run left, not a recording");
+    }
+    ASSERT_EQ(run("convert " + recording().string() + " a.bag"), 0);
+    fs::rename(folder_ / "a.bag", folder_ / "recording.data");
+    EXPECT_EQ(run("check recording.data"), 3);
+    expect_said("is a ROS 1 bag; force --format bag");
+    EXPECT_EQ(run("check recording.data --format bag"), 0) << said();
+    EXPECT_EQ(run("convert recording.data b.mcap --format bag"), 0) << said();
 }
 
 TEST_F(Command, ConfigPrintsWhatRunReads) {
@@ -359,6 +411,15 @@ TEST_F(Command, ResumeGoesOnWithTheSameOnly) {
     expect_said("complete out");
     EXPECT_EQ(run("run " + data + " -o out --resume --set back_end.voxel_size=0.3"), 2);
     expect_said("other settings");
+    const std::string state = slurp(folder_ / "out/.run");
+    for (const std::size_t at : {std::size_t{9}, state.size() / 2, state.size() - 2}) {
+        std::string damaged = state;
+        damaged[at] ^= 1;
+        spill(folder_ / "out/.run", damaged);
+        EXPECT_EQ(run("run " + data + " -o out --resume"), 2) << at;
+        expect_said("start afresh with --overwrite");
+    }
+    spill(folder_ / "out/.run", state);
     // As a kill in the midst of it leaves it.
     spill(folder_ / "out/.run",
           slurp(folder_ / "out/.run").substr(0, slurp(folder_ / "out/.run").find("complete")));
@@ -367,6 +428,28 @@ TEST_F(Command, ResumeGoesOnWithTheSameOnly) {
     EXPECT_EQ(run("run " + data + " -o out --resume"), 0) << said();
     EXPECT_TRUE(bytes_of("out") == expected);
     EXPECT_EQ(run("run " + data + " --resume"), 2);
+    fs::create_directory(folder_ / "thesis");
+    spill(folder_ / "thesis/thesis.tex", "precious");
+    EXPECT_EQ(run("run " + data + " -o thesis --resume"), 2);
+    expect_said("no run of this version began");
+    EXPECT_FALSE(fs::exists(folder_ / "thesis/labels"));
+}
+
+TEST_F(Command, ResumeGoesOnWithAnOverwriteThatWasKilled) {
+    const std::string data = recording().string(), other = " --set back_end.voxel_size=0.3";
+    ASSERT_EQ(run("run " + data + " -o out"), 0) << said();
+    ASSERT_EQ(run("run " + data + " -o expected" + other), 0) << said();
+    const std::string state = slurp(folder_ / "expected/.run");
+    fs::create_directories(folder_ / "out/.new/labels");
+    spill(folder_ / "out/.new/.run", state.substr(0, state.find("complete")));
+    EXPECT_EQ(run("run " + data + " -o out --resume" + other), 0) << said();
+    EXPECT_TRUE(bytes_of("out") == bytes_of("expected"));
+    // Killed when all was written, and nothing put in place.
+    fs::create_directory(folder_ / "again");
+    fs::copy(folder_ / "expected", folder_ / "again/.new", fs::copy_options::recursive);
+    spill(folder_ / "again/run.log", "old");
+    EXPECT_EQ(run("run " + data + " -o again --resume" + other), 0) << said();
+    EXPECT_TRUE(bytes_of("again") == bytes_of("expected"));
 }
 
 TEST_F(Command, OverwriteLeavesGroundTruthAlone) {
@@ -423,10 +506,34 @@ TEST_F(Command, ConvertWritesMapsAndSplitScans) {
     }
     EXPECT_EQ(in_tiles, still.size());
     EXPECT_GT(tiles, 4U);
+    ASSERT_EQ(run("convert " + data + " MAP.TXT --labels out"), 0) << said();
+    expect_said("left out: poses, stamps");
+    const io::Cloud text = io::read_cloud(folder_ / "MAP.TXT");
+    EXPECT_EQ(text.size(), map.size());
+    ASSERT_NE(text.find("dynamic"), nullptr);
+    EXPECT_EQ(io::values(text, *text.find("dynamic")), io::values(map, *map.find("dynamic")));
+    EXPECT_EQ(run("convert " + data + " out --overwrite"), 2);
+    expect_said("result of a run");
+    ASSERT_EQ(run("convert " + data + " bench --to benchmark"), 0);
+    expect_said("left out: intensity, stamps");
     EXPECT_EQ(run("convert " + data + " x.pcx"), 2);
     EXPECT_EQ(run("convert nothing.pcd x.pcd"), 3);
     EXPECT_EQ(run("convert " + data + " y.mcap --labels " + data + "/velodyne"), 3);
     EXPECT_FALSE(fs::exists(folder_ / "y.mcap"));
+    EXPECT_EQ(run("convert " + data + " half --labels " + data + "/velodyne"), 3);
+    EXPECT_FALSE(fs::exists(folder_ / "half"));
+}
+
+TEST_F(Command, PointsThatLasLeavesOutAreNotCounted) {
+    spill(folder_ / "a.xyz", "1 2 3\n4 nan 6\n7 8 9\n");
+    EXPECT_EQ(run("convert a.xyz a.las"), 0);
+    expect_said("(2 points)");
+    expect_said("1 points that are not finite");
+    EXPECT_EQ(run("convert a.xyz a.ply"), 0);
+    expect_said("(3 points)");
+    spill(folder_ / "far.xyz", "1 2 3\n1e10 5 6\n");
+    EXPECT_EQ(run("convert far.xyz far.las"), 1);
+    expect_said("x = 1 to 1e+10 m, wider than the 4,000 km");
 }
 
 TEST_F(Command, ReportsOfRunsAndMapsAreSetSideBySide) {

@@ -58,6 +58,23 @@ TEST(ConfigFile, RejectsWhatIsNotToml) {
     EXPECT_NE(error_of("back_end = 3\n").find("unknown setting"), std::string::npos);
 }
 
+/// Deeper than any stack; and as deep as is let through.
+TEST(ConfigFile, NestingWithoutEndIsAnError) {
+    const auto times = [](int count, const std::string& text) {
+        std::string all;
+        for (int i = 0; i < count; ++i) all += text;
+        return all;
+    };
+    for (const int depth : {999, 100000}) {
+        const std::string name = "a" + times(depth, ".a");
+        for (const std::string& toml :
+             {name + " = 1\n", "[" + name + "]\nb = 1\n", "[[" + name + "]]\n",
+              "a = " + times(depth, "["), "a = " + times(depth, "{a = ")}) {
+            EXPECT_NE(error_of(toml), "") << depth << " " << toml.substr(0, 10);
+        }
+    }
+}
+
 TEST(LoadConfig, AppliesPresetFileThenAssignmentsAndChecksBounds) {
     const TemporaryFolder folder;
     spill(folder / "c.toml", "[back_end]\nvoxel_size = 0.1\ndepth_channel = 0.3\n");

@@ -63,6 +63,49 @@ TEST(OutputFolder, WhatIsThereIsKeptUnlessOverwritten) {
     EXPECT_FALSE(fs::exists(temporary / ".run.log.tmp.1.0"));
 }
 
+TEST(OutputFolder, HalfARecordingIsNothing) {
+    const TemporaryFolder temporary;
+    {
+        const OutputFolder given_up(temporary / "new", Contents::recording, Existing::refuse);
+        spill(given_up.subfolder("velodyne") / "000000.bin", "half of it");
+        EXPECT_FALSE(fs::exists(temporary / "new/velodyne"));
+    }
+    EXPECT_FALSE(fs::exists(temporary / "new"));
+    fs::create_directory(temporary / "mine");
+    { const OutputFolder given_up(temporary / "mine", Contents::tiles, Existing::refuse); }
+    EXPECT_TRUE(fs::is_empty(temporary / "mine"));
+    OutputFolder folder(temporary / "new", Contents::recording, Existing::refuse);
+    spill(folder.subfolder("velodyne") / "000000.bin", "all of it");
+    folder.commit();
+    EXPECT_EQ(slurp(temporary / "new/velodyne/000000.bin"), "all of it");
+    EXPECT_FALSE(fs::exists(temporary / "new/.new"));
+}
+
+TEST(OutputFolder, OnlyARunOverwritesTheResultOfARun) {
+    const TemporaryFolder temporary;
+    spill(temporary / kRunState, "state");
+    spill(temporary / "metrics.json", "{}");
+    for (const Contents other : {Contents::recording, Contents::benchmark, Contents::tiles}) {
+        EXPECT_THROW(OutputFolder(temporary.path(), other, Existing::replace), ConfigError);
+    }
+    EXPECT_TRUE(fs::exists(temporary / "metrics.json"));
+    EXPECT_NO_THROW(OutputFolder(temporary.path(), Contents::result, Existing::replace));
+}
+
+TEST(OutputFolder, GoesOnBesideWhatAKilledProcessWasReplacing) {
+    const TemporaryFolder temporary;
+    spill(temporary / "run.log", "old");
+    fs::create_directory(temporary / ".new");
+    spill(temporary / ".new/run.log", "new");
+    spill(temporary / ".new/.run.log.tmp.1.0", "half");
+    OutputFolder folder(temporary.path(), Contents::result, Existing::go_on);
+    EXPECT_EQ(slurp(folder.path() / "run.log"), "new");
+    EXPECT_FALSE(fs::exists(folder.path() / ".run.log.tmp.1.0"));
+    EXPECT_EQ(slurp(temporary / "run.log"), "old");
+    folder.commit();
+    EXPECT_EQ(slurp(temporary / "run.log"), "new");
+}
+
 TEST(OutputFolder, AFileInItsPlaceIsAClearError) {
     const TemporaryFolder temporary;
     spill(temporary / "out", "a file");

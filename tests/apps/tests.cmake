@@ -1,4 +1,4 @@
-foreach(unit check config_file map_files output_folder report top_view)
+foreach(unit check config_file map_files output_folder progress report top_view)
   df_test(apps/${unit} dynamic_filter_app)
 endforeach()
 foreach(unit http_request http_server live_feed page run_view thinned_cloud)
@@ -12,3 +12,4 @@ target_compile_definitions(apps_command_test PRIVATE COMMAND="$<TARGET_FILE:dyna
 add_test(NAME apps/readme COMMAND ${CMAKE_CURRENT_LIST_DIR}/readme_test.sh
          ${PROJECT_SOURCE_DIR} $<TARGET_FILE:dynamicfilter>)
 add_test(NAME apps/kill COMMAND ${CMAKE_CURRENT_LIST_DIR}/kill_test.sh $<TARGET_FILE:dynamicfilter>)
+add_test(NAME apps/interrupt COMMAND ${CMAKE_CURRENT_LIST_DIR}/interrupt_test.sh $<TARGET_FILE:dynamicfilter>)

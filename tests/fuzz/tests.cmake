@@ -4,9 +4,12 @@ target_include_directories(dynamic_filter_fuzz PUBLIC ${CMAKE_CURRENT_LIST_DIR}/
   PRIVATE ${PROJECT_SOURCE_DIR}/src)
 target_link_libraries(dynamic_filter_fuzz PUBLIC dynamic_filter_app PRIVATE dynamic_filter_flags)
 
-df_test(fuzz/corpus dynamic_filter_fuzz)
-target_compile_definitions(fuzz_corpus_test PRIVATE
-  DYNAMIC_FILTER_CORPUS="${CMAKE_CURRENT_LIST_DIR}/corpus")
+foreach(unit allocation corpus)
+  df_test(fuzz/${unit} dynamic_filter_fuzz)
+  target_compile_definitions(fuzz_${unit}_test PRIVATE
+    DYNAMIC_FILTER_CORPUS="${CMAKE_CURRENT_LIST_DIR}/corpus")
+endforeach()
+target_sources(fuzz_allocation_test PRIVATE ${CMAKE_CURRENT_LIST_DIR}/failing_new.cpp)
 
 if(DYNAMIC_FILTER_FUZZ)
   foreach(target bin calib config labels las mcap message npy pcd ply poses rosbag1 rosbag2 text)

@@ -165,6 +165,20 @@ TEST_F(BagScansTest, ScansBeyondThePosesAreRejectedOneByOne) {
     EXPECT_HAS(error_of([&] { (void)read_frame(sequence, 4); }), "no pose is known at its time");
 }
 
+TEST_F(BagScansTest, ScansThatCannotBeReadAreLossesAndOtherMessagesAreNot) {
+    scans(2, "lidar");
+    drive("odom", "lidar");
+    write("/odom", "nav_msgs/Odometry", stamp(0), std::vector<std::byte>(3));
+    EXPECT_TRUE(opened().losses.empty());
+    EXPECT_TRUE(has_note(opened(), "1 messages cannot be read"));
+    writer_ = BagWriter::create(data / "a.mcap");
+    scans(2, "lidar");
+    drive("odom", "lidar");
+    write("/points", "sensor_msgs/PointCloud2", stamp(2), std::vector<std::byte>(3));
+    ASSERT_EQ(opened().losses.size(), 1U);
+    EXPECT_HAS(opened().losses[0], "the first is of /points");
+}
+
 TEST_F(BagScansTest, ScansAreInTheOrderOfTheirStamps) {
     for (const std::size_t i : {2U, 0U, 1U, 3U}) scan(i, "lidar", "/points", stamp(i));
     drive("odom", "lidar");
@@ -176,6 +190,46 @@ TEST_F(BagScansTest, ScansAreInTheOrderOfTheirStamps) {
     EXPECT_FLOAT_EQ(read_frame(sequence, 0).points[0].x(), 6.0F);
     EXPECT_FLOAT_EQ(read_frame(sequence, 1).points[0].x(), 8.0F);
     EXPECT_EQ(stem(sequence, 1), "000003");
+}
+
+TEST_F(BagScansTest, MessagesThatAreNoneAreCountedAndTheOthersGoOn) {
+    scans(3, "lidar");
+    write("/points", "sensor_msgs/PointCloud2", stamp(3), std::vector<std::byte>(7));
+    write("/odom", "nav_msgs/Odometry", stamp(3), {});
+    Cloud cloud;
+    for (const char* axis : {"x", "y", "z"}) add_field(cloud, axis, FieldType::f32);
+    cloud.data.resize(4 * cloud.point_bytes);
+    auto cut = cloud_message(cloud, stamp(3), "lidar", MessageEncoding::cdr);
+    cut.resize(cut.size() - 20);
+    write("/points", "sensor_msgs/PointCloud2", stamp(3), cut);
+    drive("odom", "lidar");
+    const Sequence sequence = opened();
+    EXPECT_TRUE(
+        has_note(sequence, "2 messages cannot be read and are left out; the first is of /p"));
+    ASSERT_EQ(sequence.size(), 4U);
+    EXPECT_NO_THROW((void)read_frame(sequence, 2));
+    EXPECT_HAS(error_of([&] { (void)read_frame(sequence, 3); }), "a.mcap (scan 3 of /points)");
+}
+
+TEST_F(BagScansTest, HeadersWithoutStampsHaveTheTimeOfRecording) {
+    Cloud cloud;
+    for (const char* axis : {"x", "y", "z"}) add_field(cloud, axis, FieldType::f32);
+    cloud.data.resize(cloud.point_bytes);
+    for (std::size_t i = 0; i < 3; ++i) {
+        write("/points", "sensor_msgs/PointCloud2", stamp(i),
+              cloud_message(cloud, 0.0, "lidar", MessageEncoding::cdr));
+    }
+    drive("odom", "lidar");
+    const Sequence sequence = opened();
+    EXPECT_TRUE(has_note(sequence, "times of recording"));
+    EXPECT_NEAR(sequence.stamps[2], stamp(2), 1e-6);
+}
+
+TEST_F(BagScansTest, OfSeveralPosesTheFirstIsTakenAndThatIsSaid) {
+    scans(3, "lidar");
+    drive("odom", "lidar");
+    odometry("map", "lidar", moved(9), kStart, "/slam");
+    EXPECT_TRUE(has_note(opened(), "(of /odom, /slam; choose with --pose-topic)"));
 }
 
 TEST_F(BagScansTest, MotionIsUndoneWhenAsked) {

@@ -27,6 +27,7 @@ struct Written {
 struct ReadBack {
     std::vector<Written> messages;
     std::vector<std::string> notes;
+    bool lost = false;  ///< by what the notes say
 };
 
 /// All messages; each must be the same when it is read again on its own.
@@ -34,10 +35,14 @@ inline ReadBack read_all(const std::filesystem::path& path) {
     const Bag bag(path);
     ReadBack back;
     std::vector<MessageRef> refs;
-    back.notes = bag.for_each([&](const Message& m) {
+    const auto defects = bag.for_each([&](const Message& m) {
         back.messages.push_back({m.topic, m.recorded_ns, {m.data.begin(), m.data.end()}});
         refs.push_back(m.ref);
     });
+    for (const Defect& defect : defects) {
+        back.notes.push_back(defect.what);
+        back.lost = back.lost || defect.lost;
+    }
     for (std::size_t i = 0; i < refs.size(); ++i) {
         EXPECT_EQ(bag.read(refs[i]), back.messages[i].data);
     }

@@ -96,6 +96,7 @@ void expect_survives_truncation(const TemporaryFolder& folder, const std::string
         }
         const bool complete = back.messages.size() == whole.messages.size();
         EXPECT_TRUE(complete || !back.notes.empty()) << name << " cut at " << n;
+        EXPECT_TRUE(back.lost || back.notes.size() < 2) << name << " cut at " << n;
     }
 }
 
@@ -165,6 +166,7 @@ TEST_F(Bags, AFlippedByteIsNoted) {
     EXPECT_EQ(all_data(back), (Data{data('a'), data('b')}));
     ASSERT_EQ(back.notes.size(), 1U);
     EXPECT_HAS(back.notes[0], "checksum differs");
+    EXPECT_TRUE(back.lost);
     EXPECT_HAS(back.notes[0], "a.mcap: the chunk at byte ");
 }
 
@@ -230,16 +232,31 @@ TEST_F(Bags, NeverClosed) {
     const ReadBack back = read("a.bag.active", bytes);
     EXPECT_EQ(all_data(back), four);
     EXPECT_HAS(back.notes.at(0), "never closed");
+    EXPECT_FALSE(back.lost) << "nothing says that the end is missing";
 }
 
 TEST_F(Bags, WhatIsNoBag) {
-    EXPECT_HAS(error("a.mcap", ""), "no MCAP");
-    EXPECT_HAS(error("a.mcap", "#ROSBAG V2.0\n"), "no MCAP");
-    EXPECT_HAS(error("a.bag", ""), "no ROS bag");
+    EXPECT_HAS(error("a.mcap", ""), "is empty");
+    EXPECT_HAS(error("a.mcap", "x"), "no MCAP");
+    EXPECT_HAS(error("a.bag", ""), "is empty");
+    EXPECT_HAS(error("a.bag", "x"), "no ROS bag");
     EXPECT_HAS(error("a.bag", "#ROSBAG V1.2\nmore"), "version 1; convert");
-    EXPECT_HAS(error("a.db3", ""), "no ROS 2 bag");
+    EXPECT_HAS(error("a.db3", ""), "is empty");
+    EXPECT_HAS(error("a.db3", "x"), "no ROS 2 bag");
     EXPECT_HAS(error("a.db3", std::string("SQLite format 3\0", 16) + "more"), "no ROS 2 bag");
-    EXPECT_HAS(error("a.pcd", ""), "no .mcap, .bag or .db3");
+    EXPECT_HAS(error("a.pcd", "x"), "is no bag");
+}
+
+TEST_F(Bags, NamesInCapitalsAndNamesThatSayNothing) {
+    for (const char* name : {"A.MCAP", "data.bin", "misnamed.bag", "no_extension"}) {
+        EXPECT_EQ(all_data(read(name, two_chunk_mcap("zstd"))), four) << name;
+        EXPECT_EQ(all_data(read(name, two_chunk_bag("lz4"))), four) << name;
+    }
+    EXPECT_TRUE(Bag::recognises("A.MCAP"));
+    EXPECT_TRUE(Bag::recognises("A.Bag.Active"));
+    EXPECT_FALSE(Bag::recognises(folder_ / "data.bin"));
+    write_bag(folder_ / "B.MCAP", some_messages(encoding_of(".mcap"), 2, 5));
+    EXPECT_FALSE(read_all(folder_ / "B.MCAP").messages.empty());
 }
 
 TEST_F(Bags, Folders) {
@@ -259,6 +276,9 @@ TEST_F(Bags, Folders) {
     std::filesystem::remove(folder_ / "bag_3.bag");
     folder_.put("bag_3.mcap.zstd", "");
     EXPECT_HAS(error_of([&] { Bag{folder_.path()}; }), "zstd -d");
+    const TemporaryFolder empty;
+    empty.put("metadata.yaml", "");
+    EXPECT_HAS(error_of([&] { Bag{empty.path()}; }), "holds no bag");
 }
 
 /// 20 bytes that say they hold 4 GiB, and zeros that really are that many when unpacked.

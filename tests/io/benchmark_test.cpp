@@ -32,6 +32,15 @@ TEST_F(BenchmarkTest, IntensityThatIsAMeasurement) {
     EXPECT_EQ(read_frame(open(), 0).truth[0], Label::unknown);
 }
 
+TEST_F(BenchmarkTest, AScanThatCannotBeReadDecidesNothing) {
+    data.put("pcd/000000.pcd", "no PCD");
+    put_pcd("pcd/000001.pcd", 2.0, 1.0F);
+    const Sequence sequence = open();
+    EXPECT_TRUE(sequence.intensity_is_truth);
+    EXPECT_HAS(error_of([&] { (void)read_frame(sequence, 0); }), "'no'");
+    EXPECT_EQ(read_frame(sequence, 1).T_world_sensor.translation().x(), 2.0);
+}
+
 TEST_F(BenchmarkTest, NoPoses) {
     put_pcd("pcd/000000.pcd", 0.0, 1.0F);
     EXPECT_TRUE(has_note(open(), "identity"));

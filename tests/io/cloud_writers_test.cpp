@@ -96,11 +96,13 @@ TEST_F(CloudWriters, Bin) {
 
 TEST_F(CloudWriters, KindIsToldByExtension) {
     const Cloud cloud = mixed(2, false);
-    for (const char* name : {"a.pcd", "a.PLY", "a.las", "a.npy", "a.bin"}) {
-        write_cloud(folder_ / name, cloud);
+    for (const char* name : {"a.pcd", "a.PLY", "a.las", "a.npy", "a.bin", "a.xyz", "a.csv"}) {
+        EXPECT_TRUE(can_write_cloud(name));
+        EXPECT_EQ(write_cloud(folder_ / name, cloud).points, 2U);
         EXPECT_EQ(read_cloud(folder_ / name).size(), 2U) << name;
     }
-    EXPECT_HAS(error_of<OutputError>([&] { write_cloud(folder_ / "a.xyz", cloud); }), "unknown");
+    EXPECT_HAS(error_of<OutputError>([&] { write_cloud(folder_ / "a.obj", cloud); }), "unknown");
+    EXPECT_FALSE(can_write_cloud("a.obj"));
     EXPECT_HAS(error_of<OutputError>([&] { write_ply(folder_ / "b.ply", Cloud{}); }), "'x'");
     EXPECT_FALSE(std::filesystem::exists(folder_ / "b.ply"));
 }

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "dynamic_filter/io/file.hpp"
 
+#include <sys/resource.h>
 #include <sys/stat.h>
 
+#include <csignal>
+#include <cstdlib>
+
+#include "io/input.hpp"
 #include "io/support.hpp"
 
 namespace dynamic_filter::io {
@@ -33,6 +38,25 @@ TEST(File, RefusesWhatIsNoRegularFile) {
     EXPECT_HAS(error_of([] { read_file("/dev/zero"); }), "device");
     EXPECT_HAS(error_of([&] { read_file(folder / "none"); }), "No such file");
     EXPECT_HAS(error_of([&] { read_file(folder / "loop"); }), "cannot be opened");
+}
+
+TEST(InputFile, ReadsPartsAndNothingBeyondTheEnd) {
+    const TemporaryFolder folder;
+    const InputFile file(folder.put("f", "0123456789"));
+    EXPECT_EQ(as_text(file.read(3, 4)), "3456");
+    EXPECT_TRUE(file.read(10, 0).empty());
+    const std::pair<std::uint64_t, std::uint64_t> beyond[] = {{8, 3}, {11, 0}, {1, UINT64_MAX}};
+    for (const auto& [offset, count] : beyond) {
+        EXPECT_HAS(error_of([&, o = offset, c = count] { (void)file.read(o, c); }), "ends at 10");
+    }
+    EXPECT_HAS(error_of([&] { InputFile none(folder.path()); }), "folder");
+}
+
+TEST(InputFile, AFileThatShrinksMeanwhileIsAnError) {
+    const TemporaryFolder folder;
+    const InputFile file(folder.put("f", "0123456789"));
+    fs::resize_file(folder / "f", 4);
+    EXPECT_HAS(error_of([&] { (void)file.read(2, 8); }), "(byte 4): became shorter");
 }
 
 TEST(File, NothingIsLeftWithoutCommit) {
@@ -73,6 +97,34 @@ TEST(File, SaysWhyItCannotWrite) {
     EXPECT_HAS(error_of<OutputError>([&] { AtomicFile file(folder / "f/g"); }), "Not a directory");
     EXPECT_HAS(error_of<OutputError>([&] { AtomicFile file(folder.path()); }), "folder");
     EXPECT_HAS(error_of<OutputError>([] { AtomicFile file("/dev/full"); }), "device");
+}
+
+/// In a process of its own, whose files may not grow beyond 1,000 bytes.
+TEST(AtomicFile, AFullDiskLeavesTheOldFileAndNothingElse) {
+    const TemporaryFolder folder;
+    folder.put("f", "old");
+    const auto write_much = [&] {
+        std::signal(SIGXFSZ, SIG_IGN);
+        const rlimit limit{1000, 1000};
+        ::setrlimit(RLIMIT_FSIZE, &limit);
+        EXPECT_HAS(error_of<OutputError>([&] { write_file(folder / "f", std::string(5000, 'x')); }),
+                   "File too large");
+        std::_Exit(testing::Test::HasFailure() ? 1 : 0);
+    };
+    EXPECT_EXIT(write_much(), testing::ExitedWithCode(0), "");
+    EXPECT_EQ(slurp(folder / "f"), "old");
+    EXPECT_EQ(count_files(folder), 1);
+}
+
+TEST(AtomicFile, WhatCannotBePutInPlaceIsTakenAway) {
+    const TemporaryFolder folder;
+    {
+        AtomicFile file(folder / "f");
+        fs::create_directories(folder / "f");
+        EXPECT_HAS(error_of<OutputError>([&] { file.commit(); }), "renamed into place");
+    }
+    EXPECT_EQ(count_files(folder), 1);
+    EXPECT_TRUE(fs::is_directory(folder / "f"));
 }
 
 TEST(AtomicFile, ALinkStaysAndItsTargetIsReplaced) {

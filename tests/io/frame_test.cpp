@@ -31,8 +31,40 @@ TEST_F(FrameTest, UnusableScansAreRejectedOneByOne) {
     };
     EXPECT_HAS(error(0), "empty");
     EXPECT_HAS(error(1), "12 bytes");
-    EXPECT_HAS(error(2), "3 labels but 2 points");
+    EXPECT_NO_THROW((void)read_frame(sequence, 2)) << "truth decides nothing";
     EXPECT_HAS(error(3), "not finite");
+}
+
+TEST_F(FrameTest, TruthThatDoesNotFitTakesNothingFromItsScan) {
+    put_bins("velodyne", 3);
+    put_labels(3);
+    data.put("poses.txt", kitti_rows(3));
+    data.put("labels/000001.label", std::string(12, '\0'));
+    data.put("labels/000002.label", "123");
+    const Sequence sequence = open();
+    EXPECT_EQ(read_frame(sequence, 0).truth_fault, "");
+    for (const std::size_t i : {1U, 2U}) {
+        const Frame frame = read_frame(sequence, i);
+        EXPECT_EQ(frame.points, (Points{{1, 2, 3}, {4, 5, 6}}));
+        EXPECT_TRUE(frame.truth.empty());
+    }
+    EXPECT_HAS(read_frame(sequence, 1).truth_fault, "3 labels but 2 points");
+    EXPECT_HAS(read_frame(sequence, 1).truth_fault, "000001.label");
+    EXPECT_HAS(read_frame(sequence, 2).truth_fault, "no multiple of 4");
+}
+
+TEST_F(FrameTest, WhatShowsWithoutReadingIsWhatReadingSays) {
+    put_bins("scans", 4);
+    data.put("poses.txt", kitti_rows(3) + "nan nan nan nan 0 0 0 0 0 0 0 0\n");
+    data.put("scans/000000.bin", "");
+    data.put("scans/000001.bin", floats({1, 2, 3}));
+    const Sequence sequence = open();
+    for (const std::size_t i : {0U, 1U, 3U}) {
+        const std::string quick = error_of([&] { refuse_unusable(sequence, i); });
+        EXPECT_NE(quick, "") << i;
+        EXPECT_EQ(quick, error_of([&] { (void)read_frame(sequence, i); }));
+    }
+    EXPECT_NO_THROW(refuse_unusable(sequence, 2));
 }
 
 TEST_F(FrameTest, NoPoints) {

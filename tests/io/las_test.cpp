@@ -135,6 +135,19 @@ TEST_F(Las, ExtraBytes) {
     EXPECT_HAS(one(extra(1, 0, "intensity")), "two fields");
 }
 
+/// Only what stands for a standard field takes its place, wherever others of such names are.
+TEST_F(Las, ExactValues) {
+    const std::string records = extra_record(extra(1, 0, "own_exact") + extra(1, 0, "own") +
+                                             extra(9, 0, "user_data_exact") + extra(1, 0, "last"));
+    const std::string point = old_point(0) + "\x01\x02" + floats({0.5F}) + "\x03";
+    const Cloud cloud = read(header(0, static_cast<unsigned>(point.size()), 1, records, 1) + point);
+    EXPECT_EQ(column(cloud, "user_data"), Numbers{0.5});
+    EXPECT_EQ(column(cloud, "own_exact"), Numbers{1});
+    EXPECT_EQ(column(cloud, "own"), Numbers{2});
+    EXPECT_EQ(column(cloud, "last"), Numbers{3});
+    EXPECT_EQ(cloud.find("user_data_exact"), nullptr);
+}
+
 TEST_F(Las, Refusals) {
     EXPECT_HAS(error("PCD"), "byte 3");
     EXPECT_HAS(error("#las " + std::string(300, ' ')), "LASF");
@@ -150,6 +163,12 @@ TEST_F(Las, Refusals) {
     std::string infinite = header(0, 20, 0);
     overwrite(infinite, 131, std::numeric_limits<double>::infinity());
     EXPECT_HAS(error(infinite), "not finite");
+    std::string flat = header(0, 20, 0);
+    overwrite(flat, 139, 0.0);
+    EXPECT_HAS(error(flat), "scale is 0");
+    std::string short_header = header(0, 20, 0) + std::string(300, '\0');
+    short_header[25] = 4;
+    EXPECT_HAS(error(short_header), "behind a header of 227");
     std::string far = header(0, 20, 1) + old_point(0);
     overwrite(far, 96, 4294967295U);
     EXPECT_HAS(error(far), "4294967295");
@@ -176,7 +195,7 @@ Cloud sample(std::size_t points) {
 
 TEST_F(Las, RoundTrip) {
     const Cloud cloud = sample(5);
-    EXPECT_HAS(write_las(folder_ / "w.las", cloud), "1 mm");
+    EXPECT_HAS(write_las(folder_ / "w.las", cloud).loss, "1 mm");
     const Cloud back = read_las(folder_ / "w.las");
     ASSERT_EQ(back.size(), 5U);
     for (const char* name : {"x", "y", "z"}) {
@@ -190,6 +209,19 @@ TEST_F(Las, RoundTrip) {
     EXPECT_EQ(column(back, "normal_1"), (Numbers{0, 2, 4, 6, 8}));
 }
 
+TEST_F(Las, BoundsAreThoseOfTheCoordinatesAsWritten) {
+    Cloud cloud;
+    for (const char* name : {"x", "y", "z"}) add_field(cloud, name, FieldType::f32);
+    const std::string points = floats({0.12345F, 1.0F, 2.0F, 9.87654F, 1.0F, 2.0F});
+    const auto raw = std::as_bytes(std::span(points));
+    cloud.data.assign(raw.begin(), raw.end());
+    write_las(folder_ / "w.las", cloud);
+    const std::string bytes = slurp(folder_ / "w.las");
+    double bounds[2] = {};  // the greatest x, the least
+    std::memcpy(bounds, bytes.data() + 179, sizeof bounds);
+    EXPECT_EQ(column(read_las(folder_ / "w.las"), "x"), (Numbers{bounds[1], bounds[0]}));
+}
+
 TEST_F(Las, FarFromTheOrigin) {
     Cloud cloud;
     for (const char* name : {"x", "y", "z"}) add_field(cloud, name, FieldType::f64);
@@ -199,7 +231,7 @@ TEST_F(Las, FarFromTheOrigin) {
         cloud.data.insert(cloud.data.end(), raw.begin(), raw.end());
     };
     for (const double x : {691234.567, 691235.0, std::nan("")}) put(x);
-    EXPECT_HAS(write_las(folder_ / "w.las", cloud), "1 points that are not finite");
+    EXPECT_HAS(write_las(folder_ / "w.las", cloud).loss, "1 points that are not finite");
     EXPECT_NEAR(column(read_las(folder_ / "w.las"), "x").at(0), 691234.567, 1e-9);
     put(1e9);
     EXPECT_HAS(error_of<OutputError>([&] { write_las(folder_ / "v.las", cloud); }), "wider");
@@ -247,6 +279,10 @@ TEST_F(Las, CountsOf64Bits) {
         overwrite(bytes, 247, count);
         EXPECT_HAS(error(bytes), "2 of " + std::to_string(count));
     }
+    std::string old_count = slurp(folder_ / "w.las");
+    overwrite(old_count, 107, std::uint32_t{2});
+    overwrite(old_count, 247, std::uint64_t{0});
+    EXPECT_EQ(read(old_count).size(), 2U);
 }
 
 }  // namespace

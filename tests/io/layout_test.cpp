@@ -40,6 +40,15 @@ TEST_F(LayoutTest, PosesAreLookedForAndNamed) {
     EXPECT_EQ(open_sequence(data / "scans").size(), 2U);
 }
 
+TEST_F(LayoutTest, PosesAboveTheFolderThatWeAreIn) {
+    put_bins("scans", 2);
+    data.put("traj.txt", tum_rows(2));
+    const auto before = std::filesystem::current_path();
+    std::filesystem::current_path(data / "scans");
+    EXPECT_EQ(open_sequence(".").size(), 2U);
+    std::filesystem::current_path(before);
+}
+
 TEST_F(LayoutTest, OneKindOfScans) {
     put_bins(".", 2);
     data.put("poses.txt", kitti_rows(2));

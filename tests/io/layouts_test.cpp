@@ -48,6 +48,9 @@ TEST_F(Layouts, PairsWithFaults) {
     std::filesystem::remove(data / "b.pcd");
     data.put("c.odom", odom(0));
     EXPECT_HAS(open_error(), "no c.pcd");
+    std::filesystem::remove(data / "c.odom");
+    put_pcd("a.PCD", 0, 0);  // two scans, one pose
+    EXPECT_EQ(open().T_world_sensor.size(), 2U);
 }
 
 TEST_F(Layouts, Glim) {
@@ -193,8 +196,10 @@ TEST_F(Nuscenes, Faults) {
     EXPECT_HAS(scene_error(), "length 9");
     table("ego_pose", entry("e1", R"("translation": "none")"));
     EXPECT_HAS(scene_error(), "no table");
-    table("sample_data", sweep("../x/LIDAR_TOP/a.pcd.bin", "1", "k1", "e1"));
-    EXPECT_HAS(scene_error(), "elsewhere");
+    for (const char* file : {"../x/LIDAR_TOP/a.pcd.bin", "/x/LIDAR_TOP/a.pcd.bin"}) {
+        table("sample_data", sweep(file, "1", "k1", "e1"));
+        EXPECT_HAS(scene_error(), "elsewhere");
+    }
     table("sample_data", "");
     EXPECT_HAS(scene_error(), "no scan");
     data.put("v1.0-mini/sample.json", "{");

@@ -42,6 +42,19 @@ TEST_F(MatchingTest, NanosecondsInFileNames) {
     EXPECT_EQ(open().T_world_sensor[1].translation().x(), 3.0);
 }
 
+TEST_F(MatchingTest, StampsOfBothSidesAreKeptWhereOrderDecides) {
+    put_bins("scans", 3);
+    data.put("traj.txt", tum_rows(3, 100.0));
+    EXPECT_TRUE(open().pose_stamps.empty()) << "the scans have none of their own";
+    data.put("times.txt", "0.2\n0.8\n1.2\n");
+    OpenOptions from_one;
+    from_one.first = 1;
+    const Sequence sequence = open(from_one);
+    EXPECT_EQ(sequence.stamps, (std::vector<double>{0.8, 1.2}));
+    ASSERT_EQ(sequence.pose_stamps.size(), 2U);
+    EXPECT_DOUBLE_EQ(sequence.pose_stamps[0], 100.2);
+}
+
 TEST_F(MatchingTest, TimesFile) {
     put_bins("scans", 2);
     data.put("times.txt", "0.2\n0.8\n");

@@ -22,6 +22,10 @@ TEST(PoseTable, EurocIsNanosecondsAndWxyz) {
     EXPECT_EQ(file.poses.at(0).linear()(0, 0), -1.0);  // half a turn about z
 }
 
+TEST(PoseTable, CommentsAndBlankLinesArePassedOver) {
+    EXPECT_EQ(read(euroc + "\n# here it begins\n1500000000,1,2,3,0,0,0,1\n").poses.size(), 1U);
+}
+
 TEST(PoseTable, NamedColumnsInAnyOrder) {
     const PoseFile file = read("idx,QW,qx,qy,qz,tz,ty,tx,time\n7,1,0,0,0,3,2,1,4.5\n");
     EXPECT_EQ(file.stamps.at(0), 4.5);

@@ -55,6 +55,21 @@ TEST_F(Poses, BadRowsAreNamed) {
     error_of([&] { read_poses(folder_ / "none.txt"); });
 }
 
+TEST_F(Poses, OtherKindsOfFilesAndCommasAreNamed) {
+    const auto error = [&](const std::string& text) {
+        return error_of([&] { (void)read_poses(folder_.put("a.txt", text)); });
+    };
+    EXPECT_HAS(error("#ROSBAG V2.0\nE"), "is a ROS 1 bag; expected a pose file");
+    EXPECT_HAS(error("ply\nformat ascii 1.0\n"), "is a PLY cloud");
+    EXPECT_HAS(error(std::string(32, '\0')), "is a binary file");
+    EXPECT_HAS(error("# t;x\n0;0;0;0;0;0;0;1\n"), "line 2");
+    EXPECT_HAS(error("t;x;y;z;qx;qy;qz;qw\n0;0;0;0;0;0;0;1\n"), "has semicolons");
+    EXPECT_HAS(error("0,1 0,0 0,0 0,0 0,0 0,0 0,0 1\n"), "has decimal commas");
+    const std::string header = "timestamp, x, y, z, qx, qy, qz, qw\n";
+    EXPECT_EQ(read_poses(folder_.put("a.csv", header + "0, 1, 2, 3, 0, 0, 0, 1\n")).poses.size(),
+              1U);
+}
+
 TEST_F(Poses, G2oInTheOrderOfTheIds) {
     const PoseFile file = read(
         "# graph\nEDGE_SE3:QUAT 2 10 1 1 1 0 0 0 1\nVERTEX_SE3:QUAT 10 1 2 3 0 0 1 0\nFIX 2\n"

@@ -70,6 +70,47 @@ TEST_F(Rosbag2, MessagesMayBeCompressedEach) {
     EXPECT_HAS(back.notes.at(0), "message 3 is compressed, and damaged");
 }
 
+/// As a stream is, whose end the writer did not know when it began.
+std::string packed_without_size(const std::string& plain) {
+    std::string out(plain.size() + 100, '\0');
+    ZSTD_CCtx* context = ZSTD_createCCtx();
+    ZSTD_CCtx_setParameter(context, ZSTD_c_contentSizeFlag, 0);
+    out.resize(ZSTD_compress2(context, out.data(), out.size(), plain.data(), plain.size()));
+    ZSTD_freeCCtx(context);
+    return out;
+}
+
+TEST_F(Rosbag2, MessagesThatCannotBeHadAreNamed) {
+    create();
+    add(1, 1, 1, packed_without_size("plain"));
+    const Bag bag(path());
+    EXPECT_HAS(bag.for_each([](const Message&) { FAIL(); }).at(0).what, "does not say to how much");
+    EXPECT_HAS(error_of([&] { (void)bag.read({0, 0, 1}); }), "(message 1): is compressed");
+    EXPECT_HAS(error_of([&] { (void)bag.read({0, 0, 2}); }), "message 2");
+}
+
+TEST_F(Rosbag2, TopicsOfAnotherSchema) {
+    run("CREATE TABLE topics(id INTEGER PRIMARY KEY)");
+    EXPECT_HAS(read_all(path()).notes.at(0), "list of topics is damaged");
+}
+
+/// What a recorder has not yet put into the file proper lies in a log beside it.
+TEST_F(Rosbag2, ALogBesideItIsReadToo) {
+    create();
+    sqlite3* recorder = nullptr;
+    ASSERT_EQ(sqlite3_open(path().c_str(), &recorder), SQLITE_OK);
+    const auto record = [&](const char* sql) {
+        ASSERT_EQ(sqlite3_exec(recorder, sql, nullptr, nullptr, nullptr), SQLITE_OK);
+    };
+    record("PRAGMA journal_mode = WAL");
+    record("INSERT INTO messages VALUES (1, 1, 1, 'x')");
+    ASSERT_GT(std::filesystem::file_size(path().string() + "-wal"), 0U);
+    const std::string before = slurp(path());
+    EXPECT_EQ(data(), Data{"x"});
+    EXPECT_EQ(slurp(path()), before) << "it was only read";
+    sqlite3_close(recorder);
+}
+
 TEST_F(Rosbag2, OtherEncodingsAreLeftOut) {
     create();
     run("INSERT INTO topics VALUES (2, '/b', 'Thing', 'json')");

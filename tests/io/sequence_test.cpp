@@ -31,6 +31,9 @@ TEST_F(SequenceTest, KittiCameraPoses) {
     // The camera looks along z, the LiDAR along x.
     EXPECT_TRUE(sequence.T_world_sensor[1].translation().isApprox(Eigen::Vector3d(5, 0, 0), 1e-12));
     EXPECT_TRUE(sequence.T_world_sensor[1].linear().isIdentity(1e-12));
+    OpenOptions options;
+    options.pose_fix = PoseFix::lidar;  // they are the LiDAR's, whatever lies beside them
+    EXPECT_EQ(open(options).T_world_sensor[1].translation(), Eigen::Vector3d(0, 0, 5));
     data.put("calib.txt", "P0: 1\n");
     EXPECT_HAS(open_error(), "Tr:");
 }
@@ -49,6 +52,43 @@ TEST_F(SequenceTest, Stamps) {
     EXPECT_HAS(open_error(), "2 times but 3 scans");
     data.put("times.txt", "1\n3\n2\n");
     EXPECT_HAS(open_error(), "must not go back");
+}
+
+TEST_F(SequenceTest, ScansMustNotGoBackInTime) {
+    for (const char* stamp : {"5", "3"}) {
+        const std::string submap = stamp == std::string("5") ? "000000/" : "000001/";
+        data.put(submap + "data.txt",
+                 "T_world_origin:\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\nstamp: " +
+                     std::string(stamp) + "\n");
+        data.put(submap + "points_compact.bin", floats({1, 2, 3}));
+    }
+    EXPECT_HAS(open_error(), "000001: its time is before");
+}
+
+TEST_F(SequenceTest, WhyMotionIsNotUndone) {
+    OpenOptions options;
+    options.deskew = true;
+    put_bins("velodyne", 3);
+    data.put("poses.txt", kitti_rows(3));
+    EXPECT_TRUE(has_note(open(options), "no poses over time"));
+    data.put("times.txt", "1\n1.1\n1.2\n");
+    EXPECT_TRUE(has_note(open(options), "no times of their own"));
+    EXPECT_FALSE(open(options).deskew);
+}
+
+TEST_F(SequenceTest, TopicsAreForBags) {
+    put_bins("velodyne", 1);
+    data.put("poses.txt", kitti_rows(1));
+    OpenOptions options;
+    options.topic = "/points";
+    EXPECT_HAS(error_of<ConfigError>([&] { (void)open(options); }), "for bags");
+}
+
+TEST_F(SequenceTest, FormatsHaveNames) {
+    EXPECT_EQ(to_string(Format::kitti), "kitti");
+    EXPECT_EQ(to_string(Format::benchmark), "benchmark");
+    EXPECT_EQ(to_string(Format::folder), "folder");
+    EXPECT_EQ(to_string(Format::bag), "bag");
 }
 
 TEST_F(SequenceTest, SelectionKeepsThingsParallel) {

@@ -1,18 +1,16 @@
 foreach(unit bag bag_scans bag_writer benchmark cloud cloud_writers file frame frame_tree las layout layouts lzf
-             matching messages natural_order npy pcd pcd_header ply ply_header png pose_table poses
-             records rigid rosbag2 sequence text text_cloud trajectory writers)
+             matching mcap messages natural_order npy pcd pcd_header ply ply_header png pose_fix pose_table poses
+             records rigid rosbag1 rosbag2 sequence text text_cloud trajectory writers)
   df_test(io/${unit} dynamic_filter_io)
   # Units behind the public headers are tested too.
   target_include_directories(io_${unit}_test PRIVATE ${PROJECT_SOURCE_DIR}/src)
 endforeach()
 target_link_libraries(io_png_test PRIVATE PNG::PNG)
 
-# The system's Python is the one for which numpy is a package.
-find_program(DF_SYSTEM_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH)
 add_executable(io_read_back_samples ${CMAKE_CURRENT_LIST_DIR}/read_back_samples.cpp)
 target_link_libraries(io_read_back_samples PRIVATE dynamic_filter_io dynamic_filter_flags)
 add_dependencies(tests_without_simulator io_read_back_samples)
 add_test(NAME io/read_back
-         COMMAND $<IF:$<BOOL:${DF_SYSTEM_PYTHON}>,${DF_SYSTEM_PYTHON},$<TARGET_FILE:Python3::Interpreter>>
-                 ${CMAKE_CURRENT_LIST_DIR}/read_back.py $<TARGET_FILE:io_read_back_samples>)
+         COMMAND ${DF_PYTHON} ${CMAKE_CURRENT_LIST_DIR}/read_back.py
+                 $<TARGET_FILE:io_read_back_samples>)
 set_tests_properties(io/read_back PROPERTIES SKIP_RETURN_CODE 77)

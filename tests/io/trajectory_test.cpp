@@ -139,7 +139,21 @@ TEST(PointTimes, BeforeTheStamp) {
     EXPECT_NEAR(times[100], 0.0, 1e-6);
 }
 
+TEST(PointTimes, MayGoBack) {
+    Cloud cloud = timed<float>("time", FieldType::f32, 1.0, 0.0);
+    const auto forth = point_times(cloud, 7.0);
+    const auto first = std::prev(cloud.data.end(), static_cast<std::ptrdiff_t>(cloud.point_bytes));
+    std::swap_ranges(first, cloud.data.end(), cloud.data.begin());
+    const auto back = point_times(cloud, 7.0);
+    ASSERT_EQ(back.size(), forth.size());
+    EXPECT_EQ(back.front(), forth.back());
+    EXPECT_EQ(back.back(), forth.front());
+}
+
 TEST(PointTimes, WhatSaysNothing) {
+    Cloud equal = timed<float>("time", FieldType::f32, 1.0, 0.0);
+    std::fill(equal.data.begin(), equal.data.end(), std::byte{0x3d});
+    EXPECT_TRUE(point_times(equal, 0.0).empty());
     EXPECT_TRUE(point_times(timed<float>("intensity", FieldType::f32, 1.0, 0.0), 0.0).empty());
     EXPECT_TRUE(point_times(timed<float>("time", FieldType::f32, 1e20, 0.0), 0.0).empty());
     EXPECT_TRUE(point_times(timed<float>("time", FieldType::f32, 1e-30, 0.0), 0.0).empty());

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# compare.sh WRITER EXTENSION READER...: what READER finds in a bag is what WRITER put in it.
+# compare.sh WRITER EXTENSION READER...: what READER finds in a file is what WRITER put in it.
 set -eu
 writer=$1 extension=$2
 shift 2
@@ -17,4 +17,4 @@ trap 'rm -rf "$folder"' EXIT
 "$writer" "$folder/a.$extension" >"$folder/written"
 "$@" "$folder/a.$extension" >"$folder/read"
 diff "$folder/written" "$folder/read"
-echo "$(wc -l <"$folder/read") messages are the same"
+echo "$(wc -l <"$folder/read") lines are the same"

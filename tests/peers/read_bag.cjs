@@ -9,13 +9,7 @@ const { Bag } = require("@foxglove/rosbag");
 const { FileReader } = require("@foxglove/rosbag/node");
 const { parse, md5 } = require("@foxglove/rosmsg");
 const { MessageReader } = require("@foxglove/rosmsg2-serialization");
-
-function fnv1a(values) {
-  const bytes = new Uint8Array(Float64Array.from(values).buffer);
-  let hash = 0x811c9dc5;
-  for (const byte of bytes) hash = Math.imul(hash ^ byte, 0x01000193) >>> 0;
-  return hash.toString(16).padStart(8, "0");
-}
+const fnv1a = require("./fnv1a.cjs");
 
 /// x, y, z and intensity of each point.
 function pointValues(cloud) {

@@ -4,6 +4,8 @@ import sqlite3
 import struct
 import sys
 
+from fnv1a import fnv1a
+
 
 class Cdr:
     """Little-endian CDR; alignment counts from behind the four bytes of its head."""
@@ -31,13 +33,6 @@ class Cdr:
     def header(self):
         stamp = self.number("i") * 10**9 + self.number("I")
         return stamp, self.text()
-
-
-def fnv1a(values):
-    hash_ = 0x811C9DC5
-    for byte in struct.pack(f"<{len(values)}d", *values):
-        hash_ = (hash_ ^ byte) * 0x01000193 & 0xFFFFFFFF
-    return f"{hash_:08x}"
 
 
 def point_values(cdr):

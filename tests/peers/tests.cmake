@@ -1,15 +1,31 @@
-# The bags written are read by others: node's packages (npm ci --ignore-scripts) and Python's SQLite.
-find_package(Python3 REQUIRED COMPONENTS Interpreter)
-add_executable(write_bags ${CMAKE_CURRENT_LIST_DIR}/write_bags.cpp)
-target_include_directories(write_bags PRIVATE ${PROJECT_SOURCE_DIR}/tests)
-target_link_libraries(write_bags PRIVATE dynamic_filter_io dynamic_filter_flags fmt::fmt)
-add_dependencies(tests_without_simulator write_bags)
-foreach(kind mcap bag)
-  add_test(NAME peers/${kind}
-           COMMAND ${CMAKE_CURRENT_LIST_DIR}/compare.sh $<TARGET_FILE:write_bags> ${kind}
-                   node ${CMAKE_CURRENT_LIST_DIR}/read_bag.cjs)
-  set_tests_properties(peers/${kind} PROPERTIES SKIP_RETURN_CODE 77)
+# What is written is read by others: node's packages (npm ci --ignore-scripts), Python's SQLite and
+# numpy, and where they are installed Open3D (python3-open3d) and ROS 1 (python3-rosbag,
+# python3-sensor-msgs). A peer that is not there is a test that says "Skipped".
+
+foreach(writer write_bags write_clouds)
+  add_executable(${writer} ${CMAKE_CURRENT_LIST_DIR}/${writer}.cpp)
+  target_include_directories(${writer} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+  target_link_libraries(${writer} PRIVATE dynamic_filter_io dynamic_filter_flags fmt::fmt)
+  add_dependencies(tests_without_simulator ${writer})
 endforeach()
-add_test(NAME peers/db3
-         COMMAND ${CMAKE_CURRENT_LIST_DIR}/compare.sh $<TARGET_FILE:write_bags> db3
-                 $<TARGET_FILE:Python3::Interpreter> ${CMAKE_CURRENT_LIST_DIR}/read_db3.py)
+
+# df_peer(NAME WRITER EXTENSION INTERPRETER READER)
+function(df_peer name writer extension interpreter reader)
+  add_test(NAME peers/${name}
+           COMMAND ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/compare.sh $<TARGET_FILE:${writer}>
+                   ${extension} ${interpreter} ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/${reader})
+  set_tests_properties(peers/${name} PROPERTIES SKIP_RETURN_CODE 77)
+endfunction()
+
+df_peer(mcap write_bags mcap node read_bag.cjs)
+df_peer(bag write_bags bag node read_bag.cjs)
+df_peer(db3 write_bags db3 ${DF_PYTHON} read_db3.py)
+df_peer(ros1/bag write_bags bag ${DF_PYTHON} read_rosbag.py)
+df_peer(copc/las write_clouds las node read_cloud.mjs)
+foreach(kind pcd ascii.pcd compressed.pcd ply)
+  df_peer(three/${kind} write_clouds ${kind} node read_cloud.mjs)
+  df_peer(open3d/${kind} write_clouds ${kind} ${DF_PYTHON} read_cloud.py)
+endforeach()
+foreach(kind npy bin)
+  df_peer(numpy/${kind} write_clouds ${kind} ${DF_PYTHON} read_cloud.py)
+endforeach()

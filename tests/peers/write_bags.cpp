@@ -3,41 +3,18 @@
 // others beside this file print them.
 #include <fmt/format.h>
 
-#include <cstring>
 #include <filesystem>
 
 #include "dynamic_filter/io/bag_writer.hpp"
 #include "dynamic_filter/io/messages.hpp"
-#include "support/random.hpp"
+#include "peers/sample.hpp"
 
 namespace dynamic_filter::io {
 namespace {
 
-std::uint32_t fnv1a(const std::vector<double>& values) {
-    std::uint32_t hash = 0x811c9dc5U;
-    for (const std::byte byte : std::as_bytes(std::span(values))) {
-        hash = (hash ^ std::to_integer<std::uint32_t>(byte)) * 0x01000193U;
-    }
-    return hash;
-}
-
-/// x, y, z as float32 or float64, intensity, and fields that others must step over.
 Cloud random_cloud(std::size_t points, FieldType type, test::Random& random) {
-    Cloud cloud;
-    add_field(cloud, "time", FieldType::u64);
-    for (const char* axis : {"x", "y", "z"}) add_field(cloud, axis, type);
-    add_field(cloud, "ring", FieldType::u16, 3);
-    add_field(cloud, "intensity", FieldType::f32);
-    cloud.data.resize(points * cloud.point_bytes);
-    for (std::size_t i = 0; i < points; ++i) {
-        for (const Field& field : cloud.fields) {
-            std::byte* to = cloud.data.data() + i * cloud.point_bytes + field.offset;
-            const double wide = random.uniform(-100.0, 100.0);
-            const auto narrow = static_cast<float>(wide);
-            if (field.type == FieldType::f64) std::memcpy(to, &wide, sizeof wide);
-            if (field.type == FieldType::f32) std::memcpy(to, &narrow, sizeof narrow);
-        }
-    }
+    Cloud cloud = sample_fields(type);
+    fill(cloud, points, random);
     return cloud;
 }
 

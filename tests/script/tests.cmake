@@ -1,6 +1,7 @@
-find_package(Python3 REQUIRED COMPONENTS Interpreter)
 add_test(NAME script/semantickitti
          COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/semantickitti_test.py
                  ${PROJECT_SOURCE_DIR} $<TARGET_FILE:dynamicfilter>)
 add_test(NAME script/mechanisms
          COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/mechanisms_test.py ${PROJECT_SOURCE_DIR})
+add_test(NAME script/faults
+         COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/faults_test.py ${PROJECT_SOURCE_DIR})

@@ -8,3 +8,4 @@ import "./look_checks.mjs";
 import "./compare_checks.mjs";
 import "./live_checks.mjs";
 import "./big_checks.mjs";
+import "./command_checks.mjs";

@@ -38,6 +38,12 @@ struct Message {
     std::span<const std::byte> data;
 };
 
+/// What is wrong with a bag.
+struct Defect {
+    std::string what;
+    bool lost = true;  ///< messages are missing; otherwise they may be, which nothing says
+};
+
 class BagFile;
 
 /// Needs no index: what is readable of a truncated or damaged file is read, and the rest is noted.
@@ -53,8 +59,8 @@ public:
     ~Bag();
 
     /// Every message once, file after file, in the order in which they were written. One pass over
-    /// all bytes; memory is that of a chunk. Returns what could not be read, a line each.
-    std::vector<std::string> for_each(const std::function<void(const Message&)>& use) const;
+    /// all bytes; memory is that of a chunk. Returns what could not be read.
+    std::vector<Defect> for_each(const std::function<void(const Message&)>& use) const;
 
     /// Throws InputError if it cannot be read any more. Thread-safe.
     [[nodiscard]] std::vector<std::byte> read(const MessageRef& message) const;

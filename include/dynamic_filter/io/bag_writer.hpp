@@ -19,6 +19,8 @@ class BagWriter {
 public:
     /// By extension: .mcap (zstd), .db3, or .bag (lz4). Throws ConfigError for any other.
     static std::unique_ptr<BagWriter> create(const std::filesystem::path& path);
+    /// Whether create() knows the extension, in any case.
+    static bool recognises(const std::filesystem::path& path);
 
     BagWriter() = default;
     BagWriter(const BagWriter&) = delete;

@@ -13,7 +13,7 @@ namespace dynamic_filter::io {
 /// A likely mistake.
 struct Finding {
     std::string what;    ///< one sentence, with the figures that say so
-    std::string advice;  ///< what to do
+    std::string advice;  ///< what to do: an option ("--...") to try, or a sentence
 };
 
 /// How well scans overlay if poses and points are taken in some way: the share of what stands
@@ -27,14 +27,16 @@ struct Preflight {
     std::vector<Finding> findings;  ///< empty: nothing suspicious
     std::vector<Overlay> overlays;  ///< "as given" first; empty if no two scans could be compared
     std::size_t scans = 0;          ///< that were read
+    std::vector<std::string> unusable;  ///< scans that a run would reject, and why: of all, what
+                                        ///< shows without reading, and of those looked at, the rest
 };
 
 /// Quick: about 15 scans; finds what makes the scans overlay badly as a whole. Thorough: 60, and
 /// looks whether moving them about makes them fit better.
 enum class Depth { quick, thorough };
 
-/// Looks at a few scans at each of some places of the recording. Scans that cannot be read are left
-/// out. Thorough takes a second or two for 64 beams, quick a tenth of one.
+/// Looks at a few scans at each of some places of the recording. Thorough takes a second or two for
+/// 64 beams, quick a tenth of one.
 Preflight check_recording(const Sequence& sequence, Depth depth);
 
 }  // namespace dynamic_filter::io

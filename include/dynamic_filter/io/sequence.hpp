@@ -54,6 +54,8 @@ struct Sequence {
     std::vector<std::size_t> bag_scans;   ///< parallel to scan_files: places in it
     bool intensity_is_truth = false;      ///< `benchmark` with ground truth in the intensity
     std::vector<std::string> notes;       ///< for the user: what was assumed
+    std::vector<std::string> losses;      ///< what of a bag cannot be read: scans are missing
+    std::vector<double> pose_stamps;      ///< [s] of poses matched by order, where both have stamps
 
     [[nodiscard]] std::size_t size() const { return scan_files.size(); }
     [[nodiscard]] bool has_truth() const { return intensity_is_truth || !label_files.empty(); }
@@ -65,7 +67,8 @@ struct Frame {
     Points points;  ///< sensor frame, same order, their motion undone if that was asked for
     Pose T_world_sensor = Pose::Identity();
     double stamp = 0.0;
-    Labels truth;  ///< empty without ground truth; otherwise one per point
+    Labels truth;             ///< empty without ground truth; otherwise one per point
+    std::string truth_fault;  ///< why this scan's truth cannot be used; the scan itself can
 };
 
 /// Recognises the layout, checks that scans, poses, stamps and labels agree in number.
@@ -74,8 +77,15 @@ struct Frame {
 Sequence open_sequence(const std::filesystem::path& data, const OpenOptions& options = {});
 
 /// Reads scan i. Throws InputError if the scan cannot be used (truncated, no points, a non-finite
-/// pose, label count differs): the caller may count it as rejected and go on. Thread-safe.
+/// pose): the caller may count it as rejected and go on. Thread-safe.
 Frame read_frame(const Sequence& sequence, std::size_t i);
+
+/// Why a scan is rejected whose fields are not those of the scans before it.
+inline constexpr const char* kOtherFields =
+    "its fields are not those of the first scan; one map cannot hold both";
+
+/// Throws what read_frame would, as far as that shows without reading the points. Thread-safe.
+void refuse_unusable(const Sequence& sequence, std::size_t i);
 
 /// "000123" for velodyne/000123.bin.
 std::string stem(const Sequence& sequence, std::size_t i);

@@ -38,16 +38,26 @@ void write_pcd(const std::filesystem::path& path, const Cloud& cloud,
 // The following return what the format could not hold, as a sentence for the user; empty if it held
 // all. Fields with several values become one field each, "n_0", "n_1" and so on.
 
-/// By extension: .pcd (binary), .ply, .las, .npy or .bin.
-std::string write_cloud(const std::filesystem::path& path, const Cloud& cloud);
+struct Written {
+    std::size_t points = 0;  ///< in the file
+    std::string loss;
+};
+
+/// By extension, in any case: .pcd (binary), .ply, .las, .npy, .bin, .xyz, .txt or .csv.
+Written write_cloud(const std::filesystem::path& path, const Cloud& cloud);
+bool can_write_cloud(const std::filesystem::path& path);  ///< by its extension
+std::string cloud_kinds_written();                        ///< ".pcd, .ply, ..."
 /// Binary little endian; 64-bit integers become doubles.
 std::string write_ply(const std::filesystem::path& path, const Cloud& cloud);
 /// LAS 1.4, point format 6: coordinates to 1 mm, other fields as Extra Bytes where the format has
 /// no place of that name and type. Points that are not finite are left out.
-std::string write_las(const std::filesystem::path& path, const Cloud& cloud);
+Written write_las(const std::filesystem::path& path, const Cloud& cloud);
 /// An array N x k, version 1.0, of x y z intensity and what else there is; float32 if that holds
 /// all values, otherwise float64.
 std::string write_npy(const std::filesystem::path& path, const Cloud& cloud);
+/// The fields' names in the first line, then a point a line; parted by commas in a .csv, otherwise
+/// by blanks. Every number reads back as it was.
+std::string write_text_cloud(const std::filesystem::path& path, const Cloud& cloud);
 /// float32 x y z intensity (0 if there is none).
 std::string write_bin(const std::filesystem::path& path, const Cloud& cloud);
 /// float32 x y z intensity per point, as KITTI's velodyne/*.bin.

@@ -6,6 +6,8 @@
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/io/sequence.hpp"
 #include "io/bag/bag_file.hpp"
+#include "io/input.hpp"
+#include "io/text.hpp"
 
 namespace dynamic_filter::io {
 namespace {
@@ -16,15 +18,24 @@ using Open = std::unique_ptr<BagFile> (*)(const fs::path&);
 
 /// nullptr: no bag.
 Open opener_for(const fs::path& path) {
-    const std::string name = path.filename().string();
+    const std::string name = to_lower(path.filename().string());
     if (name.ends_with(".mcap")) return open_mcap;
     if (name.ends_with(".bag") || name.ends_with(".bag.active")) return open_rosbag1;
     if (name.ends_with(".db3")) return open_rosbag2;
     return nullptr;
 }
 
+/// By its first bytes, whatever it is called; nullptr: no bag.
+Open opener_by_content(const fs::path& file) {
+    const std::string kind = kind_by_content(read_head(file, 16));
+    if (kind == "an MCAP bag") return open_mcap;
+    if (kind == "a ROS 1 bag") return open_rosbag1;
+    if (kind == "a ROS 2 bag") return open_rosbag2;
+    return nullptr;
+}
+
 bool is_compressed_bag(const fs::path& path) {
-    const std::string name = path.filename().string();
+    const std::string name = to_lower(path.filename().string());
     return name.ends_with(".db3.zstd") || name.ends_with(".mcap.zstd");
 }
 
@@ -90,24 +101,31 @@ Bag::Bag(const fs::path& path) {
         paths_ = {path};
     }
     for (const fs::path& file : paths_) {
-        const Open open = opener_for(file);
-        if (open == nullptr) throw InputError(file, "", "is no .mcap, .bag or .db3 file");
-        files_.push_back(open(file));
+        if (read_head(file, 1).empty()) {
+            throw InputError(file, "", "is empty; expected a bag; was it copied as a whole?");
+        }
+        const Open by_name = opener_for(file), by_content = opener_by_content(file);
+        if (by_name == nullptr && by_content == nullptr) {
+            throw InputError(file, "", "is no bag: neither its name nor its first bytes say so");
+        }
+        files_.push_back((by_content != nullptr ? by_content : by_name)(file));
     }
 }
 
 Bag::Bag(Bag&&) noexcept = default;
 Bag::~Bag() = default;
 
-std::vector<std::string> Bag::for_each(const std::function<void(const Message&)>& use) const {
-    std::vector<std::string> notes;
+std::vector<Defect> Bag::for_each(const std::function<void(const Message&)>& use) const {
+    std::vector<Defect> defects;
     for (std::size_t f = 0; f < files_.size(); ++f) {
-        const auto found = files_[f]->for_each([&](const FoundMessage& m) {
+        auto found = files_[f]->for_each([&](const FoundMessage& m) {
             use({m.topic, m.recorded_ns, {f, m.chunk, m.offset}, m.data});
         });
-        for (const std::string& note : found) notes.push_back(paths_[f].string() + ": " + note);
+        for (Defect& defect : found) {
+            defects.push_back({paths_[f].string() + ": " + defect.what, defect.lost});
+        }
     }
-    return notes;
+    return defects;
 }
 
 std::vector<std::byte> Bag::read(const MessageRef& message) const {

@@ -31,7 +31,7 @@ public:
     BagFile& operator=(const BagFile&) = delete;
     virtual ~BagFile() = default;
     /// Returns what could not be read.
-    virtual std::vector<std::string> for_each(const UseMessage& use) const = 0;
+    virtual std::vector<Defect> for_each(const UseMessage& use) const = 0;
     [[nodiscard]] virtual std::vector<std::byte> read(std::uint64_t chunk,
                                                       std::uint64_t offset) const = 0;
 };

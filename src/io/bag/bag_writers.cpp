@@ -7,14 +7,31 @@
 
 #include "dynamic_filter/error.hpp"
 #include "io/ros/definitions.hpp"
+#include "io/text.hpp"
 
 namespace dynamic_filter::io {
 
+namespace {
+
+using Create = std::unique_ptr<BagWriter> (*)(const std::filesystem::path&);
+
+/// nullptr: no bag.
+Create creator_for(const std::filesystem::path& path) {
+    const std::string extension = to_lower(path.extension().string());
+    if (extension == ".mcap") return create_mcap;
+    if (extension == ".bag") return create_rosbag1;
+    if (extension == ".db3") return create_rosbag2;
+    return nullptr;
+}
+
+}  // namespace
+
+bool BagWriter::recognises(const std::filesystem::path& path) {
+    return creator_for(path) != nullptr;
+}
+
 std::unique_ptr<BagWriter> BagWriter::create(const std::filesystem::path& path) {
-    const std::string extension = path.extension().string();
-    if (extension == ".mcap") return create_mcap(path);
-    if (extension == ".bag") return create_rosbag1(path);
-    if (extension == ".db3") return create_rosbag2(path);
+    if (const Create create = creator_for(path)) return create(path);
     throw ConfigError(path.string() + ": no kind of bag; expected .mcap, .bag or .db3");
 }
 

@@ -10,6 +10,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <new>
 
 #include "io/byte_reader.hpp"
 
@@ -54,6 +55,7 @@ Decompressed run(const Decoder& decode, std::span<const std::byte> in, std::uint
 Decompressed unzstd(std::span<const std::byte> bytes, std::uint64_t size) {
     const std::unique_ptr<ZSTD_DStream, decltype(&ZSTD_freeDStream)> stream(ZSTD_createDStream(),
                                                                             ZSTD_freeDStream);
+    if (!stream) throw std::bad_alloc();
     // What a window may take is decided before any content is seen.
     ZSTD_DCtx_setParameter(stream.get(), ZSTD_d_windowLogMax, 27);
     return run(
@@ -87,7 +89,8 @@ Decompressed unlz4(std::span<const std::byte> bytes, std::uint64_t size) {
         return unlz4_block(bytes, size);
     }
     LZ4F_dctx* raw = nullptr;
-    if (LZ4F_isError(LZ4F_createDecompressionContext(&raw, LZ4F_VERSION)) != 0) return {};
+    if (LZ4F_isError(LZ4F_createDecompressionContext(&raw, LZ4F_VERSION)) != 0)
+        throw std::bad_alloc();
     const std::unique_ptr<LZ4F_dctx, decltype(&LZ4F_freeDecompressionContext)> context(
         raw, LZ4F_freeDecompressionContext);
     return run(
@@ -102,7 +105,7 @@ Decompressed unlz4(std::span<const std::byte> bytes, std::uint64_t size) {
 
 Decompressed unbz2(std::span<const std::byte> bytes, std::uint64_t size) {
     bz_stream stream{};
-    if (BZ2_bzDecompressInit(&stream, 0, 0) != BZ_OK) return {};
+    if (BZ2_bzDecompressInit(&stream, 0, 0) != BZ_OK) throw std::bad_alloc();
     const std::unique_ptr<bz_stream, decltype(&BZ2_bzDecompressEnd)> end(&stream,
                                                                          BZ2_bzDecompressEnd);
     return run(

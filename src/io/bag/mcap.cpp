@@ -51,7 +51,7 @@ ChunkRecord parse_chunk(std::span<const std::byte> content) {
 /// Schemas and channels met so far, and the messages on the channels that can be used.
 class Reader {
 public:
-    Reader(const UseMessage& use, std::vector<std::string>& notes) : use_(use), notes_(notes) {}
+    Reader(const UseMessage& use, std::vector<Defect>& defects) : use_(use), defects_(defects) {}
 
     void take(const Record& record, std::uint64_t chunk, std::uint64_t offset) {
         try {
@@ -60,14 +60,14 @@ public:
             if (record.opcode == kChannel) take_channel(in);
             if (record.opcode == kMessage) take_message(in, chunk, offset);
         } catch (const Malformed& error) {
-            notes_.push_back(fmt::format("a record at byte {}: {}", offset, error.what()));
+            defects_.push_back({fmt::format("a record at byte {}: {}", offset, error.what())});
         }
     }
 
     void finish() {
         if (unannounced_ == 0) return;
-        notes_.push_back(
-            fmt::format("{} messages of channels never announced are left out", unannounced_));
+        defects_.push_back(
+            {fmt::format("{} messages of channels never announced are left out", unannounced_)});
     }
 
 private:
@@ -100,7 +100,7 @@ private:
     }
 
     const UseMessage& use_;
-    std::vector<std::string>& notes_;
+    std::vector<Defect>& defects_;
     std::map<std::uint16_t, std::string> schemas_;
     std::map<std::uint16_t, Topic> topics_;
     std::set<std::uint16_t> others_;  // channels of JSON, protobuf, ...
@@ -117,14 +117,16 @@ public:
         }
     }
 
-    std::vector<std::string> for_each(const UseMessage& use) const override {
-        std::vector<std::string> notes;
-        Reader reader(use, notes);
+    std::vector<Defect> for_each(const UseMessage& use) const override {
+        std::vector<Defect> defects;
+        Reader reader(use, defects);
         take_summary(reader);
         std::uint64_t at = kMagic.size();
         while (true) {
             if (file().size() - at < kRecordHead) {
-                notes.push_back(fmt::format("ends at byte {} without a footer", file().size()));
+                const bool cut_off = at != file().size();
+                defects.push_back(
+                    {fmt::format("ends at byte {} without a footer", file().size()), cut_off});
                 break;
             }
             const auto head = file().read(at, kRecordHead);
@@ -134,12 +136,12 @@ public:
             if (opcode == kFooter) break;
             const bool wanted = opcode >= kSchema && opcode <= kChunk;
             if (length > there)
-                notes.push_back(fmt::format("the record at byte {} is cut off", at));
+                defects.push_back({fmt::format("the record at byte {} is cut off", at)});
             if (length > there && opcode != kChunk) break;
             if (wanted) {
                 const auto content = file().read(at + kRecordHead, std::min(length, there));
                 if (opcode == kChunk) {
-                    take_chunk(content, at, reader, notes);
+                    take_chunk(content, at, reader, defects);
                 } else {
                     reader.take({opcode, content}, kNoChunk, at);
                 }
@@ -148,7 +150,7 @@ public:
             at += kRecordHead + length;
         }
         reader.finish();
-        return notes;
+        return defects;
     }
 
 private:
@@ -200,9 +202,9 @@ private:
     }
 
     static void take_chunk(std::span<const std::byte> content, std::uint64_t at, Reader& reader,
-                           std::vector<std::string>& notes) {
+                           std::vector<Defect>& defects) {
         const auto note = [&](const std::string& what) {
-            notes.push_back(fmt::format("the chunk at byte {} {}", at, what));
+            defects.push_back({fmt::format("the chunk at byte {} {}", at, what)});
         };
         try {
             const ChunkRecord chunk = parse_chunk(content);
@@ -217,7 +219,11 @@ private:
             while (in.left() > 0) {
                 const std::size_t offset = in.at();
                 const Record record = take_record(in);
-                if (record.opcode != kChunk) reader.take(record, at, offset);  // chunks do not nest
+                if (record.opcode == kChunk) {
+                    note("holds another chunk, which is left out: chunks do not nest");
+                } else {
+                    reader.take(record, at, offset);
+                }
             }
         } catch (const Malformed& error) {
             note(error.what());

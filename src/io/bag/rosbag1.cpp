@@ -73,15 +73,17 @@ public:
     }
 
     /// What shows only at the end, `size` bytes behind the beginning.
-    void finish(std::uint64_t size, std::vector<std::string>& notes) const {
-        if (index_at_ == 0) notes.emplace_back("was never closed, so its end may be missing");
+    void finish(std::uint64_t size, std::vector<Defect>& defects) const {
+        if (index_at_ == 0) {
+            defects.push_back({"was never closed, so its end may be missing", false});
+        }
         if (index_at_ > size) {
-            notes.push_back(
-                fmt::format("ends at byte {}, before its index at byte {}", size, index_at_));
+            defects.push_back(
+                {fmt::format("ends at byte {}, before its index at byte {}", size, index_at_)});
         }
         if (unannounced_ > 0) {
-            notes.push_back(fmt::format("{} messages of connections never announced are left out",
-                                        unannounced_));
+            defects.push_back({fmt::format(
+                "{} messages of connections never announced are left out", unannounced_)});
         }
     }
 
@@ -122,8 +124,8 @@ public:
                                : "is no ROS bag: it does not begin with '#ROSBAG V2.0'");
     }
 
-    std::vector<std::string> for_each(const UseMessage& use) const override {
-        std::vector<std::string> notes;
+    std::vector<Defect> for_each(const UseMessage& use) const override {
+        std::vector<Defect> defects;
         Reader reader(use);
         take_index(reader);
         for (std::uint64_t at = kMagic.size(); at < file().size();) {
@@ -132,18 +134,18 @@ public:
                 ByteReader in(bytes);
                 const Record record = take_record(in);
                 if (record.header.number<std::uint8_t>("op") == kChunk) {
-                    take_chunk(record, at, reader, notes);
+                    take_chunk(record, at, reader, defects);
                 } else {
                     reader.take(record, kNoChunk, at);
                 }
                 at += bytes.size();
             } catch (const Malformed& error) {  // where the next begins is not known, then
-                notes.push_back(fmt::format("the record at byte {} {}", at, error.what()));
+                defects.push_back({fmt::format("the record at byte {} {}", at, error.what())});
                 break;
             }
         }
-        reader.finish(file().size(), notes);
-        return notes;
+        reader.finish(file().size(), defects);
+        return defects;
     }
 
 private:
@@ -196,9 +198,9 @@ private:
     }
 
     static void take_chunk(const Record& chunk, std::uint64_t at, Reader& reader,
-                           std::vector<std::string>& notes) {
+                           std::vector<Defect>& defects) {
         const auto note = [&](const std::string& what) {
-            notes.push_back(fmt::format("the chunk at byte {} {}", at, what));
+            defects.push_back({fmt::format("the chunk at byte {} {}", at, what)});
         };
         try {
             const Decompressed content = content_of(chunk);

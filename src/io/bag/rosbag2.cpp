@@ -114,14 +114,14 @@ public:
     explicit Rosbag2(const std::filesystem::path& path)
         : path_(path), database_(open_database(path)) {}
 
-    std::vector<std::string> for_each(const UseMessage& use) const override {
-        std::vector<std::string> notes;
+    std::vector<Defect> for_each(const UseMessage& use) const override {
+        std::vector<Defect> defects;
         std::error_code unknown;
         const std::uint64_t size = std::filesystem::file_size(path_, unknown);
         if (const auto declared = declared_size(path_); size < declared) {
-            notes.push_back(fmt::format("is cut off: it has {} of {} bytes", size, declared));
+            defects.push_back({fmt::format("is cut off: it has {} of {} bytes", size, declared)});
         }
-        const auto topics = read_topics(notes);
+        const auto topics = read_topics(defects);
         Query query(database_.get(),
                     "SELECT id, topic_id, timestamp, data FROM messages ORDER BY id");
         while (query.next()) {
@@ -132,13 +132,13 @@ public:
                 const auto data = uncompressed(query.bytes(3));
                 use({topic->second, query.number(2), 0, static_cast<std::uint64_t>(id), data});
             } catch (const Malformed& error) {
-                notes.push_back(fmt::format("message {} {}", id, error.what()));
+                defects.push_back({fmt::format("message {} {}", id, error.what())});
             }
         }
         if (!query.finished()) {
-            notes.push_back(fmt::format("its messages are damaged: {}", query.error()));
+            defects.push_back({fmt::format("its messages are damaged: {}", query.error())});
         }
-        return notes;
+        return defects;
     }
 
     std::vector<std::byte> read(std::uint64_t, std::uint64_t id) const override {
@@ -154,7 +154,7 @@ public:
     }
 
 private:
-    std::map<std::int64_t, Topic> read_topics(std::vector<std::string>& notes) const {
+    std::map<std::int64_t, Topic> read_topics(std::vector<Defect>& defects) const {
         std::map<std::int64_t, Topic> topics;
         Query query(database_.get(), "SELECT id, name, type, serialization_format FROM topics");
         while (query.next()) {
@@ -163,7 +163,7 @@ private:
                                        MessageEncoding::cdr};
         }
         if (!query.finished()) {
-            notes.push_back(fmt::format("its list of topics is damaged: {}", query.error()));
+            defects.push_back({fmt::format("its list of topics is damaged: {}", query.error())});
         }
         return topics;
     }

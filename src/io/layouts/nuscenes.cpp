@@ -89,7 +89,7 @@ std::vector<Sweep> sweeps_of(const fs::path& data, const fs::path& tables,
     each_entry(tables / "sample_data.json", [&](const Json& entry) {
         const std::string file = text_of(entry, "filename");
         if (file.find("/LIDAR_TOP/") == std::string::npos) return;
-        if (file.find("..") != std::string::npos) {
+        if (file.find("..") != std::string::npos || fs::path(file).is_absolute()) {
             throw InputError(tables / "sample_data.json", "", quote(file) + " leads elsewhere");
         }
         if (!in_scene[text_of(entry, "sample_token")]) return;

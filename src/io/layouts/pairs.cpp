@@ -32,10 +32,10 @@ std::optional<double> stamp_of(const std::string& stem) {
     return *seconds + *nanoseconds * 1e-9;
 }
 
-void require_other_half(const fs::path& file, const char* extension) {
+fs::path other_half(const fs::path& file, const char* extension) {
     fs::path other = file;
     other.replace_extension(extension);
-    if (present(other)) return;
+    if (present(other)) return other;
     throw InputError(file, "",
                      "has no " + other.filename().string() + " beside it; each scan needs both");
 }
@@ -49,13 +49,12 @@ std::optional<Layout> find_pairs(const fs::path& data) {
     Layout layout;
     layout.scan_folder = data;
     layout.scans = list_files(data, {".pcd"});
-    for (const fs::path& scan : layout.scans) require_other_half(scan, ".odom");
-    for (const fs::path& file : odometry) {
-        require_other_half(file, ".pcd");
-        layout.T_world_sensor.push_back(read_odom(file));
-        if (const auto stamp = stamp_of(file.stem().string())) layout.stamps.push_back(*stamp);
+    for (const fs::path& file : odometry) (void)other_half(file, ".pcd");
+    for (const fs::path& scan : layout.scans) {
+        layout.T_world_sensor.push_back(read_odom(other_half(scan, ".odom")));
+        if (const auto stamp = stamp_of(scan.stem().string())) layout.stamps.push_back(*stamp);
     }
-    if (layout.stamps.size() != odometry.size()) layout.stamps.clear();
+    if (layout.stamps.size() != layout.scans.size()) layout.stamps.clear();
     layout.notes.emplace_back("poses from the .odom file beside each scan");
     return layout;
 }

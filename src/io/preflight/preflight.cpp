@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "dynamic_filter/error.hpp"
 #include "dynamic_filter/io/pose_fix.hpp"
 #include "overlay.hpp"
 #include "samples.hpp"
@@ -164,6 +165,15 @@ void judge_poses(Preflight& result, const Sequence& sequence, const Samples& sam
     }
     // A thousandth of any motion is as good as none.
     const bool as_if_still = best->share < 1.02 * share_of(overlays, kInWorld);
+    if (best->reading == kInSensor && sequence.points_in_world) {
+        if (much) {
+            result.findings.push_back(
+                {"the points are in the sensor's frame, not in the world's: " +
+                     fits_better(overlays, kInSensor),
+                 "leave out --points-in-world"});
+        }
+        return;
+    }
     if (as_if_still || best->reading == kInSensor) {
         if (much) {
             result.findings.push_back(
@@ -196,6 +206,41 @@ void judge_points(Preflight& result, const Samples& samples) {
          "use the scans of one sensor, each with its own pose"});
 }
 
+/// Scans and poses were matched by order, but each has stamps: those may not agree.
+void judge_pose_stamps(Preflight& result, const Sequence& sequence, double step) {
+    const auto& scans = sequence.stamps;
+    const auto& poses = sequence.pose_stamps;
+    if (poses.size() != scans.size()) return;
+    const double ratio = (poses.back() - poses.front()) / (scans.back() - scans.front());
+    for (const auto& [unit, seconds] : {std::pair{"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}}) {
+        if (std::abs(ratio * seconds - 1.0) < 0.5) {
+            result.findings.push_back(
+                {fmt::format("the poses' stamps are in {}, those of the scans in s", unit),
+                 "write the poses with stamps in seconds; here they were matched by order"});
+            return;
+        }
+        if (std::abs(ratio / seconds - 1.0) < 0.5) {
+            result.findings.push_back(
+                {fmt::format("the scans' stamps are in {}, those of the poses in s", unit),
+                 fmt::format("--time-unit {}", unit)});
+            return;
+        }
+    }
+    // A clock that begins at 0 says nothing about the other.
+    const bool relative = std::abs(scans.front()) < 1.0 || std::abs(poses.front()) < 1.0;
+    std::vector<double> offsets;
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+        offsets.push_back(poses[i] - scans[i] - (relative ? poses.front() - scans.front() : 0.0));
+    }
+    const double offset = median(std::move(offsets));
+    if (std::abs(offset) < 1.5 * step) return;
+    result.findings.push_back(
+        {fmt::format("the poses' stamps are {:.3g} s {} those of the scans, which are {:.3g} s "
+                     "apart; they were matched by order",
+                     std::abs(offset), offset < 0.0 ? "before" : "after", step),
+         kOtherPoses});
+}
+
 void judge_stamps(Preflight& result, const Sequence& sequence) {
     if (!sequence.measured_stamps || sequence.size() < 3) return;
     std::vector<double> steps;
@@ -203,6 +248,7 @@ void judge_stamps(Preflight& result, const Sequence& sequence) {
         steps.push_back(sequence.stamps[i] - sequence.stamps[i - 1]);
     }
     const double step = median(std::move(steps));
+    judge_pose_stamps(result, sequence, step);
     constexpr double kLongest = 20.0, kShortest = 1e-3;  // [s] between scans
     if (step < kLongest && step > kShortest) return;
     for (const auto& [unit, seconds] : {std::pair{"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}}) {
@@ -217,13 +263,28 @@ void judge_stamps(Preflight& result, const Sequence& sequence) {
                                "look at the stamps; they should be in seconds"});
 }
 
+/// Of all scans, what shows without reading them.
+std::map<std::size_t, std::string> find_unusable(const Sequence& sequence) {
+    std::map<std::size_t, std::string> unusable;
+    for (std::size_t i = 0; i < sequence.size(); ++i) {
+        try {
+            refuse_unusable(sequence, i);
+        } catch (const InputError& error) {
+            unusable[i] = error.what();
+        }
+    }
+    return unusable;
+}
+
 }  // namespace
 
 Preflight check_recording(const Sequence& sequence, Depth depth) {
     const std::size_t places = depth == Depth::thorough ? 12 : 3;
     const std::vector<Pair> pairs = choose_pairs(sequence.size(), places);
-    const Samples samples = read_samples(sequence, pairs);
     Preflight result;
+    std::map<std::size_t, std::string> unusable = find_unusable(sequence);
+    const Samples samples = read_samples(sequence, pairs, unusable);
+    for (const auto& [i, why] : unusable) result.unusable.push_back(stem(sequence, i) + ": " + why);
     result.scans = samples.size();
     result.overlays = compare(samples, pairs);
     judge_stamps(result, sequence);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/geometry/voxel.hpp"
@@ -79,15 +80,10 @@ std::size_t count_near(const Points& points, const Point& place) {
         [&](const Point& p) { return is_measured(p) && (p - place).norm() < kNear; }));
 }
 
-std::optional<Sample> read_sample(const Sequence& sequence, std::size_t i) {
-    try {
-        const Frame frame = read_frame(sequence, i);
-        const Point said = frame.T_world_sensor.translation().cast<float>();
-        return Sample{upright(frame.points), frame.T_world_sensor, share_of_doubles(frame.points),
-                      count_near(frame.points, Point::Zero()), count_near(frame.points, said)};
-    } catch (const InputError&) {
-        return std::nullopt;
-    }
+Sample sample_of(const Frame& frame) {
+    const Point said = frame.T_world_sensor.translation().cast<float>();
+    return {upright(frame.points), frame.T_world_sensor, share_of_doubles(frame.points),
+            count_near(frame.points, Point::Zero()), count_near(frame.points, said)};
 }
 
 }  // namespace
@@ -103,12 +99,20 @@ std::vector<Pair> choose_pairs(std::size_t scans, std::size_t places) {
     return pairs;
 }
 
-Samples read_samples(const Sequence& sequence, const std::vector<Pair>& pairs) {
+Samples read_samples(const Sequence& sequence, const std::vector<Pair>& pairs,
+                     std::map<std::size_t, std::string>& unusable) {
+    std::set<std::size_t> chosen = {0};
+    for (const Pair& pair : pairs) chosen.insert({pair.from, pair.from + pair.apart});
     Samples samples;
-    for (const Pair& pair : pairs) {
-        for (const std::size_t i : {pair.from, pair.from + pair.apart}) {
-            if (samples.contains(i)) continue;
-            if (auto sample = read_sample(sequence, i)) samples.emplace(i, std::move(*sample));
+    std::vector<Field> fields;
+    for (const std::size_t i : chosen) {
+        try {
+            const Frame frame = read_frame(sequence, i);
+            if (fields.empty()) fields = frame.cloud.fields;
+            if (frame.cloud.fields != fields) unusable[i] = kOtherFields;
+            samples.emplace(i, sample_of(frame));
+        } catch (const InputError& error) {
+            unusable[i] = error.what();
         }
     }
     return samples;

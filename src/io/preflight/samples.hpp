@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <map>
+#include <string>
 #include <vector>
 
 #include "dynamic_filter/io/sequence.hpp"
@@ -28,7 +29,8 @@ struct Pair {
 };
 std::vector<Pair> choose_pairs(std::size_t scans, std::size_t places);
 
-/// The scans of the pairs, but those that cannot be read.
-Samples read_samples(const Sequence& sequence, const std::vector<Pair>& pairs);
+/// The first scan and those of the pairs; what cannot be used is told in `unusable`.
+Samples read_samples(const Sequence& sequence, const std::vector<Pair>& pairs,
+                     std::map<std::size_t, std::string>& unusable);
 
 }  // namespace dynamic_filter::io

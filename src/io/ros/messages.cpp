@@ -168,7 +168,8 @@ Cloud unpack_cloud(const WireCloud& wire) {
     }
     cloud.data.resize(cloud.point_bytes * wire.width * wire.height);
     std::byte* to = cloud.data.data();
-    for (std::uint32_t row = 0; row < wire.height; ++row) {
+    const std::uint32_t rows = wire.width == 0 ? 0 : wire.height;  // 4 billion empty ones are none
+    for (std::uint32_t row = 0; row < rows; ++row) {
         const std::byte* from = wire.data.data() + std::size_t{wire.row_step} * row;
         for (std::uint32_t i = 0; i < wire.width; ++i, from += wire.point_step) {
             for (const WireField& field : fields) {

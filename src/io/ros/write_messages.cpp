@@ -55,9 +55,9 @@ std::uint8_t wire_type(FieldType type) {
         case FieldType::i64:
         case FieldType::u64:
         case FieldType::f64:
-            return 8;
+            break;
     }
-    return 0;
+    return 8;
 }
 
 template <class T>

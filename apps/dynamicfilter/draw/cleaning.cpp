@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "cleaning.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "animation.hpp"
+#include "canvas.hpp"
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/geometry/pose.hpp"
+#include "dynamic_filter/pipeline/dynamic_filter.hpp"
+#include "frames.hpp"
+#include "progress.hpp"
+#include "view/lot.hpp"
+
+namespace dynamic_filter::app {
+
+namespace {
+
+constexpr io::Color kPaper{250, 250, 250}, kKept{125, 135, 145};
+
+/// A scan thinned by lot, and where its points are in the picture's frame.
+struct Sample {
+    Scan scan;
+    Points in_world;
+};
+
+Sample sample_of(const io::Frame& frame, std::size_t index, const Eigen::Vector3d& origin,
+                 double points) {
+    Sample sample{{{}, frame.T_world_sensor, frame.stamp, index}, {}};
+    const double share = points / static_cast<double>(frame.points.size());
+    Pose T_picture_sensor = frame.T_world_sensor;
+    T_picture_sensor.translation() -= origin;
+    for (std::size_t i = 0; i < frame.points.size(); ++i) {
+        if (!is_drawn(index, i, share) || !is_measured(frame.points[i])) continue;
+        sample.scan.points.push_back(frame.points[i]);
+        sample.in_world.push_back(
+            (T_picture_sensor * frame.points[i].cast<double>()).cast<float>());
+    }
+    return sample;
+}
+
+/// What both halves show, and how.
+struct Stage {
+    Camera camera;
+    Eigen::AlignedBox3f box;
+    int width, height;
+    float size;
+
+    [[nodiscard]] Canvas canvas() const { return {width, height, camera}; }
+    [[nodiscard]] io::Color by_height(const Point& p) const {
+        const float share = (p.z() - box.min().z()) / std::max(0.1F, box.sizes().z());
+        return height_color(std::clamp(share, 0.0F, 1.0F));
+    }
+};
+
+Stage stage_for(const std::vector<Sample>& samples, const RenderOptions& o) {
+    Points all;
+    for (const Sample& s : samples) all.insert(all.end(), s.in_world.begin(), s.in_world.end());
+    constexpr double kRadian = M_PI / 180.0;
+    Stage stage{{}, box_of(all, 0.005F), o.width, o.height / 2, static_cast<float>(o.point_size)};
+    const float aspect = static_cast<float>(stage.width) / static_cast<float>(stage.height);
+    stage.camera = o.from_above
+                       ? from_above(stage.box, aspect)
+                       : from_aside(stage.box, aspect, static_cast<float>(kRadian * o.azimuth_deg),
+                                    static_cast<float>(kRadian * o.elevation_deg));
+    return stage;
+}
+
+io::Image draw_scan(const Stage& stage, const Sample& sample, const Labels& labels) {
+    Canvas canvas = stage.canvas();
+    canvas.draw(sample.in_world, 1.5F * stage.size, [&](std::size_t i) {
+        return labels[i] == Label::dynamic ? kRemovedColor
+               : labels[i] == Label::still ? kKept
+                                           : kUnknownColor;
+    });
+    return canvas.picture(kPaper);
+}
+
+/// The samples until `count`, without what is dynamic by now.
+io::Image draw_map(const Stage& stage, const std::vector<Sample>& samples, std::size_t count,
+                   const DynamicFilter& filter) {
+    Canvas canvas = stage.canvas();
+    for (std::size_t s = 0; s < count; ++s) {
+        const Labels labels = filter.settled(samples[s].scan).labels;
+        Points kept;
+        for (std::size_t i = 0; i < labels.size(); ++i) {
+            if (labels[i] != Label::dynamic) kept.push_back(samples[s].in_world[i]);
+        }
+        canvas.draw(kept, stage.size, [&](std::size_t i) { return stage.by_height(kept[i]); });
+    }
+    return canvas.picture(kPaper);
+}
+
+io::Image stacked(io::Image above, const io::Image& below) {
+    above.height += below.height;
+    above.pixels.insert(above.pixels.end(), below.pixels.begin(), below.pixels.end());
+    return above;
+}
+
+}  // namespace
+
+void animate_cleaning(const io::Sequence& sequence, const Config& config, const RenderOptions& o) {
+    if (config.back_end.observers != Observers::scans) {
+        throw ConfigError(
+            "render: only where scans observe (--preset default) is there a map to "
+            "show after every scan");
+    }
+    constexpr double kPoints = 600'000.0, kMostOfScan = 6000.0;  // of all samples
+    const double points = std::min(
+        kMostOfScan, kPoints / static_cast<double>(std::max<std::size_t>(1, sequence.size())));
+    std::vector<std::size_t> scans(sequence.size());
+    std::iota(scans.begin(), scans.end(), std::size_t{0});
+
+    std::vector<Sample> samples;
+    std::optional<Eigen::Vector3d> origin;
+    for_each_frame(sequence, scans, {}, [&](std::size_t i, MaybeFrame& maybe) {
+        if (!maybe.frame) return true;
+        if (!origin) origin = nearby_origin(maybe.frame->T_world_sensor, 1.0);
+        samples.push_back(sample_of(*maybe.frame, i, *origin, points));
+        return true;
+    });
+    if (samples.empty()) throw InputError(sequence.root, "", "no scan is usable");
+    const Stage stage = stage_for(samples, o);
+
+    DynamicFilter filter(config);
+    constexpr int kMilliseconds = 100;
+    Animation animation(kMilliseconds);
+    const std::size_t stride = (samples.size() + static_cast<std::size_t>(o.pictures) - 1) /
+                               static_cast<std::size_t>(o.pictures);
+    Progress progress("draw", samples.size());
+    std::size_t done = 0;
+    for_each_frame(sequence, scans, {}, [&](std::size_t i, MaybeFrame& maybe) {
+        if (!maybe.frame) return true;
+        const Sample& sample = samples[done++];
+        filter.push(take_scan(*maybe.frame, i));
+        if (done % stride == 0 || done == samples.size()) {
+            const Labels now = filter.settled(sample.scan).labels;
+            animation.add(
+                stacked(draw_scan(stage, sample, now), draw_map(stage, samples, done, filter)));
+        }
+        progress.advance();
+        return true;
+    });
+    animation.write(o.output);
+}
+
+}  // namespace dynamic_filter::app

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+/// What write_bags and write_clouds have in common: random points, and how values are printed.
+#pragma once
+
+#include <cstring>
+#include <span>
+#include <vector>
+
+#include "dynamic_filter/io/cloud.hpp"
+#include "support/random.hpp"
+
+namespace dynamic_filter::io {
+
+inline std::uint32_t fnv1a(const std::vector<double>& values) {
+    std::uint32_t hash = 0x811c9dc5U;
+    for (const std::byte byte : std::as_bytes(std::span(values))) {
+        hash = (hash ^ std::to_integer<std::uint32_t>(byte)) * 0x01000193U;
+    }
+    return hash;
+}
+
+/// x, y, z of `type` and intensity, among fields that others must step over.
+inline Cloud sample_fields(FieldType type) {
+    Cloud cloud;
+    add_field(cloud, "time", FieldType::u64);
+    for (const char* axis : {"x", "y", "z"}) add_field(cloud, axis, type);
+    add_field(cloud, "ring", FieldType::u16, 3);
+    add_field(cloud, "intensity", FieldType::f32);
+    return cloud;
+}
+
+/// Random numbers where a field is a float, 0 or 1 where it is a byte, 0 elsewhere.
+inline void fill(Cloud& cloud, std::size_t points, test::Random& random) {
+    cloud.data.resize(points * cloud.point_bytes);
+    for (std::size_t i = 0; i < points; ++i) {
+        for (const Field& field : cloud.fields) {
+            std::byte* to = cloud.data.data() + i * cloud.point_bytes + field.offset;
+            const double wide = random.uniform(-100.0, 100.0);
+            const auto narrow = static_cast<float>(wide);
+            const auto sign = static_cast<std::uint8_t>(wide < 0.0);
+            if (field.type == FieldType::f64) std::memcpy(to, &wide, sizeof wide);
+            if (field.type == FieldType::f32) std::memcpy(to, &narrow, sizeof narrow);
+            if (field.type == FieldType::u8) std::memcpy(to, &sign, sizeof sign);
+        }
+    }
+}
+
+}  // namespace dynamic_filter::io
