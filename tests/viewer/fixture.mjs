@@ -2,7 +2,7 @@
 // Synthetic runs as viewer/README.md describes them, and pages with them in it.
 import { gzipSync } from "node:zlib";
 import { random } from "./random.mjs";
-import { mapPoints, RATE, SCANS, scanPoints, sensorAt, stampOf } from "./street.mjs";
+import { mapPoints, SCANS, scanPoints, sensorAt, stampOf } from "./street.mjs";
 
 const VOXEL = 0.2;
 const LOW = [-8, -24, -4], STEP = 0.0016;
@@ -201,4 +201,4 @@ export function pageOf(viewer, runs) {
   return viewer.slice(0, at) + runs.map(elements).join("\n") + viewer.slice(at + "<!--DATA-->".length);
 }
 
-export { RATE, SCANS };
+export { SCANS };

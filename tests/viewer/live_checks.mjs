@@ -36,6 +36,7 @@ describe("the live view", () => {
   });
   after(async () => {
     await page.close();
+    await server.stop();
   });
 
   test("waits for the first scan", async () => {

@@ -55,6 +55,7 @@ export class LiveServer {
   }
 
   async stop() {
+    if (!this.#server.listening) return;
     const closed = new Promise((done) => this.#server.close(done));
     for (const socket of this.#sockets) socket.destroy();
     await closed;

@@ -128,9 +128,7 @@ describe("playback", () => {
   test("a click in a plot goes to its scan", async () => {
     await page.getByRole("tab", { name: "Plots" }).click();
     const plot = page.locator(".u-over").first();
-    await plot.waitFor();
-    const box = await plot.boundingBox();
-    await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
+    await plot.click();
     assert.ok(Math.abs((await state(page)).row - (SCANS - 1) / 2) < 2);
     assert.match(await page.locator("#panel-plots").innerText(), /Latency by stage[\s\S]*front end[\s\S]*6\.30/);
     await settled(page);

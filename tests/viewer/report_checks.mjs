@@ -7,14 +7,14 @@ import { differs, isGrey, isOrange, open, openRuns, picture, fileOf, settled, se
 describe("the report of a run", () => {
   let page, complaints;
   before(async () => {
-    ({ page, complaints } = await openRuns([makeRun()]));
+    ({ page, complaints } = await openRuns([makeRun({ points: 80_000 })]));
   });
   after(() => page.close());
 
   test("draws all points, and nothing more while nothing changes", async () => {
     await shot(page, "report");
     const view = (await stats(page)).views[0];
-    assert.equal(view.pointsDrawn, 120_000);
+    assert.equal(view.pointsDrawn, 80_000);
     const seen = await picture(page);
     assert.ok(seen.count(isGrey) > 5000, "static points are grey");
     assert.ok(seen.count(isOrange) > 500, "removed points are orange");
@@ -89,7 +89,7 @@ describe("the report of a run", () => {
   test("says where the data come from, and what is left out", async () => {
     await page.getByRole("tab", { name: "Run" }).click();
     const text = await page.locator("#panel-run").innerText();
-    assert.match(text, /One point a cube of 12 cm: 120,000 of 1,128,000 shown/);
+    assert.match(text, /One point a cube of 12 cm: 80,000 of 752,000 shown/);
     assert.match(text, /recordings\/street/);
     assert.match(text, /000017: 412 of 4096 points are not finite <b>/);
     assert.match(text, /no stamps in the recording/);

@@ -37,7 +37,7 @@ export function fileOf(runs) {
 }
 
 /** Opens an address; whatever the page complains of is in `complaints`. */
-export async function open(address, { width = 1280, height = 800, colorScheme = "dark" } = {}) {
+export async function open(address, { width = 1200, height = 720, colorScheme = "dark" } = {}) {
   const page = await browser.newPage({ viewport: { width, height }, colorScheme });
   const complaints = [];
   page.on("console", (message) => ["error", "warning"].includes(message.type()) && complaints.push(message.text()));

@@ -6,7 +6,7 @@ import { count } from "./format.js";
 
 const CLOSE = 12;  // m, from where one sees what is around
 
-export const ERRORS = {
+const ERRORS = {
   removed: { label: "False removals", key: "N", is: (verdict) => truthOf(verdict) === STATIC && finalOf(verdict) === DYNAMIC },
   missed: { label: "Missed", key: "B", is: (verdict) => truthOf(verdict) === DYNAMIC && finalOf(verdict) !== DYNAMIC },
 };
@@ -29,6 +29,7 @@ export function goToNextError(session, kind) {
   if (index < 0) index = verdicts.findIndex(is);
   if (index < 0) return;
   const point = view.point("map", index);
+  session.store.set(kind === "removed" ? { dynamic: true } : { static: true, unknown: true });  // or it would not be seen
   session.select(point);
   session.orbit.set({ target: point.position.map((p, c) => p + view.view.offset[c]), distance: Math.min(session.orbit.distance, CLOSE) });
 }

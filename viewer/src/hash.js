@@ -25,7 +25,7 @@ const READERS = {
 
 const write = (value) => (typeof value === "boolean" ? (value ? "1" : "0") : Array.isArray(value) ? value.map(round).join() : String(value));
 
-export function toHash(values, orbit) {
+function toHash(values, orbit) {
   const parts = KEPT.filter((name) => values[name] !== DEFAULTS[name]).map((name) => `${name}=${write(values[name])}`);
   const point = values.selection;
   if (point) parts.push(`point=${point.owner.run.number}.${point.source}.${point.index}`);

@@ -17,6 +17,7 @@ import { watchTheme } from "./theme.js";
 import { Timeline } from "./timeline.js";
 
 const SHOWN = ["colour", "static", "dynamic", "unknown", "path", "scan", "dim", "corrections", "height", "range", "size", "trail"];
+const CLOSE = 45;  // m, from where a scan is seen well
 const LAYERS = [
   { name: "static", label: "Static", hint: "Key Z" }, { name: "dynamic", label: "Removed", hint: "Key X" },
   { name: "unknown", label: "Unknown", hint: "Key C" }, { name: "corrections", label: "Mark corrections", hint: "Key M" },
@@ -104,7 +105,7 @@ class LivePage {
     document.title = `${name}, live – DynamicFilter`;
     document.querySelector(".head h1").textContent = name;
     document.querySelector(".subtitle").textContent = [input, done ? "finished" : "under way"].filter(Boolean).join(" · ");
-    if (done && report && !this.report) this.report = this.#takeReport().catch(() => (this.report = null));  // to be tried again
+    if (done && report && !this.report) this.report = this.#takeReport().catch(() => this.#say("finished"));  // the server was quicker
     this.#show();
   }
 
@@ -117,18 +118,17 @@ class LivePage {
   }
 
   #say(kind) {
-    const words = { lost: ["Connection lost. Trying again …"], finished: ["The run is finished. ", reportLink(this.address, "Open the report")], none: [] }[kind];
+    const words = { lost: ["Connection lost. Trying again …"], finished: ["The run is finished. ", this.address ? reportLink(this.address, "Open the report") : "Its report is report.html, in its output folder."], none: [] }[kind];
     this.banner.dataset.kind = kind;
     this.banner.replaceChildren(...words);
   }
 
   lost() {
-    if (this.address) return;  // nothing more is wanted of the server
-    this.#say("lost");
+    if (!this.report) this.#say("lost");  // else nothing more is wanted of the server
   }
 
   back() {
-    if (!this.address) this.#say("none");
+    if (!this.report) this.#say("none");
   }
 
   take(records, { skipped, damaged }) {
@@ -148,6 +148,7 @@ class LivePage {
       session.showRow(0);
       session.fit();
       session.centreOnSensor();
+      session.orbit.set({ distance: Math.min(session.orbit.distance, CLOSE) });
     }
     if (session.store.get("playing")) this.#toNewest();
     return this.#show();

@@ -96,10 +96,11 @@ function markPlace({ views }, point) {
 }
 
 export function pointPanel(session) {
-  const element = h("div", { "aria-live": "polite" });
+  const element = h("div", { class: "told", "aria-live": "polite" });
   session.store.watch(["selection"], ({ selection: point }) => {
     element.replaceChildren(...(point ? about(session, point) : [empty()]));
     if (!point) return;
+    element.closest(".panel")?.scrollTo({ top: 0 });
     markPlace(session, point);
   });
   return element;

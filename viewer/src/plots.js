@@ -3,7 +3,7 @@
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import { kindColour } from "./colours.js";
-import { debounce, h } from "./dom.js";
+import { h } from "./dom.js";
 import { compact, count, plural, short } from "./format.js";
 import { heatmap } from "./heatmap.js";
 import { countSeries, evidenceHistogram, probabilityHistogram, scoreSeries } from "./series.js";
@@ -53,6 +53,12 @@ class TimePlot {
     });
     this.#plot.over.addEventListener("mouseleave", () => this.#showCurrent());
     this.#showCurrent();
+  }
+
+  fitWidth() {
+    const width = this.box.clientWidth;
+    if (!this.#plot) this.draw();
+    else if (width > 0) this.#plot.setSize({ width, height: HEIGHT });
   }
 
   /** The numbers of the scan shown, while the pointer asks for no other. */
@@ -135,12 +141,6 @@ export function plotsOf(view, session) {
     drawAll();
     map?.draw();
   }));
-  const drawSoon = debounce(drawAll, 80);
-  let width = 0;
-  new ResizeObserver(() => {
-    if (width === 0) drawAll();  // the panel is opened
-    else drawSoon();
-    width = element.clientWidth;
-  }).observe(element);
+  new ResizeObserver(() => plots.forEach((plot) => plot.fitWidth())).observe(element);
   return element;
 }

@@ -160,7 +160,7 @@ export async function startReport(runs) {
         { label: "Sensor", key: "G", act: () => session.centreOnSensor() }],
     }));
     const wrong = errorButtons(session, shown);
-    if (wrong) panels.find(({ id }) => id === "point").element.append(wrong);
+    if (wrong) panels.find(({ id }) => id === "point").element.prepend(wrong);
     showLegend(session, page.stage, { heights: () => [extent.heights[0] + 0.5, extent.heights[1] - 0.5], duration: () => durationOf(session) });
     session.store.watch(["row"], ({ row }) => {
       for (const { overlay } of session.views) overlay.setVisible("sight", false);

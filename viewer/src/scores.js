@@ -11,7 +11,7 @@ const POINT_ROWS = [["sa", "static accuracy SA"], ["da", "dynamic accuracy DA"],
 const at = (object, path) => path.reduce((value, key) => value?.[key], object);
 
 /** Rows that at least one run has a number for: {group, label, values, words}. All are the better the larger. */
-export function scoreRows(metas) {
+function scoreRows(metas) {
   const rows = [];
   const add = (group, label, path, words) => {
     const values = metas.map((meta) => at(meta, path));
