@@ -56,6 +56,7 @@ int demo(const DemoOptions& o) {
     print_table(summary.scores->voxel.at("excluded"));
     fmt::print(
         "\npictures {0}/before.png (removed points in red) and {0}/after.png\n"
+        "report   {0}/result/report.html (open it in a browser)\n"
         "maps     {0}/result/static_map.pcd and dynamic_points.pcd\n"
         "next     build/release/dynamicfilter run YOUR_DATA\n",
         o.output.string());

@@ -308,6 +308,9 @@ void describe(PageRun& run, const Pass& pass) {
     run.info["input"] = pass.sequence.root.string();
     run.info["format"] = io::to_string(pass.sequence.format);
     run.info["created"] = fmt::format("{:%FT%TZ}", fmt::gmtime(std::time(nullptr)));
+    for (const char* name : {"default", "paper"}) {
+        if (to_toml(pass.config) == to_toml(preset(name))) run.info["preset"] = name;
+    }
     run.info["voxel_size"] = pass.config.back_end.voxel_size;
     run.info["keyframes_total"] = pass.filter.extent().keyframes_total;
     run.info["config"] = to_toml(pass.config);
@@ -320,9 +323,13 @@ void describe(PageRun& run, const Pass& pass) {
 }
 
 /// The page that explains the result. What its writing took goes into `timing`.
-void write_report(const Pass& pass, const nlohmann::ordered_json& metrics,
+void write_report(Pass& pass, const nlohmann::ordered_json& metrics,
                   nlohmann::ordered_json& timing) {
-    if (viewer_page().empty()) return;
+    if (viewer_page().empty()) {
+        pass.summary.notes.emplace_back(
+            "no report.html: built without the viewer (npm was missing)");
+        return;
+    }
     const auto start = Clock::now();
     const bool has_evidence =
         pass.config.back_end.enabled && pass.config.back_end.observers == Observers::scans;

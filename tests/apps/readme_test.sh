@@ -18,6 +18,7 @@ printf '%s\n%s\n' "$commands" "$inline" | while IFS= read -r line; do
             grep -q '^build/release/dynamicfilter demo' "$source/script/demo"
             line='build/release/dynamicfilter demo' ;;
         script/test) continue ;;
+        *dynamicfilter\ serve\ *) line="timeout --preserve-status --signal=INT 2 $line" ;;  # ends by Ctrl-C
     esac
     echo "\$ $line"
     $line </dev/null || { echo "failed: $line"; exit 1; }

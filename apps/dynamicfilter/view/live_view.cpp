@@ -49,8 +49,9 @@ void LiveView::finish(const std::filesystem::path& report) {
 void LiveView::linger() const {
     constexpr std::int64_t kRecently = 2000, kLongest = 5000;
     const std::int64_t start = now_ms();
-    while (report_ && !fetched_ && now_ms() - asked_ms_ < kRecently &&
-           now_ms() - start < kLongest) {
+    const auto is_awaited = [&] { return !fetched_ && now_ms() - asked_ms_ < kRecently; };
+    const auto is_being_sent = [&] { return report_.use_count() > 1; };  // a connection holds it
+    while (report_ && (is_awaited() || is_being_sent()) && now_ms() - start < kLongest) {
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
 }
