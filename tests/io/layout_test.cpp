@@ -70,16 +70,16 @@ TEST_F(LayoutTest, LabelsMayBeOfSomeScansOnly) {
     data.put("poses.txt", kitti_rows(3));
     std::filesystem::create_directories(data / "labels");
     EXPECT_FALSE(open().has_truth());
-    EXPECT_HAS(open().notes.back(), "labels of 0 of 3 scans");
+    EXPECT_TRUE(has_note(open(), "labels of 0 of 3 scans"));
     put_labels(2);
     EXPECT_TRUE(open().has_truth());
     EXPECT_TRUE(open().label_files[2].empty());
-    EXPECT_HAS(open().notes.back(), "labels of 2 of 3 scans");
+    EXPECT_TRUE(has_note(open(), "labels of 2 of 3 scans"));
     put_labels(3);
     EXPECT_TRUE(open().has_truth());
-    for (const std::string& note : open().notes) EXPECT_EQ(note.find("labels of"), note.npos);
+    EXPECT_FALSE(has_note(open(), "labels of"));
     put_labels(4);
-    EXPECT_HAS(open().notes.back(), "labels of 3 of 3 scans, and 1 of no scan");
+    EXPECT_TRUE(has_note(open(), "labels of 3 of 3 scans, and 1 of no scan"));
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ int listen_on(std::uint16_t port) {
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     const bool ok =
         bind(listener, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0 &&
-        listen(listener, 16) == 0;
+        listen(listener, SOMAXCONN) == 0;
     if (!ok) {
         const std::string why = std::strerror(errno);
         close(listener);
@@ -178,9 +178,9 @@ void HttpServer::serve() {
             if (c->over) close(c->descriptor);
             c = c->over ? connections.erase(c) : std::next(c);
         }
-        if (polled[1].revents != 0) {
+        while (polled[1].revents != 0 && connections.size() < limits_.connections) {
             const int descriptor = accept(listener_, nullptr, nullptr);
-            if (descriptor < 0) continue;
+            if (descriptor < 0) break;
             make_nonblocking(descriptor);
             connections.push_back({.descriptor = descriptor, .limits = limits_});
         }
