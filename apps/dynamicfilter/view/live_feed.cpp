@@ -13,7 +13,7 @@ namespace dynamic_filter::app {
 namespace {
 
 constexpr std::size_t kMostBytes = std::size_t{64} << 20U, kMostAtOnce = std::size_t{1} << 20U;
-constexpr double kPoints = 6000.0;                              // of a scan
+constexpr double kPoints = 5000.0;                              // of a scan
 constexpr unsigned kNoTruth = 3U << 2U, kNoInstant = 3U << 4U;  // viewer/README.md
 enum Kind : std::uint32_t { scan = 1, correction = 2 };
 
@@ -52,8 +52,9 @@ void LiveFeed::expect(const Points& points, const Pose& T_world_sensor, double s
     if (!origin_) origin_ = T_world_sensor.translation();
     Pose T_view_sensor = T_world_sensor;
     T_view_sensor.translation() -= *origin_;
+    const Eigen::Isometry3f T_near = T_view_sensor.cast<float>();
     for (const std::uint32_t i : expected.chosen) {
-        expected.in_view.push_back((T_view_sensor * points[i].cast<double>()).cast<float>());
+        expected.in_view.push_back(T_near * points[i]);
     }
     expected.sensor = T_view_sensor.translation().cast<float>();
     expected_.insert_or_assign(index, std::move(expected));
@@ -72,12 +73,11 @@ void LiveFeed::judged(std::size_t index, const Labels& labels) {
     for (int axis = 0; axis < 3; ++axis) put(body, e.sensor[axis]);
     for (const std::uint32_t count : counts) put(body, count);
     put(body, static_cast<std::uint32_t>(e.chosen.size()));
-    for (const Point& p : e.in_view) {
-        for (int axis = 0; axis < 3; ++axis) put(body, p[axis]);
-    }
+    static_assert(sizeof(Point) == 3 * sizeof(float));
+    body.append(reinterpret_cast<const char*>(e.in_view.data()), e.in_view.size() * sizeof(Point));
     for (const std::uint32_t i : e.chosen) {
         const unsigned code = verdict_code(labels[i]);
-        put(body, static_cast<std::uint8_t>(code | kNoTruth | code << 4U));
+        body += static_cast<char>(code | kNoTruth | code << 4U);
     }
     add(Kind::scan, std::move(body));
     expected_.erase(expected_.begin(), std::next(it));
@@ -89,7 +89,7 @@ void LiveFeed::corrected(std::size_t index, const Points& points, const Labels& 
     put(body, static_cast<std::uint32_t>(index));
     put(body, static_cast<std::uint32_t>(chosen.size()));
     for (const std::uint32_t i : chosen) {
-        put(body, static_cast<std::uint8_t>(verdict_code(labels[i]) | kNoTruth | kNoInstant));
+        body += static_cast<char>(verdict_code(labels[i]) | kNoTruth | kNoInstant);
     }
     const std::lock_guard hold(lock_);
     add(Kind::correction, std::move(body));
@@ -99,6 +99,7 @@ void LiveFeed::add(std::uint32_t kind, std::string body) {
     constexpr std::size_t kHead = 12;
     while (body.size() % 4 != 0) body += '\0';
     std::string record;
+    record.reserve(kHead + body.size());
     put(record, static_cast<std::uint32_t>(kHead + body.size()));
     put(record, ++newest_);
     put(record, kind);

@@ -73,7 +73,7 @@ TEST(LiveFeed, ACorrectionIsOfTheSamePoints) {
     const auto records = records_in(feed.after(0));
     ASSERT_EQ(records.size(), 2U);
     const auto n = at<std::uint32_t>(records[0], 48);
-    EXPECT_NEAR(n, 6000, 300);
+    EXPECT_NEAR(n, 5000, 300);
     ASSERT_EQ(at<std::uint32_t>(records[1], 16), n);
     for (std::uint32_t i = 0; i < n; ++i) {
         const bool dynamic = at<float>(records[0], 52 + 12 * i) > 10000.5F;
@@ -94,9 +94,9 @@ TEST(LiveFeed, WhatWasDroppedIsForgotten) {
 
 TEST(LiveFeed, MemoryIsBoundedAndAnswersAreSmall) {
     LiveFeed feed;
-    const Points points(6000, Point::UnitX());
+    const Points points(5000, Point::UnitX());
     const Labels labels(points.size(), Label::still);
-    for (std::size_t i = 0; i < 2000; ++i) {  // some 78 KB each
+    for (std::size_t i = 0; i < 2500; ++i) {  // some 65 KB each
         feed.expect(points, at_x(0.0), 0.0, i);
         feed.judged(i, labels);
     }
@@ -112,7 +112,7 @@ TEST(LiveFeed, MemoryIsBoundedAndAnswersAreSmall) {
         bytes += some.size();
     }
     EXPECT_EQ(number, feed.newest());
-    EXPECT_EQ(number, 2000U);
+    EXPECT_EQ(number, 2500U);
     EXPECT_GT(first, 1000U);
     EXPECT_LE(bytes, std::size_t{64} << 20U);
 }
