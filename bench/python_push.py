@@ -30,6 +30,7 @@ def from_cpp():
 
 
 ways = {"C++": from_cpp, "Python": lambda: from_python(False), "Python, keeping": lambda: from_python(True)}
+from_python(False)
 rates = {name: [] for name in ways}
 for _ in range(rounds):
     for name, measure in ways.items():

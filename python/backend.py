@@ -34,8 +34,9 @@ def metadata():
 
 
 def build():
+    python = pathlib.Path(sys.executable).resolve()  # an environment of pip's would not last
     subprocess.run(["cmake", "--preset", "release", "-DDYNAMIC_FILTER_PYTHON=ON",
-                    f"-DPython3_EXECUTABLE={sys.executable}"], cwd=ROOT, check=True, stdout=sys.stderr)
+                    f"-DPython3_EXECUTABLE={python}"], cwd=ROOT, check=True, stdout=sys.stderr)
     subprocess.run(["cmake", "--build", BUILD, "--target", "_dynamicfilter", "dynamicfilter"],
                    check=True, stdout=sys.stderr)
 

@@ -140,7 +140,8 @@ void bind_programs(py::module_& module) {
 scene: crowd, street, square or hall; sensor: see `dynamicfilter simulate --help`;
 pedestrians: -1: the scene's own number; seed: same seed, same bytes; frames: None: the whole scene;
 rate: scans per second, 0: the scene's own; pose_noise [m], pose_noise_deg [deg]: standard deviation
-of each axis. Returns the number of points. Raises ConfigError and OutputError.)");
+of each axis. Returns the number of points. Raises ConfigError, OutputError, and KeyboardInterrupt,
+which leaves nothing.)");
 }
 
 }  // namespace dynamic_filter::python
