@@ -54,6 +54,11 @@ struct EvalOptions {
     double voxel = eval::kVoxelSize;
 };
 
+struct Evaluation {
+    eval::Scores scores;
+    std::size_t scans = 0, left_out = 0;  ///< left out: unreadable, or without labels
+};
+
 struct SimulateOptions {
     sim::SimulationOptions simulation;
     std::filesystem::path output;
@@ -94,6 +99,9 @@ struct RenderOptions {
 struct DemoOptions {
     std::filesystem::path output = "demo";
 };
+
+/// What `eval` prints. Throws what it does.
+Evaluation scores_of(const EvalOptions& options);
 
 int run(const RunOptions& options);
 int evaluate(const EvalOptions& options);

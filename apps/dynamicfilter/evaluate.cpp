@@ -41,7 +41,7 @@ eval::ScanSource with_labels(const io::Sequence& sequence, const Eigen::Vector3d
 
 }  // namespace
 
-int evaluate(const EvalOptions& o) {
+Evaluation scores_of(const EvalOptions& o) {
     const io::Sequence sequence = open(o.truth);
     if (!sequence.has_truth()) {
         throw InputError(o.truth.data, "",
@@ -52,20 +52,26 @@ int evaluate(const EvalOptions& o) {
     const eval::ScanSource source = noting(
         o.labels ? with_labels(sequence, origin, *o.labels) : scan_source(sequence, origin, {}),
         left_out);
-    const eval::Scores scores =
+    eval::Scores scores =
         o.labels ? eval::score_labels(sequence.size(), source, o.voxel)
                  : eval::score_map(sequence.size(), source,
                                    positions_from(io::read_cloud(*o.map), origin), o.voxel);
-    const auto missing = std::count(left_out.begin(), left_out.end(), true);
-    if (missing == static_cast<std::ptrdiff_t>(sequence.size())) {
+    const auto missing =
+        static_cast<std::size_t>(std::count(left_out.begin(), left_out.end(), true));
+    if (missing == sequence.size()) {
         throw InputError(o.labels ? *o.labels : o.truth.data, "",
                          "holds no label file of any readable scan in " + o.truth.data.string());
     }
-    fmt::print("{}", table(scores));
-    if (o.json) io::write_file(*o.json, text_of(to_json(scores)));
-    if (missing == 0) return kDone;
-    fmt::print(stderr, "left out {} of {} scans: unreadable, or without labels\n", missing,
-               sequence.size());
+    return {std::move(scores), sequence.size(), missing};
+}
+
+int evaluate(const EvalOptions& o) {
+    const Evaluation e = scores_of(o);
+    fmt::print("{}", table(e.scores));
+    if (o.json) io::write_file(*o.json, text_of(to_json(e.scores)));
+    if (e.left_out == 0) return kDone;
+    fmt::print(stderr, "left out {} of {} scans: unreadable, or without labels\n", e.left_out,
+               e.scans);
     return kRejected;
 }
 

@@ -57,6 +57,7 @@ void Progress::print(double seconds) const {
 }
 
 void catch_interrupts() {
+    signal_seen = 0;
     std::signal(SIGINT, note_signal);
     std::signal(SIGTERM, note_signal);
     std::signal(SIGHUP, note_signal);

@@ -203,7 +203,8 @@ Verdict DynamicFilter::instant_verdict(std::size_t index, const PointVoxels& vox
     return verdict;
 }
 
-std::vector<StaticVoxel> DynamicFilter::local_static_map(const Pose& T_world_query) {
+std::vector<StaticVoxel> DynamicFilter::local_static_map(const Pose& T_world_query,
+                                                         std::optional<double> radius) {
     std::vector<StaticVoxel> result;
     if (!origin_) return result;
     const auto size = static_cast<float>(config_.back_end.voxel_size);
@@ -214,8 +215,8 @@ std::vector<StaticVoxel> DynamicFilter::local_static_map(const Pose& T_world_que
     const Pose T_map_query = to_map_frame(T_world_query);
     if (scans_observe()) {
         const Point position = T_map_query.translation().cast<float>();
-        const auto radius = static_cast<float>(config_.back_end.search_radius);
-        const std::vector<std::uint32_t> near = evidence_.within(position, radius);
+        const auto reach = static_cast<float>(radius.value_or(config_.back_end.search_radius));
+        const std::vector<std::uint32_t> near = evidence_.within(position, reach);
         const auto probabilities = evidence_.probabilities(near);
         for (std::size_t i = 0; i < near.size(); ++i) {
             if (label_of(probabilities[i]) == Label::still) add(near[i], *probabilities[i]);

@@ -30,6 +30,11 @@ OnlineOptions checked(OnlineOptions options) {
     return options;
 }
 
+Verdict all_unknown(const Scan& scan) {
+    return {scan.index, Labels(scan.points.size(), Label::unknown),
+            std::vector<float>(scan.points.size(), 0.0F)};
+}
+
 /// Between two breaks of the trajectory.
 struct Map {
     std::size_t first_index = 0;  ///< of the first scan in it
@@ -408,8 +413,17 @@ std::optional<std::size_t> OnlineFilter::Engine::map_of(const Scan& scan) const 
 
 Verdict OnlineFilter::verdict(const Scan& scan) const {
     if (const auto map = engine_->map_of(scan)) return engine_->maps[*map].filter->verdict(scan);
-    return {scan.index, Labels(scan.points.size(), Label::unknown),
-            std::vector<float>(scan.points.size(), 0.0F)};
+    return all_unknown(scan);
+}
+
+Verdict OnlineFilter::settled(const Scan& scan) const {
+    Verdict verdict = all_unknown(scan);
+    with_threads(engine_->options.threads, [&] {
+        const std::lock_guard hold(engine_->map_lock);
+        const auto map = engine_->map_of(scan);
+        if (map) verdict = engine_->maps[*map].filter->settled(scan);
+    });
+    return verdict;
 }
 
 std::vector<std::uint64_t> OnlineFilter::places_of(const Scan& scan) const {
@@ -446,11 +460,12 @@ Counters OnlineFilter::counters() const {
     return counters;
 }
 
-std::vector<StaticVoxel> OnlineFilter::local_static_map(const Pose& T_world_query) {
+std::vector<StaticVoxel> OnlineFilter::local_static_map(const Pose& T_world_query,
+                                                        std::optional<double> radius) {
     std::vector<StaticVoxel> voxels;
     with_threads(engine_->options.threads, [&] {
         const std::lock_guard hold(engine_->map_lock);
-        voxels = engine_->newest().local_static_map(T_world_query);
+        voxels = engine_->newest().local_static_map(T_world_query, radius);
     });
     return voxels;
 }

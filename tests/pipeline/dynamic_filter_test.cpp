@@ -297,6 +297,8 @@ TEST_P(StaticLocalMap, HoldsTheVoxelsAroundAnyPose) {
     }
     query.translation().x() += 1e4;
     EXPECT_TRUE(filter.local_static_map(query).empty());
+    const bool scans_observe = GetParam().back_end.observers == Observers::scans;
+    EXPECT_EQ(filter.local_static_map(query, 1e6).empty(), !scans_observe);
 }
 
 INSTANTIATE_TEST_SUITE_P(Observers, StaticLocalMap, testing::Values(small_windows(), Config{}),

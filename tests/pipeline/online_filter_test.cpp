@@ -87,6 +87,20 @@ TEST(OnlineFilter, AskReturnsTheVerdictOfThatScan) {
     EXPECT_GT(filter.local_static_map(scans[3].scan.T_world_sensor).size(), 500U);
 }
 
+TEST(OnlineFilter, SaysAtAnyTimeWhatItThinksOfAScan) {
+    const auto scans = drive(6, true);
+    OnlineFilter filter(every_scan(), nothing_lost());
+    DynamicFilter offline(every_scan());
+    EXPECT_EQ(filter.settled(scans[0].scan).labels,
+              Labels(scans[0].scan.points.size(), Label::unknown));
+    for (const RoomScan& s : scans) {
+        filter.push(s.scan);
+        filter.flush();
+        offline.push(s.scan);
+        EXPECT_EQ(filter.settled(scans[0].scan).labels, offline.settled(scans[0].scan).labels);
+    }
+}
+
 TEST(OnlineFilter, UnderOverloadTheOldestWaitingScanIsDroppedAndCounted) {
     const auto scans = drive(12, false);
     Gate gate;

@@ -105,8 +105,10 @@ public:
     [[nodiscard]] std::size_t size() const;
 
     /// The static local map at any pose (Sec. III-C), from the scans or the closed submaps so far:
-    /// the static voxels within `back_end.search_radius`, or of the submaps within it.
-    std::vector<StaticVoxel> local_static_map(const Pose& T_world_query);
+    /// the static voxels within `back_end.search_radius`, or of the submaps within it. Where scans
+    /// observe, `radius` [m] may take its place.
+    std::vector<StaticVoxel> local_static_map(const Pose& T_world_query,
+                                              std::optional<double> radius = {});
 
     [[nodiscard]] StageTimes times() const;
     [[nodiscard]] const BackEnd& back_end() const { return back_end_; }

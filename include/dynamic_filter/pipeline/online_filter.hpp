@@ -67,9 +67,10 @@ struct Counters {
 /// Two threads of its own, and those of the work inside: the front-end judges scan after scan, the
 /// back-end integrates beside the caller, and beside the front-end where submaps observe. Scans
 /// that wait are put in the order of their stamps. One filter serves one vehicle; indices of scans
-/// must grow. push(), ask(), flush(), finish(), counters() and local_static_map() may be called
-/// from any thread, the others after flush(). An exception in a stage is thrown to the next caller
-/// of push(), ask(), flush() or finish(). The destructor drops what waits, and does not finish().
+/// must grow. push(), ask(), flush(), finish(), counters(), settled() and local_static_map() may
+/// be called from any thread, the others after flush(). An exception in a stage is thrown to the
+/// next caller of push(), ask(), flush() or finish(). The destructor drops what waits, and does not
+/// finish().
 ///
 /// Where stamps are in order, the trajectory has no break, and nothing is dropped or forgotten,
 /// verdicts are those of DynamicFilter on the same scans, to the byte. Points more than 105 km (at
@@ -100,6 +101,10 @@ public:
     /// the horizon forgot what it saw: unknown.
     [[nodiscard]] Verdict verdict(const Scan& scan) const;
 
+    /// The verdict on a scan that was pushed from the evidence so far, where scans observe. Waits
+    /// for the stage in work, and the next one waits for it.
+    [[nodiscard]] Verdict settled(const Scan& scan) const;
+
     /// After finish(), to explain verdicts: a number for the voxel of each point of a scan that was
     /// pushed (kNoPlace: none), and what DynamicFilter knows of such voxels.
     static constexpr std::uint64_t kNoPlace = UINT64_MAX;
@@ -109,7 +114,8 @@ public:
     [[nodiscard]] Counters counters() const;
     /// The static voxels around a pose (DynamicFilter::local_static_map), as of now. Waits for the
     /// stage in work, and the next one waits for it.
-    [[nodiscard]] std::vector<StaticVoxel> local_static_map(const Pose& T_world_query);
+    [[nodiscard]] std::vector<StaticVoxel> local_static_map(const Pose& T_world_query,
+                                                            std::optional<double> radius = {});
 
     /// How the stages did, once flush() has returned; `latency`: from push() to the end of judging.
     [[nodiscard]] StageTimes times() const;

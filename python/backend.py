@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: MIT
+"""Builds the wheel (PEP 517, 427): the package, its module, and the command beside Python's own.
+
+    python3 backend.py DIR      # what script/wheel calls
+"""
+import base64
+import hashlib
+import pathlib
+import re
+import subprocess
+import sys
+import sysconfig
+import zipfile
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+BUILD = ROOT / "build" / "release"
+
+
+def version():
+    return re.search(r"project\(DynamicFilter VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text())[1]
+
+
+def tag():
+    """The module is for this Python and links the libraries of this system."""
+    platform = re.sub(r"[-.]", "_", sysconfig.get_platform())
+    python = f"cp{sys.version_info.major}{sys.version_info.minor}"
+    return f"{python}-{python}-{platform}"
+
+
+def metadata():
+    return (f"Metadata-Version: 2.1\nName: dynamicfilter\nVersion: {version()}\n"
+            "Summary: Removes moving objects from LiDAR scans and maps\nLicense: MIT\n"
+            "Requires-Python: >=3.9\nRequires-Dist: numpy\n")
+
+
+def build():
+    python = pathlib.Path(sys.executable).resolve()  # an environment of pip's would not last
+    subprocess.run(["cmake", "--preset", "release", "-DDYNAMIC_FILTER_PYTHON=ON",
+                    f"-DPython3_EXECUTABLE={python}"], cwd=ROOT, check=True, stdout=sys.stderr)
+    subprocess.run(["cmake", "--build", BUILD, "--target", "_dynamicfilter", "dynamicfilter"],
+                   check=True, stdout=sys.stderr)
+
+
+def files(name):
+    """Path in the wheel, content."""
+    suffix = sysconfig.get_config_var("EXT_SUFFIX")
+    package = BUILD / "python" / "dynamicfilter"
+    for file in ("__init__.py", "__init__.pyi", "py.typed", "_dynamicfilter" + suffix):
+        yield f"dynamicfilter/{file}", (package / file).read_bytes()
+    yield f"{name}.data/scripts/dynamicfilter", (BUILD / "dynamicfilter").read_bytes()
+    yield f"{name}.dist-info/LICENSE", (ROOT / "LICENSE").read_bytes()
+    yield f"{name}.dist-info/METADATA", metadata().encode()
+    yield f"{name}.dist-info/WHEEL", (f"Wheel-Version: 1.0\nGenerator: dynamicfilter\n"
+                                      f"Root-Is-Purelib: false\nTag: {tag()}\n").encode()
+
+
+def add(wheel, path, content, mode=0o644):
+    entry = zipfile.ZipInfo(path)  # of 1980: same sources, same bytes
+    entry.external_attr = (0o100000 | mode) << 16
+    wheel.writestr(entry, content, zipfile.ZIP_DEFLATED)
+
+
+def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
+    build()
+    name = f"dynamicfilter-{version()}"
+    path = pathlib.Path(wheel_directory) / f"{name}-{tag()}.whl"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    record = ""
+    with zipfile.ZipFile(path, "w") as wheel:
+        for place, content in files(name):
+            add(wheel, place, content, 0o755 if "/scripts/" in place else 0o644)
+            digest = base64.urlsafe_b64encode(hashlib.sha256(content).digest()).rstrip(b"=").decode()
+            record += f"{place},sha256={digest},{len(content)}\n"
+        add(wheel, f"{name}.dist-info/RECORD", record + f"{name}.dist-info/RECORD,,\n")
+    return path.name
+
+
+if __name__ == "__main__":
+    print(pathlib.Path(sys.argv[1]) / build_wheel(sys.argv[1]))

@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: MIT
+"""Removes moving objects from LiDAR scans and maps.
+
+    import dynamicfilter as df
+    recording = df.open_recording("recording")
+    filter = df.DynamicFilter()
+    for frame in recording:
+        labels = filter.push(frame.points, frame.pose, frame.stamp)
+
+Labels are N uint8, one a point: UNKNOWN (0), STATIC (9) or DYNAMIC (251), as in SemanticKITTI.
+Lengths are in metres, stamps in seconds, poses 4 x 4 matrices T_world_sensor.
+"""
+import json as _json
+
+from . import _dynamicfilter
+from ._dynamicfilter import (ConfigError, DynamicFilter, Error, Frame, InputError, OutputError,
+                             Recording, __version__, open_recording, read_cloud, simulate)
+
+UNKNOWN, STATIC, DYNAMIC = 0, 9, 251
+
+__all__ = ["ConfigError", "DYNAMIC", "DynamicFilter", "Error", "Frame", "InputError",
+           "OutputError", "Recording", "STATIC", "UNKNOWN", "evaluate", "open_recording",
+           "read_cloud", "run", "simulate"]
+
+
+def run(data, output=None, **options):
+    """Removes moving objects from a recording, as `dynamicfilter run` does, and says what it says.
+
+    data: bag or folder; output: folder, by default results/<UTC stamp>.
+    Options: config and threads as of DynamicFilter, overwrite, resume, online (times the sensor's
+    rate; 0: as fast as it can), and how to read the recording, as of open_recording().
+    Returns {"output": folder, "metrics": as in metrics.json, "timing": as in timing.json [s, ms]};
+    labels are in its folder `labels`, N uint32 a scan.
+    Raises ConfigError, InputError, OutputError, and KeyboardInterrupt after what was filtered
+    until then is written.
+    """
+    folder, metrics, timing = _dynamicfilter.run(data, output, options)
+    return {"output": str(folder), "metrics": _json.loads(metrics), "timing": _json.loads(timing)}
+
+
+def evaluate(truth, *, labels=None, map=None, voxel=0.2, **options):
+    """Scores labels or a map against a recording's ground truth, as `dynamicfilter eval` does.
+
+    labels: folder of label files (N uint32 a scan), or of a run; or map: cloud file in the world's
+    frame [m]. voxel: edge of a voxel [m]. Options: as of open_recording().
+    Returns the scores as a dict of shares 0..1, and how many `scans` were scored and `left_out`.
+    Raises ConfigError and InputError.
+    """
+    return _json.loads(_dynamicfilter.evaluate(truth, labels, map, voxel, options))

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+#include "arrays.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstring>
+#include <set>
+
+namespace dynamic_filter::python {
+
+namespace {
+
+std::string text(const py::handle& value) { return py::str(value); }
+
+std::string shape_of(const py::array& array) { return text(array.attr("shape")); }
+
+template <class T>
+Points read(const py::array& array) {
+    const auto* const bytes = static_cast<const char*>(array.data());
+    const py::ssize_t row = array.strides(0), column = array.strides(1);
+    Points points(static_cast<std::size_t>(array.shape(0)));
+    const py::gil_scoped_release others_go_on;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const char* const at = bytes + static_cast<py::ssize_t>(i) * row;
+        for (int c = 0; c < 3; ++c) {
+            T value;  // copied, because nothing says that it is aligned
+            std::memcpy(&value, at + c * column, sizeof value);
+            points[i][c] = static_cast<float>(value);
+        }
+    }
+    return points;
+}
+
+double skewness(const Eigen::Matrix3d& r) {
+    return (r.transpose() * r - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+}
+
+void refuse_if_not_rigid(const Eigen::Matrix4d& m) {
+    const auto refuse = [](const std::string& why) {
+        throw py::value_error("pose: expected a rigid transform T_world_sensor, " + why);
+    };
+    const Eigen::RowVector4d last_row(0, 0, 0, 1);
+    if (!m.allFinite()) refuse("got numbers that are not finite");
+    if (m.row(3) != last_row) {
+        const bool transposed = m.col(3).transpose() == last_row;
+        refuse(transposed ? "got one that is transposed: the translation is in the last row"
+                          : "got a last row that is not 0 0 0 1");
+    }
+    const Eigen::Matrix3d r = m.topLeftCorner<3, 3>();
+    if (!(skewness(r) <= 1e-3)) {
+        refuse(fmt::format("got a rotation that is not orthogonal (off by {:.3g}, allowed 0.001)",
+                           skewness(r)));
+    }
+    if (r.determinant() < 0.0) refuse("got a reflection: one axis is flipped");
+}
+
+/// The nearest rotation, by Newton's iteration. Exact ones keep their bits, so that poses of
+/// recordings stay what the command takes.
+Eigen::Matrix3d made_exact(Eigen::Matrix3d r) {
+    constexpr double kExact = 1e-12;
+    while (skewness(r) > kExact) {
+        r = r * (1.5 * Eigen::Matrix3d::Identity() - 0.5 * r.transpose() * r);
+    }
+    return r;
+}
+
+py::object format_of(const io::Field& field) {
+    static constexpr const char* kNames[] = {"<i1", "<u1", "<i2", "<u2", "<i4",
+                                             "<u4", "<i8", "<u8", "<f4", "<f8"};
+    const py::str name(kNames[static_cast<std::size_t>(field.type)]);
+    if (field.count == 1) return name;
+    return py::make_tuple(name, py::make_tuple(field.count));
+}
+
+/// numpy wants names that differ and are not empty.
+std::string unused_name(std::string name, std::set<std::string>& used) {
+    if (name.empty()) name = "_";
+    while (!used.insert(name).second) name += '_';
+    return name;
+}
+
+}  // namespace
+
+Points points_from(const py::object& given) {
+    const py::array array = py::array::ensure(given);
+    if (!array) throw py::type_error("points: expected an array N x 3 of float32 or float64");
+    const bool single = py::isinstance<py::array_t<float>>(array);
+    if (!single && !py::isinstance<py::array_t<double>>(array)) {
+        throw py::type_error(
+            "points: expected float32 or float64 in this machine's byte order, got " +
+            text(array.dtype()));
+    }
+    if (array.ndim() != 2 || array.shape(1) < 3) {
+        throw py::value_error("points: expected an array N x 3 or more columns, got shape " +
+                              shape_of(array));
+    }
+    return single ? read<float>(array) : read<double>(array);
+}
+
+Pose pose_from(const py::object& given) {
+    const auto array =
+        py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(given);
+    if (!array) throw py::type_error("pose: expected a matrix 4 x 4 of numbers, T_world_sensor");
+    if (array.ndim() != 2 || array.shape(0) != 4 || array.shape(1) != 4) {
+        throw py::value_error("pose: expected a matrix 4 x 4, T_world_sensor, got shape " +
+                              shape_of(array));
+    }
+    const Eigen::Matrix4d m =
+        Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(array.data());
+    refuse_if_not_rigid(m);
+    Pose pose(m);
+    pose.linear() = made_exact(m.topLeftCorner<3, 3>());
+    return pose;
+}
+
+py::array labels_array(Labels labels) {
+    const auto [kept, owner] = handed_over(std::move(labels));
+    return labels_array(kept, owner);
+}
+
+py::array labels_array(const Labels& labels, py::handle owner) {
+    static_assert(sizeof(Label) == 1);
+    return py::array(py::dtype::of<std::uint8_t>(), {labels.size()}, labels.data(), owner);
+}
+
+py::array points_array(const Points& points, py::handle owner) {
+    static_assert(sizeof(Point) == 3 * sizeof(float));
+    return py::array(py::dtype::of<float>(), {points.size(), std::size_t{3}}, points.data(), owner);
+}
+
+py::array pose_array(const Pose& pose, py::handle owner) {
+    constexpr py::ssize_t kSize = sizeof(double);
+    return py::array(py::dtype::of<double>(), {4, 4}, {kSize, 4 * kSize}, pose.data(), owner);
+}
+
+py::array fields_array(const io::Cloud& cloud, py::handle owner) {
+    py::list names, formats, offsets;
+    std::set<std::string> used;
+    for (const io::Field& field : cloud.fields) {
+        names.append(unused_name(field.name, used));
+        formats.append(format_of(field));
+        offsets.append(field.offset);
+    }
+    const py::dtype record(names, formats, offsets, static_cast<py::ssize_t>(cloud.point_bytes));
+    return py::array(record, {cloud.size()}, cloud.data.data(), owner);
+}
+
+}  // namespace dynamic_filter::python

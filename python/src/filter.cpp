@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include <cmath>
+
+#include "arrays.hpp"
+#include "config_file.hpp"
+#include "kept_filter.hpp"
+#include "module.hpp"
+
+namespace dynamic_filter::python {
+
+namespace {
+
+std::size_t number_kept(const py::object& keep) {
+    if (py::isinstance<py::bool_>(keep)) return keep.cast<bool>() ? SIZE_MAX : 0;
+    if (!PyIndex_Check(keep.ptr())) throw py::type_error("keep: expected True, False or a number");
+    const auto number = keep.cast<py::ssize_t>();
+    if (number < 0) throw py::value_error("keep: expected 0 or more scans");
+    return static_cast<std::size_t>(number);
+}
+
+std::unique_ptr<KeptFilter> make_filter(const py::object& config, int threads,
+                                        const py::object& keep, double horizon,
+                                        std::size_t max_bytes) {
+    const OnlineOptions options{
+        .overload = Overload::wait, .horizon = horizon, .max_bytes = max_bytes, .threads = threads};
+    if (threads < 0) throw py::value_error("threads: expected 0 (all cores) or more");
+    return std::make_unique<KeptFilter>(app::load_config(config_options(config)), options,
+                                        number_kept(keep));
+}
+
+py::array push(KeptFilter& filter, const py::object& points, const py::object& pose, double stamp) {
+    if (!std::isfinite(stamp)) {
+        throw py::value_error(
+            fmt::format("stamp: expected seconds as a finite number, got {}", stamp));
+    }
+    const Pose T_world_sensor = pose_from(pose);
+    Points taken = points_from(points);
+    Labels labels;
+    {
+        const py::gil_scoped_release others_go_on;
+        labels = filter.push(std::move(taken), T_world_sensor, stamp);
+    }
+    return labels_array(std::move(labels));
+}
+
+py::list corrections(KeptFilter& filter, std::optional<std::size_t> newest) {
+    std::vector<KeptFilter::Correction> found;
+    {
+        const py::gil_scoped_release others_go_on;
+        found = filter.corrections(newest.value_or(SIZE_MAX));
+    }
+    py::list list;
+    for (auto& [scan, labels] : found) {
+        list.append(py::make_tuple(scan, labels_array(std::move(labels))));
+    }
+    return list;
+}
+
+py::array labels(KeptFilter& filter, std::size_t scan) {
+    Labels found;
+    {
+        const py::gil_scoped_release others_go_on;
+        found = filter.labels(scan);
+    }
+    return labels_array(std::move(found));
+}
+
+/// Two views of the same voxels.
+py::tuple static_map(KeptFilter& filter, std::optional<double> radius) {
+    if (radius && !(*radius >= 0.0)) throw py::value_error("radius: expected metres, 0 or more");
+    std::vector<StaticVoxel> found;
+    {
+        const py::gil_scoped_release others_go_on;
+        found = filter.static_map(radius);
+    }
+    const auto [voxels, owner] = handed_over(std::move(found));
+    const auto n = static_cast<py::ssize_t>(voxels.size());
+    constexpr py::ssize_t kStep = sizeof(StaticVoxel), kSize = sizeof(double);
+    const StaticVoxel* const first = voxels.data();
+    return py::make_tuple(py::array(py::dtype::of<double>(), {n, py::ssize_t{3}}, {kStep, kSize},
+                                    n > 0 ? first->center.data() : nullptr, owner),
+                          py::array(py::dtype::of<float>(), {n}, {kStep},
+                                    n > 0 ? &first->probability : nullptr, owner));
+}
+
+}  // namespace
+
+void bind_filter(py::module_& module) {
+    using Release = py::call_guard<py::gil_scoped_release>;
+    py::class_<KeptFilter>(module, "DynamicFilter", R"(Scans in, verdicts out.
+
+config: None, a preset ("default", "paper"), the path of a TOML file, or a dict of settings such as
+{"back_end.voxel_size": 0.1} or {"preset": "paper", "submap": {"keyframes": 10}}; units and bounds:
+`dynamicfilter config`. threads: of each stage, 0: all cores.
+keep: True keeps every scan for labels() and corrections(), 13 bytes a point; a number keeps the
+newest so many, False none. horizon [m]: the map beyond it is forgotten, 0: none is.
+max_bytes: of the map, 0: no bound. A voxel takes about 160 bytes.
+
+One filter serves one sensor. Any thread may call; the GIL is free meanwhile. Scans are numbered
+from 0 as they come. Raises ConfigError.)")
+        .def(py::init(&make_filter), py::arg("config") = py::none(), py::kw_only(),
+             py::arg("threads") = 0, py::arg("keep") = true, py::arg("horizon") = 0.0,
+             py::arg("max_bytes") = 0)
+        .def("push", &push, py::arg("points"), py::arg("pose"), py::arg("stamp"),
+             R"(Takes a scan; returns its instant verdict.
+
+points: N x 3 or more columns, float32 or float64, any strides: x y z [m] in the sensor's frame;
+further columns are not looked at. Points that are not finite, or at the origin, are no measurement.
+pose: 4 x 4, T_world_sensor: maps the sensor's coordinates into the world [m].
+stamp: [s], growing.
+Returns labels: N uint8: 0 unknown, 9 static, 251 dynamic. With the preset "paper" all are 0, and
+corrections() has them when a window of scans is full.
+Raises TypeError, ValueError, and Error if the scan comes late or again; it is not taken then.)")
+        .def("corrections", &corrections, py::arg("newest") = py::none(),
+             R"(Scans kept whose labels changed since they were told last.
+
+newest: asks only so many scans, the newest; each costs about what labels() does.
+Returns a list of (number of the scan, labels: N uint8, as push() returns them).)")
+        .def("labels", &labels, py::arg("scan"),
+             R"(The labels of a scan from all evidence so far; after finish(), the final ones.
+
+scan: its number. Returns N uint8: 0 unknown, 9 static, 251 dynamic.
+Raises IndexError if it is not kept.)")
+        .def("static_map", &static_map, py::arg("radius") = py::none(),
+             R"(The static voxels, of the map since the last break of the trajectory.
+
+radius [m]: only those around the last scan. Where submaps observe ("paper"), always
+`back_end.search_radius`.
+Returns (centers: M x 3 float64 [m] in the world's frame, probability: M float32, 0..1, that the
+place is occupied).)")
+        .def("flush", &KeptFilter::flush, Release(),
+             "Waits until every scan pushed is in the map. Returns nothing.")
+        .def("finish", &KeptFilter::finish, Release(),
+             "Decides every voxel: labels() are final from now on, and push() raises Error. "
+             "Returns nothing.")
+        .def("notices", &KeptFilter::notices, Release(),
+             "What happened since the last call (the trajectory broke, and a new map began): a "
+             "list of (number of the scan, sentence).")
+        .def("__len__", &KeptFilter::size, Release(), "How many scans were taken.");
+}
+
+}  // namespace dynamic_filter::python

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+/// An OnlineFilter that remembers the scans it was given, so that it can say again what they are.
+#pragma once
+
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dynamic_filter/pipeline/online_filter.hpp"
+
+namespace dynamic_filter::python {
+
+/// All functions may be called from any thread. Scans are numbered from 0 in the order in which
+/// they were pushed; those that were refused have no number. Memory: that of OnlineFilter, and 13
+/// bytes a point of the scans kept.
+class KeptFilter {
+public:
+    /// `keep`: how many scans are kept, the newest. Throws ConfigError.
+    KeptFilter(const Config& config, OnlineOptions options, std::size_t keep);
+
+    /// The instant verdict; all unknown where submaps observe, because it comes with the window's
+    /// end. Throws Error if the scan was refused: it is late, or has come before.
+    Labels push(Points points, const Pose& T_world_sensor, double stamp);
+
+    /// Scans of the newest `newest` kept whose labels are not those that were told last, by push(),
+    /// labels() or here.
+    using Correction = std::pair<std::size_t, Labels>;
+    std::vector<Correction> corrections(std::size_t newest);
+
+    /// From the evidence so far; final after finish(). Throws std::out_of_range if it is not kept.
+    Labels labels(std::size_t scan);
+
+    /// Within `radius` [m] of the last scan; empty: all since the last break of the trajectory.
+    std::vector<StaticVoxel> static_map(std::optional<double> radius);
+
+    void flush() { filter_.flush(); }
+    void finish();
+
+    /// What happened since the last call: number of the scan, and a sentence.
+    std::vector<std::pair<std::size_t, std::string>> notices();
+    std::size_t size();
+
+private:
+    struct Kept {
+        Scan scan;
+        Labels told;
+        Labels judged;  ///< by a window that has closed, where submaps observe
+    };
+    OnlineCallbacks callbacks();
+    void take(const Notice& notice);
+    void keep(Scan scan, const Labels& told);
+    Kept* find(std::size_t scan);
+    Labels current(const Kept& kept) const;
+
+    bool scans_observe_;
+    std::size_t most_kept_;
+    std::mutex push_lock_;  // one scan after the other, as they are numbered
+    std::optional<std::string> refused_;
+    std::mutex lock_;  // all below
+    std::deque<Kept> kept_;
+    std::size_t size_ = 0;
+    std::optional<Pose> last_pose_;
+    bool finished_ = false;
+    std::vector<std::pair<std::size_t, std::string>> notices_;
+    OnlineFilter filter_;  // the last: its threads use the others
+};
+
+}  // namespace dynamic_filter::python

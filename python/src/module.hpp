@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+/// The parts of the module `_dynamicfilter`. What users see of it is described in
+/// dynamicfilter/__init__.pyi, and documented where it is bound.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include "commands.hpp"
+
+namespace dynamic_filter::python {
+
+void bind_filter(pybind11::module_& module);
+void bind_recordings(pybind11::module_& module);
+void bind_programs(pybind11::module_& module);
+
+/// None, a preset's name, a TOML file, or a dict of settings (flat or by section; `preset` names
+/// what they change). Raises TypeError.
+app::ConfigOptions config_options(const pybind11::object& given);
+
+/// Takes what says how to read a recording out of `options`. Raises TypeError, throws ConfigError.
+app::DataOptions data_options(const std::filesystem::path& data, pybind11::dict& options);
+
+/// Raises TypeError if anything is left.
+void refuse_unknown(const char* function, const pybind11::dict& options);
+
+}  // namespace dynamic_filter::python

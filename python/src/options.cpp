@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "dynamic_filter/error.hpp"
+#include "module.hpp"
+
+namespace dynamic_filter::python {
+
+namespace py = pybind11;
+
+namespace {
+
+std::string value_text(const py::handle& value) {
+    if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
+    return py::str(value);
+}
+
+void add_settings(const py::dict& settings, const std::string& section, app::ConfigOptions& to) {
+    for (const auto& [name, value] : settings) {
+        const std::string key = section + std::string(py::str(name));
+        if (py::isinstance<py::dict>(value)) {
+            add_settings(py::reinterpret_borrow<py::dict>(value), key + ".", to);
+        } else if (key == "preset") {
+            to.preset = value_text(value);
+        } else {
+            to.assignments.push_back(key + "=" + value_text(value));
+        }
+    }
+}
+
+/// Moves an option, if it is there and not None, to its place.
+template <class T>
+void take(py::dict& options, const char* name, T& to) {
+    if (!options.contains(name)) return;
+    const py::object value = options.attr("pop")(name);
+    if (value.is_none()) return;
+    try {
+        to = value.cast<T>();
+    } catch (const py::cast_error&) {
+        throw py::type_error(fmt::format("{}: cannot take {} {}", name,
+                                         std::string(py::str(py::type::of(value))),
+                                         std::string(py::repr(value))));
+    }
+}
+
+void refuse_other(const char* name, const std::string& value,
+                  const std::vector<std::string>& choices) {
+    if (std::find(choices.begin(), choices.end(), value) != choices.end()) return;
+    throw ConfigError(fmt::format("{}: '{}' is none of {}", name, value, fmt::join(choices, ", ")));
+}
+
+}  // namespace
+
+app::ConfigOptions config_options(const py::object& given) {
+    app::ConfigOptions options;
+    if (given.is_none()) return options;
+    if (py::isinstance<py::dict>(given)) {
+        add_settings(given, "", options);
+        return options;
+    }
+    const bool is_text = py::isinstance<py::str>(given);
+    if (!is_text && !py::hasattr(given, "__fspath__")) {
+        throw py::type_error(
+            "config: expected None, the name of a preset, the path of a TOML file, or a dict of "
+            "settings");
+    }
+    const auto path = given.cast<std::filesystem::path>();
+    // A name without dot and slash is a preset's, or a mistake that names the presets.
+    if (is_text && !path.has_extension() && !path.has_parent_path()) {
+        options.preset = path.string();
+    } else {
+        options.file = path;
+    }
+    return options;
+}
+
+app::DataOptions data_options(const std::filesystem::path& data, py::dict& options) {
+    app::DataOptions o;
+    o.data = data;
+    take(options, "format", o.format);
+    take(options, "poses", o.open.poses);
+    take(options, "topic", o.open.topic);
+    take(options, "pose_topic", o.open.pose_topic);
+    take(options, "pose_fix", o.pose_fix);
+    take(options, "points_in_world", o.open.points_in_world);
+    take(options, "time_unit", o.time_unit);
+    take(options, "deskew", o.open.deskew);
+    take(options, "first", o.open.first);
+    take(options, "last", o.open.last);
+    take(options, "stride", o.open.stride);
+    std::vector<std::string> fixes{"none"};
+    for (const io::PoseFix fix : io::pose_fixes()) fixes.push_back(io::to_string(fix));
+    refuse_other("pose_fix", o.pose_fix, fixes);
+    refuse_other("time_unit", o.time_unit, {"s", "ms", "us", "ns"});
+    if (o.open.stride == 0) throw ConfigError("stride: 0 is no whole number of 1 or more");
+    return o;
+}
+
+void refuse_unknown(const char* function, const py::dict& options) {
+    for (const auto& [name, value] : options) {
+        throw py::type_error(fmt::format("{}() got an unexpected keyword argument '{}'", function,
+                                         std::string(py::str(name))));
+    }
+}
+
+}  // namespace dynamic_filter::python

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+/// What the command does, from Python: the same code. Results are JSON texts here.
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <array>
+#include <csignal>
+#include <nlohmann/json.hpp>
+
+#include "dynamic_filter/io/file.hpp"
+#include "module.hpp"
+#include "output_folder.hpp"
+#include "progress.hpp"
+#include "report.hpp"
+#include "write_simulation.hpp"
+
+namespace dynamic_filter::python {
+
+namespace py = pybind11;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The command ends after an interrupt, Python goes on: it gets its handlers back.
+class Interruptible {
+public:
+    Interruptible() {
+        for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], nullptr, &old_[i]);
+        app::catch_interrupts();
+    }
+    Interruptible(const Interruptible&) = delete;
+    Interruptible& operator=(const Interruptible&) = delete;
+    ~Interruptible() {
+        for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &old_[i], nullptr);
+    }
+
+private:
+    static constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP, SIGPIPE};
+    std::array<struct sigaction, kSignals.size()> old_{};
+};
+
+void raise_if(bool interrupted) {
+    if (!interrupted) return;
+    PyErr_SetNone(PyExc_KeyboardInterrupt);
+    throw py::error_already_set();
+}
+
+template <class T>
+T popped(py::dict& options, const char* name, T otherwise) {
+    return options.attr("pop")(name, otherwise).template cast<T>();
+}
+
+app::RunOptions run_options(const fs::path& data, const std::optional<fs::path>& output,
+                            py::dict& options) {
+    app::RunOptions o;
+    o.output = output ? *output : app::default_output();
+    o.config = config_options(options.attr("pop")("config", py::none()));
+    o.threads = popped(options, "threads", 0);
+    o.overwrite = popped(options, "overwrite", false);
+    o.resume = popped(options, "resume", false);
+    const py::object online = options.attr("pop")("online", py::none());
+    o.online = !online.is_none();
+    if (o.online) o.speed = online.cast<double>();
+    o.data = data_options(data, options);
+    refuse_unknown("run", options);
+    return o;
+}
+
+py::tuple run(const fs::path& data, const std::optional<fs::path>& output, py::dict options) {
+    const app::RunOptions o = run_options(data, output, options);
+    int code = 0;
+    std::string metrics, timing;
+    {
+        const py::gil_scoped_release others_go_on;
+        const Interruptible guard;
+        code = app::run(o);
+        if (code != app::kInterrupted) {
+            if (!output) app::link_latest(*o.output);
+            metrics = io::read_file(*o.output / "metrics.json");
+            timing = io::read_file(*o.output / "timing.json");
+        }
+    }
+    raise_if(code == app::kInterrupted);
+    return py::make_tuple(*o.output, metrics, timing);
+}
+
+std::string evaluate(const fs::path& truth, const std::optional<fs::path>& labels,
+                     const std::optional<fs::path>& map, double voxel, py::dict options) {
+    if (labels.has_value() == map.has_value()) {
+        throw py::type_error("evaluate() takes either labels or map");
+    }
+    if (!(voxel >= 0.01 && voxel <= 10.0)) throw py::value_error("voxel: expected 0.01 to 10 m");
+    const app::EvalOptions o{data_options(truth, options), labels, map, std::nullopt, voxel};
+    refuse_unknown("evaluate", options);
+    const py::gil_scoped_release others_go_on;
+    const app::Evaluation e = app::scores_of(o);
+    nlohmann::ordered_json json = app::to_json(e.scores);
+    json["scans"] = e.scans - e.left_out;
+    json["left_out"] = e.left_out;
+    return app::text_of(json);
+}
+
+std::size_t simulate(const sim::SimulationOptions& options, const fs::path& folder,
+                     bool overwrite) {
+    std::size_t points = 0;
+    bool stopped = false;
+    {
+        const py::gil_scoped_release others_go_on;
+        const Interruptible guard;
+        app::OutputFolder output(folder, app::Contents::recording, app::replaced_if(overwrite));
+        points = app::write_simulation(options, output.path());
+        stopped = app::interrupted();
+        if (!stopped) output.commit();
+    }
+    raise_if(stopped);
+    return points;
+}
+
+}  // namespace
+
+void bind_programs(py::module_& module) {
+    module.def("run", &run);
+    module.def("evaluate", &evaluate);
+    module.def(
+        "simulate",
+        [](const std::string& scene, const fs::path& output, const std::string& sensor,
+           int pedestrians, std::uint64_t seed, std::optional<std::size_t> frames, double rate,
+           double pose_noise, double pose_noise_deg, bool overwrite) {
+            return simulate(
+                {scene, sensor, pedestrians, seed, frames, rate, pose_noise, pose_noise_deg},
+                output, overwrite);
+        },
+        py::arg("scene"), py::arg("output"), py::kw_only(), py::arg("sensor") = "vlp16",
+        py::arg("pedestrians") = -1, py::arg("seed") = 1, py::arg("frames") = py::none(),
+        py::arg("rate") = 0.0, py::arg("pose_noise") = 0.0, py::arg("pose_noise_deg") = 0.0,
+        py::arg("overwrite") = false,
+        R"(Makes a recording with exact labels, in KITTI's layout, in the folder `output`.
+
+scene: crowd, street, square or hall; sensor: see `dynamicfilter simulate --help`;
+pedestrians: -1: the scene's own number; seed: same seed, same bytes; frames: None: the whole scene;
+rate: scans per second, 0: the scene's own; pose_noise [m], pose_noise_deg [deg]: standard deviation
+of each axis. Returns the number of points. Raises ConfigError, OutputError, and KeyboardInterrupt,
+which leaves nothing.)");
+}
+
+}  // namespace dynamic_filter::python

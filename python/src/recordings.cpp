@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "arrays.hpp"
+#include "dynamic_filter/io/cloud.hpp"
+#include "frames.hpp"
+#include "module.hpp"
+
+namespace dynamic_filter::python {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+py::array read_cloud(const fs::path& file) {
+    io::Cloud cloud;
+    {
+        const py::gil_scoped_release others_go_on;
+        cloud = io::read_cloud(file);
+    }
+    const auto [kept, owner] = handed_over(std::move(cloud));
+    return fields_array(kept, owner);
+}
+
+io::Sequence open_recording(const fs::path& data, const py::kwargs& options) {
+    const app::DataOptions how = data_options(data, const_cast<py::kwargs&>(options));
+    refuse_unknown("open_recording", options);
+    const py::gil_scoped_release others_go_on;
+    return app::open(how);
+}
+
+io::Frame frame_at(const io::Sequence& sequence, py::ssize_t i) {
+    const auto size = static_cast<py::ssize_t>(sequence.size());
+    if (i < -size || i >= size) {
+        throw py::index_error("scan " + std::to_string(i) + " of " + std::to_string(size));
+    }
+    const py::gil_scoped_release others_go_on;
+    return io::read_frame(sequence, static_cast<std::size_t>(i < 0 ? i + size : i));
+}
+
+/// A view of what a frame holds; the frame lives as long as it.
+template <class View>
+auto view(View of) {
+    return [of](const py::object& self) -> py::object {
+        return of(self.cast<const io::Frame&>(), self);
+    };
+}
+
+void bind_frame(py::module_& module) {
+    py::class_<io::Frame>(module, "Frame", "A scan of a recording; arrays are views of its memory.")
+        .def_property_readonly("points", view([](const io::Frame& f, const py::object& self) {
+                                   return points_array(f.points, self);
+                               }),
+                               "N x 3 float32: x y z [m] in the sensor's frame")
+        .def_property_readonly("pose", view([](const io::Frame& f, const py::object& self) {
+                                   return pose_array(f.T_world_sensor, self);
+                               }),
+                               "4 x 4 float64: T_world_sensor [m]")
+        .def_readonly("stamp", &io::Frame::stamp, "[s]")
+        .def_property_readonly(
+            "truth", view([](const io::Frame& f, const py::object& self) -> py::object {
+                if (f.truth.empty()) return py::none();
+                return labels_array(f.truth, self);
+            }),
+            "ground truth, N uint8: 0 unknown, 9 static, 251 dynamic; None: there is none")
+        .def_property_readonly("fields", view([](const io::Frame& f, const py::object& self) {
+                                   return fields_array(f.cloud, self);
+                               }),
+                               "N records of all fields as in the file, units too: a structured "
+                               "array");
+}
+
+}  // namespace
+
+void bind_recordings(py::module_& module) {
+    bind_frame(module);
+    py::class_<io::Sequence>(module, "Recording", "Scans with poses: a sequence of Frame.")
+        .def("__len__", &io::Sequence::size, "How many scans there are.")
+        // By index until IndexError; so is iteration.
+        .def("__getitem__", &frame_at, py::arg("i"),
+             "Reads scan i. Raises InputError if it cannot be used.")
+        .def_property_readonly(
+            "format", [](const io::Sequence& s) { return io::to_string(s.format); },
+            "kitti, benchmark, folder or bag")
+        .def_property_readonly("has_truth", &io::Sequence::has_truth, "whether it is labelled")
+        .def_readonly("notes", &io::Sequence::notes, "what was assumed, in sentences");
+    module.def("read_cloud", &read_cloud, py::arg("file"),
+               R"(Reads a cloud: .pcd, .ply, .las, .bin, .npy, .xyz, .txt or .csv.
+
+Returns a structured array of N records with the file's fields, types and units:
+cloud["x"], cloud["intensity"]. Raises InputError.)");
+    module.def("open_recording", &open_recording, py::arg("data"),
+               R"(Opens a recording: a bag, or a folder with scans and poses.
+
+Options, as of the command: format, poses, topic, pose_topic, pose_fix, points_in_world, time_unit,
+deskew, first, last, stride.
+Returns a sequence of Frame: points N x 3 float32 [m] in the sensor's frame, pose 4 x 4
+T_world_sensor [m], stamp [s], truth N uint8 or None, fields N records. Raises InputError and
+ConfigError.)");
+}
+
+}  // namespace dynamic_filter::python

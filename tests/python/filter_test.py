@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: MIT
+"""The filter from Python says what the command says, keeps what it was asked to, and reports what
+it refuses."""
+import os
+import subprocess
+import unittest
+
+from support import COMMAND, SCANS, df, frames, main, np, push_all, recording, scratch, small_scan
+
+
+def labels_of_command(name, *options):
+    folder = scratch(name)
+    subprocess.run([COMMAND, "run", recording(), "-o", folder, *options], check=True,
+                   capture_output=True)
+    files = sorted(os.listdir(os.path.join(folder, "labels")))
+    return [np.fromfile(os.path.join(folder, "labels", file), np.uint32) for file in files]
+
+
+class AsTheCommand(unittest.TestCase):
+    def compare(self, config, *options):
+        filter = df.DynamicFilter(config)
+        push_all(filter)
+        filter.finish()
+        expected = labels_of_command("-".join(["run", *options]), *options)
+        self.assertEqual(len(expected), SCANS)
+        self.assertTrue(any((labels == df.DYNAMIC).any() for labels in expected))
+        for i, labels in enumerate(expected):
+            self.assertEqual(filter.labels(i).astype(np.uint32).tobytes(), labels.tobytes())
+
+    def test_default(self):
+        self.compare(None)
+
+    def test_paper(self):
+        self.compare({"preset": "paper", "submap": {"keyframes": 5}},
+                     "--preset", "paper", "--set", "submap.keyframes=5")
+
+
+class Corrections(unittest.TestCase):
+    def follow(self, config):
+        """Corrections lead from the instant labels to those that labels() tells."""
+        filter, told = df.DynamicFilter(config), {}
+        for i, frame in enumerate(frames()):
+            told[i] = filter.push(frame.points, frame.pose, frame.stamp)
+            told.update(filter.corrections())
+        self.assertEqual(filter.corrections(), [])
+        filter.finish()
+        instant, final = dict(told), dict(filter.corrections())
+        told.update(final)
+        for i in told:
+            np.testing.assert_array_equal(told[i], filter.labels(i))
+        return instant
+
+    def test_default(self):
+        self.follow(None)
+
+    def test_paper_tells_by_windows(self):
+        told = self.follow({"preset": "paper", "submap.keyframes": 3})
+        self.assertTrue(any((labels == df.DYNAMIC).any() for labels in told.values()))
+
+    def test_only_the_newest(self):
+        filter = df.DynamicFilter()
+        push_all(filter)
+        self.assertTrue(all(scan >= SCANS - 3 for scan, _ in filter.corrections(newest=3)))
+
+
+class Keeping(unittest.TestCase):
+    def test_none(self):
+        filter = df.DynamicFilter(keep=False)
+        push_all(filter)
+        self.assertEqual(filter.corrections(), [])
+        with self.assertRaisesRegex(IndexError, "not kept"):
+            filter.labels(0)
+
+    def test_the_newest(self):
+        filter = df.DynamicFilter(keep=4)
+        push_all(filter)
+        self.assertEqual(len(filter), SCANS)
+        self.assertEqual(len(filter.labels(SCANS - 4)), len(frames()[SCANS - 4].points))
+        with self.assertRaises(IndexError):
+            filter.labels(SCANS - 5)
+
+    def test_nonsense(self):
+        self.assertRaises(ValueError, df.DynamicFilter, keep=-1)
+        self.assertRaises(TypeError, df.DynamicFilter, keep="all")
+
+
+class Configuration(unittest.TestCase):
+    def test_a_file(self):
+        path = scratch("settings.toml")
+        with open(path, "w") as file:
+            file.write("[back_end]\nvoxel_size = 0.3\n")
+        a, b = df.DynamicFilter(path), df.DynamicFilter({"back_end.voxel_size": 0.3})
+        for left, right in zip(push_all(a), push_all(b)):
+            np.testing.assert_array_equal(left, right)
+
+    def test_mistakes(self):
+        for config, pattern in (({"back_end.voxel_siz": 1}, "voxel_size"),
+                                ({"back_end.voxel_size": -1}, "voxel_size"), ("papr", "paper"),
+                                ("missing.toml", "missing.toml")):
+            with self.assertRaisesRegex(df.ConfigError, pattern):
+                df.DynamicFilter(config)
+        self.assertRaises(TypeError, df.DynamicFilter, 5)
+
+
+class Course(unittest.TestCase):
+    def test_static_map(self):
+        filter = df.DynamicFilter()
+        self.assertEqual(filter.static_map()[0].shape, (0, 3))
+        push_all(filter)
+        centers, probability = filter.static_map()
+        self.assertEqual((centers.dtype, centers.shape[1]), (np.float64, 3))
+        self.assertEqual(probability.shape, (len(centers),))
+        self.assertGreater(len(centers), 1000)
+        self.assertTrue(((probability >= 0.5) & (probability <= 1)).all())
+        near, _ = filter.static_map(radius=5.0)
+        self.assertLess(len(near), len(centers))
+        off = np.linalg.norm(near - frames()[-1].pose[:3, 3], axis=1)
+        self.assertLess(off.max(), 5.0 + 0.4)
+
+    def test_late_and_repeated_scans_are_refused(self):
+        filter, points = df.DynamicFilter(), small_scan()
+        filter.push(points, np.eye(4), 5.0)
+        for stamp, pattern in ((5.0, "before"), (4.5, "before")):
+            with self.assertRaisesRegex(df.Error, pattern):
+                filter.push(points, np.eye(4), stamp)
+        self.assertEqual(len(filter), 1)
+        filter.push(points, np.eye(4), 5.1)
+        self.assertEqual(len(filter.labels(1)), len(points))
+
+    def test_breaks_are_told(self):
+        filter, points = df.DynamicFilter(), small_scan()
+        filter.push(points, np.eye(4), 5.0)
+        filter.push(points, np.eye(4), 1.0)
+        (scan, text), = filter.notices()
+        self.assertEqual(scan, 1)
+        self.assertIn("new map", text)
+        self.assertEqual(filter.notices(), [])
+
+    def test_the_end_is_the_end(self):
+        filter = df.DynamicFilter()
+        filter.push(small_scan(), np.eye(4), 0.0)
+        filter.flush()
+        filter.finish()
+        filter.finish()
+        with self.assertRaises(df.Error):
+            filter.push(small_scan(), np.eye(4), 1.0)
+
+
+if __name__ == "__main__":
+    main()

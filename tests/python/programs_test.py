@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: MIT
+"""run, evaluate, simulate and the readers do what the command does."""
+import filecmp
+import os
+import signal
+import subprocess
+import threading
+import unittest
+
+from support import COMMAND, SCANS, df, frames, main, np, recording, scratch
+
+
+class Programs(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.result = df.run(recording(), scratch("run"))
+
+    def test_run_gives_what_the_command_gives(self):
+        folder = scratch("by-command")
+        subprocess.run([COMMAND, "run", recording(), "-o", folder], check=True, capture_output=True)
+        names = [f"labels/{i:06}.label" for i in range(SCANS)] + ["static_map.pcd", "metrics.json"]
+        same, other, missing = filecmp.cmpfiles(folder, self.result["output"], names, shallow=False)
+        self.assertEqual((len(same), other, missing), (len(names), [], []))
+
+    def test_run_returns_the_scores(self):
+        self.assertEqual(self.result["metrics"]["scans"], SCANS)
+        self.assertGreater(self.result["metrics"]["voxel"]["majority"]["f1"], 0.8)
+        self.assertGreater(self.result["timing"]["scans_per_second"], 0)
+
+    def test_settings_and_selection(self):
+        result = df.run(recording(), scratch("few"), last=4, threads=1,
+                        config={"back_end.voxel_size": 0.4})
+        self.assertEqual(result["metrics"]["scans"], 5)
+        with open(os.path.join(result["output"], "config.toml")) as file:
+            self.assertIn("voxel_size = 0.4", file.read())
+
+    def test_evaluate(self):
+        scores = df.evaluate(recording(), labels=self.result["output"])
+        self.assertEqual(scores["voxel"], self.result["metrics"]["voxel"])
+        self.assertEqual((scores["scans"], scores["left_out"]), (SCANS, 0))
+        of_map = df.evaluate(recording(), map=os.path.join(scratch("run"), "static_map.pcd"))
+        self.assertEqual(of_map["scans"], SCANS)
+        self.assertRaises(TypeError, df.evaluate, recording())
+
+    def test_simulate_gives_what_the_command_gives(self):
+        folder = scratch("simulated")
+        subprocess.run([COMMAND, "simulate", "crowd", "-o", folder, "--frames", str(SCANS)],
+                       check=True, capture_output=True)
+        self.assertTrue(filecmp.cmp(os.path.join(folder, "velodyne/000007.bin"),
+                                    os.path.join(recording(), "velodyne/000007.bin"), False))
+        with self.assertRaisesRegex(df.ConfigError, "crowd"):
+            df.simulate("nowhere", scratch("nowhere"))
+
+    def test_recording(self):
+        opened = df.open_recording(recording(), first=3, stride=2)
+        self.assertEqual(len(opened), (SCANS - 3 + 1) // 2)
+        np.testing.assert_array_equal(opened[0].points, frames()[3].points)
+        np.testing.assert_array_equal(opened[-1].pose, opened[len(opened) - 1].pose)
+        self.assertTrue(opened.has_truth)
+        self.assertEqual(opened.format, "kitti")
+        self.assertRaises(IndexError, lambda: opened[len(opened)])
+        self.assertRaises(IndexError, lambda: opened[-len(opened) - 1])
+
+    def test_clouds(self):
+        cloud = df.read_cloud(os.path.join(recording(), "velodyne", "000000.bin"))
+        self.assertEqual(cloud.dtype.names, ("x", "y", "z", "intensity"))
+        raw = np.fromfile(os.path.join(recording(), "velodyne", "000000.bin"), np.float32)
+        np.testing.assert_array_equal(cloud.view(np.float32), raw)
+
+    def test_mistakes(self):
+        for error, call in (
+                (df.InputError, lambda: df.open_recording(scratch("missing"))),
+                (df.InputError, lambda: df.read_cloud(scratch("missing.pcd"))),
+                (df.ConfigError, lambda: df.open_recording(recording(), pose_fix="sideways")),
+                (df.ConfigError, lambda: df.open_recording(recording(), stride=0)),
+                (df.ConfigError, lambda: df.run(recording(), self.result["output"])),
+                (df.OutputError, lambda: df.simulate("crowd", "/proc/none", frames=1)),
+                (TypeError, lambda: df.run(recording(), scratch("x"), spedd=1)),
+                (TypeError, lambda: df.open_recording(recording(), stride="two"))):
+            self.assertRaises(error, call)
+
+    def test_interrupts(self):
+        stop = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
+        stop.start()
+        with self.assertRaises(KeyboardInterrupt):
+            df.simulate("street", scratch("street"), sensor="hdl64")
+        stop.join()
+        self.assertFalse(os.path.exists(scratch("street")))
+        with self.assertRaises(KeyboardInterrupt):  # Python's own handler is back
+            signal.raise_signal(signal.SIGINT)
+        df.simulate("crowd", scratch("again"), frames=1)
+
+
+if __name__ == "__main__":
+    main()
