@@ -37,15 +37,15 @@ set(CPACK_DEBIAN_COMMAND_PACKAGE_NAME dynamicfilter)
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SHLIBDEPS ON)
 set(CPACK_COMPONENT_COMMAND_DESCRIPTION "remove moving objects from LiDAR scans and maps
- Labels every point of a recording as static, dynamic or unknown, from scans
- and poses alone, and writes the map without what moves. Reads ROS bags, KITTI
- and folders of clouds.")
+Labels every point of a recording as static, dynamic or unknown, from scans
+and poses alone, and writes the map without what moves. Reads ROS bags, KITTI
+and folders of clouds.")
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libdynamicfilter-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
     "libeigen3-dev, libtbb-dev, libfmt-dev, libpng-dev, libsqlite3-dev, libzstd-dev, libbz2-dev, zlib1g-dev, liblz4-dev, pkg-config")
 set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS libembree-dev)
 set(CPACK_COMPONENT_DEV_DESCRIPTION "remove moving objects from LiDAR scans, C++ libraries
- Static libraries, headers and CMake files: the filter, its readers and
- writers, scores, and a simulator (which needs libembree-dev).")
+Static libraries, headers and CMake files: the filter, its readers and
+writers, scores, and a simulator (which needs libembree-dev).")
 include(CPack)

@@ -64,6 +64,7 @@ VoxelScore voxel_score(double static_total, double static_kept, double dynamic_t
 
 VoxelTally::VoxelTally(double voxel_size)
     : voxel_size_(voxel_size), index_(std::make_unique<VoxelIndex>()) {}
+VoxelTally::VoxelTally(VoxelTally&&) noexcept = default;
 VoxelTally::~VoxelTally() = default;
 
 VoxelCount* VoxelTally::find(const Point& point, bool insert) {

@@ -7,6 +7,7 @@ work=$build/tests/consumer
 rm -rf "$work"
 cmake --install "$build" --prefix "$work/elsewhere" > "$work.log"
 mv "$work/elsewhere" "$work/prefix"
+if grep -r "$source" "$work/prefix/lib/cmake"; then exit 1; fi
 
 cmake -S "$source/tests/consumer" -B "$work/build" -G Ninja -DCMAKE_PREFIX_PATH="$work/prefix" \
     -DCMAKE_CXX_COMPILER_LAUNCHER="$launcher" -DCMAKE_CXX_FLAGS="$flags"

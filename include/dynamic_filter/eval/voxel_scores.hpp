@@ -41,6 +41,7 @@ struct VoxelCount {
 class VoxelTally {
 public:
     explicit VoxelTally(double voxel_size);
+    VoxelTally(VoxelTally&&) noexcept;
     ~VoxelTally();
 
     /// One point of the raw map, and whether the clean map kept it.
