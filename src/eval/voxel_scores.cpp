@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dynamic_filter/geometry/neighbor_grid.hpp"
+#include "dynamic_filter/geometry/voxel_index.hpp"
 
 namespace dynamic_filter::eval {
 
@@ -61,14 +62,19 @@ VoxelScore voxel_score(double static_total, double static_kept, double dynamic_t
     return score;
 }
 
+VoxelTally::VoxelTally(double voxel_size)
+    : voxel_size_(voxel_size), index_(std::make_unique<VoxelIndex>()) {}
+VoxelTally::VoxelTally(VoxelTally&&) noexcept = default;
+VoxelTally::~VoxelTally() = default;
+
 VoxelCount* VoxelTally::find(const Point& point, bool insert) {
     const auto cell = cell_of(point, static_cast<float>(1.0 / voxel_size_));
     if (!cell) return nullptr;
     if (!insert) {
-        const auto id = index_.find(pack(*cell));
+        const auto id = index_->find(pack(*cell));
         return id ? &counts_[*id] : nullptr;
     }
-    const std::uint32_t id = index_.insert(pack(*cell));
+    const std::uint32_t id = index_->insert(pack(*cell));
     if (id == counts_.size()) counts_.emplace_back();
     return &counts_[id];
 }

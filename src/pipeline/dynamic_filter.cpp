@@ -7,8 +7,14 @@
 #include <numeric>
 #include <utility>
 
+#include "dynamic_filter/back_end/back_end.hpp"
+#include "dynamic_filter/back_end/contact.hpp"
+#include "dynamic_filter/back_end/evidence_map.hpp"
+#include "dynamic_filter/front_end/front_end.hpp"
+#include "dynamic_filter/geometry/map_points.hpp"
 #include "dynamic_filter/geometry/pose.hpp"
 #include "dynamic_filter/parallel.hpp"
+#include "dynamic_filter/pipeline/merge.hpp"
 
 namespace dynamic_filter {
 
@@ -27,40 +33,105 @@ Config checked(const Config& config) {
 
 }  // namespace
 
-DynamicFilter::DynamicFilter(const Config& config)
+struct BackEndWork {
+    Submap submap;
+    BeamPattern beams;  ///< that it was seen with
+};
+
+/// What DynamicFilter says of its functions holds for those of the same name.
+struct DynamicFilter::Impl {
+    explicit Impl(const Config& config);
+
+    Judged judge(Scan scan);
+    void integrate(const std::shared_ptr<BackEndWork>& work);
+    std::vector<Verdict> finish();
+    void keep_within(const Pose& T_world_center, double radius, std::size_t most);
+    std::vector<StaticVoxel> local_static_map(const Pose& T_world_query,
+                                              std::optional<double> radius);
+
+    [[nodiscard]] Verdict verdict(const Scan& scan) const;
+    [[nodiscard]] Verdict settled(const Scan& scan) const;
+    [[nodiscard]] std::vector<VoxelHistory> histories(std::span<const std::uint32_t> voxels) const;
+    [[nodiscard]] bool scans_observe() const;
+    [[nodiscard]] std::size_t size() const;
+    [[nodiscard]] std::size_t submaps() const;
+    [[nodiscard]] const VoxelIndex& voxels() const {
+        return scans_observe() ? evidence_.voxels() : back_end_.voxels();
+    }
+    [[nodiscard]] const std::optional<BeamPattern>& beams() const {
+        return scans_observe() ? evidence_.beams() : front_end_.beams();
+    }
+    [[nodiscard]] StageTimes times() const;
+
+    Pose to_map_frame(const Pose& T_world_sensor) const;
+    [[nodiscard]] Judged process(const Window& window);
+    [[nodiscard]] Verdict instant_verdict(std::size_t index, const PointVoxels& voxels);
+    void decide_voxels();
+    [[nodiscard]] std::optional<Surface> contact_of(std::uint32_t voxel) const;
+    struct Located {
+        MapPoints in_map;
+        PointVoxels voxels;
+        Verdict verdict;  // all unknown
+    };
+    [[nodiscard]] Located locate(const Scan& scan) const;
+    [[nodiscard]] std::pair<Label, float> decision_on(std::uint32_t voxel, const Point& at) const;
+    void judge_contacts(const Points& map_points, const PointVoxels& voxels, Labels& labels) const;
+    void merge_local_maps();
+    [[nodiscard]] Label label_of(std::optional<float> probability) const;
+
+    Config config_;
+    std::optional<Eigen::Vector3d> origin_;  // of the map frame, in the world
+    WindowCutter cutter_;
+    FrontEnd front_end_;
+    BackEnd back_end_;
+    EvidenceMap evidence_;
+    struct Instant {
+        float opinion = 2.0F;  // when it was asked last; none is as large
+        Label label = Label::unknown;
+    };
+    std::vector<Instant> instant_;  // by voxel, when scans observe
+    struct Decision {
+        std::optional<float> probability;
+        std::optional<Surface> contact;
+    };
+    std::vector<Decision> decided_;  // by voxel, when scans observe
+    MergedMap merged_;
+    struct Kept {
+        Point center;
+        float radius;  // [m]
+    };
+    std::optional<Kept> kept_;             // of the submaps, once some are forgotten
+    StageTimes front_times_, back_times_;  // of judge() and of the rest
+};
+
+DynamicFilter::Impl::Impl(const Config& config)
     : config_(checked(config)),
       cutter_(config_.submap),
       front_end_(config_),
       back_end_(config_),
       evidence_(config_) {}
 
-bool DynamicFilter::scans_observe() const {
+bool DynamicFilter::Impl::scans_observe() const {
     return config_.back_end.enabled && config_.back_end.observers == Observers::scans;
 }
 
-Pose DynamicFilter::to_map_frame(const Pose& T_world_sensor) const {
+Pose DynamicFilter::Impl::to_map_frame(const Pose& T_world_sensor) const {
     Pose shifted = T_world_sensor;
     shifted.translation() -= *origin_;
     return shifted;
 }
 
-std::size_t DynamicFilter::size() const {
+std::size_t DynamicFilter::Impl::size() const {
     return scans_observe() ? evidence_.voxels().size() : back_end_.points();
 }
 
-std::size_t DynamicFilter::submaps() const {
+std::size_t DynamicFilter::Impl::submaps() const {
     const auto keyframes = static_cast<std::size_t>(config_.submap.keyframes);
     return scans_observe() ? (evidence_.observers() + keyframes - 1) / keyframes
                            : back_end_.buffer().size();
 }
 
-std::vector<Verdict> DynamicFilter::push(Scan scan) {
-    Judged judged = judge(std::move(scan));
-    integrate(std::move(judged.work));
-    return std::move(judged.verdicts);
-}
-
-Judged DynamicFilter::judge(Scan scan) {
+Judged DynamicFilter::Impl::judge(Scan scan) {
     if (!origin_) origin_ = nearby_origin(scan.T_world_sensor, config_.back_end.voxel_size);
     scan.T_world_sensor = to_map_frame(scan.T_world_sensor);
     if (!scans_observe()) {
@@ -76,26 +147,28 @@ Judged DynamicFilter::judge(Scan scan) {
     return judged;
 }
 
-Judged DynamicFilter::process(const Window& window) {
+Judged DynamicFilter::Impl::process(const Window& window) {
     auto [submap, labels] =
         timed(front_times_, "front_end", [&] { return front_end_.process(window, front_times_); });
-    Judged judged{.verdicts = {}, .work = {std::move(submap), *front_end_.beams()}};
+    Judged judged;
+    judged.work =
+        std::make_shared<BackEndWork>(BackEndWork{std::move(submap), *front_end_.beams()});
     for (std::size_t s = 0; s < window.scans.size(); ++s) {
         judged.verdicts.push_back({window.scans[s].index, std::move(labels[s]), {}});
     }
     return judged;
 }
 
-void DynamicFilter::integrate(BackEndWork work) {
+void DynamicFilter::Impl::integrate(const std::shared_ptr<BackEndWork>& work) {
     if (scans_observe()) {
         timed(back_times_, "back_end", [&] { evidence_.look_at_rest(back_times_); });
-    } else if (work.submap) {
+    } else if (work) {
         timed(back_times_, "back_end",
-              [&] { back_end_.insert(std::move(*work.submap), work.beams, back_times_); });
+              [&] { back_end_.insert(std::move(work->submap), work->beams, back_times_); });
     }
 }
 
-std::vector<Verdict> DynamicFilter::finish() {
+std::vector<Verdict> DynamicFilter::Impl::finish() {
     if (scans_observe()) {
         timed(back_times_, "back_end",
               [&] { timed(back_times_, "merging", [&] { decide_voxels(); }); });
@@ -104,20 +177,20 @@ std::vector<Verdict> DynamicFilter::finish() {
     std::vector<Verdict> instant;
     if (const auto window = cutter_.flush()) {
         Judged judged = process(*window);
-        integrate(std::move(judged.work));
+        integrate(judged.work);
         instant = std::move(judged.verdicts);
     }
     if (config_.back_end.enabled) merge_local_maps();
     return instant;
 }
 
-StageTimes DynamicFilter::times() const {
+StageTimes DynamicFilter::Impl::times() const {
     StageTimes all = front_times_;
     for (const auto& [stage, calls] : back_times_) all[stage].add(calls);
     return all;
 }
 
-void DynamicFilter::keep_within(const Pose& T_world_center, double radius, std::size_t most) {
+void DynamicFilter::Impl::keep_within(const Pose& T_world_center, double radius, std::size_t most) {
     if (!origin_) return;
     const Pose T_map_center = to_map_frame(T_world_center);
     if (!scans_observe()) {
@@ -133,7 +206,7 @@ void DynamicFilter::keep_within(const Pose& T_world_center, double radius, std::
     instant_ = std::move(instant);
 }
 
-void DynamicFilter::decide_voxels() {
+void DynamicFilter::Impl::decide_voxels() {
     std::vector<std::uint32_t> all(evidence_.voxels().size());
     std::iota(all.begin(), all.end(), 0U);
     const auto probabilities = evidence_.probabilities(all);
@@ -144,7 +217,7 @@ void DynamicFilter::decide_voxels() {
     });
 }
 
-std::optional<Surface> DynamicFilter::contact_of(std::uint32_t voxel) const {
+std::optional<Surface> DynamicFilter::Impl::contact_of(std::uint32_t voxel) const {
     if (label_of(decided_[voxel].probability) != Label::still) return std::nullopt;
     bool touches_dynamic = false;
     evidence_.each_within(1, voxel, [&](std::uint32_t v, int) {
@@ -158,7 +231,7 @@ std::optional<Surface> DynamicFilter::contact_of(std::uint32_t voxel) const {
     return contact_surface(around);
 }
 
-void DynamicFilter::merge_local_maps() {
+void DynamicFilter::Impl::merge_local_maps() {
     for (std::size_t i = 0; i < back_end_.buffer().size(); ++i) {
         timed(back_times_, "back_end", [&] {
             const LocalMap local = back_end_.local_map_of(i, back_times_);
@@ -170,7 +243,7 @@ void DynamicFilter::merge_local_maps() {
     }
 }
 
-Label DynamicFilter::label_of(std::optional<float> probability) const {
+Label DynamicFilter::Impl::label_of(std::optional<float> probability) const {
     if (!probability) return Label::unknown;
     const auto threshold = static_cast<float>(config_.back_end.occupancy_threshold);
     return *probability >= threshold ? Label::still : Label::dynamic;
@@ -178,7 +251,7 @@ Label DynamicFilter::label_of(std::optional<float> probability) const {
 
 /// From the evidence so far. A voxel is asked again when its own evidence says something else than
 /// when it was asked last; most say what they said.
-Verdict DynamicFilter::instant_verdict(std::size_t index, const PointVoxels& voxels) {
+Verdict DynamicFilter::Impl::instant_verdict(std::size_t index, const PointVoxels& voxels) {
     constexpr float kSame = 0.2F;  // a tenth of the span of opinions
     instant_.resize(evidence_.voxels().size());
     std::vector<std::uint32_t> due;
@@ -203,8 +276,8 @@ Verdict DynamicFilter::instant_verdict(std::size_t index, const PointVoxels& vox
     return verdict;
 }
 
-std::vector<StaticVoxel> DynamicFilter::local_static_map(const Pose& T_world_query,
-                                                         std::optional<double> radius) {
+std::vector<StaticVoxel> DynamicFilter::Impl::local_static_map(const Pose& T_world_query,
+                                                               std::optional<double> radius) {
     std::vector<StaticVoxel> result;
     if (!origin_) return result;
     const auto size = static_cast<float>(config_.back_end.voxel_size);
@@ -232,7 +305,7 @@ std::vector<StaticVoxel> DynamicFilter::local_static_map(const Pose& T_world_que
     return result;
 }
 
-DynamicFilter::Located DynamicFilter::locate(const Scan& scan) const {
+DynamicFilter::Impl::Located DynamicFilter::Impl::locate(const Scan& scan) const {
     const std::size_t size = scan.points.size();
     Located located;
     located.verdict = {scan.index, Labels(size, Label::unknown), std::vector<float>(size, 0.0F)};
@@ -248,7 +321,7 @@ DynamicFilter::Located DynamicFilter::locate(const Scan& scan) const {
     return located;
 }
 
-Verdict DynamicFilter::verdict(const Scan& scan) const {
+Verdict DynamicFilter::Impl::verdict(const Scan& scan) const {
     auto [in_map, voxels, verdict] = locate(scan);
     for (std::size_t i = 0; i < voxels.size(); ++i) {
         if (in_map.keys[i] == kNoKey) continue;
@@ -261,7 +334,8 @@ Verdict DynamicFilter::verdict(const Scan& scan) const {
 }
 
 /// Once finish() has decided; before it, all is unknown.
-std::pair<Label, float> DynamicFilter::decision_on(std::uint32_t voxel, const Point& at) const {
+std::pair<Label, float> DynamicFilter::Impl::decision_on(std::uint32_t voxel,
+                                                         const Point& at) const {
     constexpr std::pair kUnknown{Label::unknown, 0.0F};
     if (scans_observe()) {
         if (voxel >= decided_.size()) return kUnknown;
@@ -278,7 +352,8 @@ std::pair<Label, float> DynamicFilter::decision_on(std::uint32_t voxel, const Po
     return {label_of(std::optional(probability)), probability};
 }
 
-std::vector<VoxelHistory> DynamicFilter::histories(std::span<const std::uint32_t> voxels) const {
+std::vector<VoxelHistory> DynamicFilter::Impl::histories(
+    std::span<const std::uint32_t> voxels) const {
     std::vector<VoxelHistory> histories(voxels.size());
     if (!scans_observe()) {
         for (std::size_t i = 0; i < voxels.size(); ++i) {
@@ -308,7 +383,7 @@ std::vector<VoxelHistory> DynamicFilter::histories(std::span<const std::uint32_t
     return histories;
 }
 
-Verdict DynamicFilter::settled(const Scan& scan) const {
+Verdict DynamicFilter::Impl::settled(const Scan& scan) const {
     auto [in_map, voxels, verdict] = locate(scan);
     PointVoxels own = voxels;
     std::sort(own.begin(), own.end());
@@ -327,8 +402,8 @@ Verdict DynamicFilter::settled(const Scan& scan) const {
 
 /// A static point becomes dynamic if it lies above the static surface of its voxel while, in this
 /// very scan, something dynamic touches the voxel.
-void DynamicFilter::judge_contacts(const Points& map_points, const PointVoxels& voxels,
-                                   Labels& labels) const {
+void DynamicFilter::Impl::judge_contacts(const Points& map_points, const PointVoxels& voxels,
+                                         Labels& labels) const {
     std::vector<bool> moving(decided_.size());  // dynamic voxels with a point in this scan
     std::vector<std::size_t> above;
     for (std::size_t i = 0; i < labels.size(); ++i) {
@@ -343,5 +418,45 @@ void DynamicFilter::judge_contacts(const Points& map_points, const PointVoxels& 
         if (touches) labels[i] = Label::dynamic;
     }
 }
+
+DynamicFilter::DynamicFilter(const Config& config) : impl_(std::make_unique<Impl>(config)) {}
+DynamicFilter::DynamicFilter(DynamicFilter&&) noexcept = default;
+DynamicFilter& DynamicFilter::operator=(DynamicFilter&&) noexcept = default;
+DynamicFilter::~DynamicFilter() = default;
+
+std::vector<Verdict> DynamicFilter::push(Scan scan) {
+    Judged judged = judge(std::move(scan));
+    integrate(judged.work);
+    return std::move(judged.verdicts);
+}
+Judged DynamicFilter::judge(Scan scan) { return impl_->judge(std::move(scan)); }
+void DynamicFilter::integrate(const std::shared_ptr<BackEndWork>& work) { impl_->integrate(work); }
+bool DynamicFilter::front_end_waits() const { return impl_->scans_observe(); }
+std::vector<Verdict> DynamicFilter::finish() { return impl_->finish(); }
+
+Verdict DynamicFilter::verdict(const Scan& scan) const { return impl_->verdict(scan); }
+Verdict DynamicFilter::settled(const Scan& scan) const { return impl_->settled(scan); }
+std::vector<std::uint32_t> DynamicFilter::voxels_of(const Scan& scan) const {
+    return impl_->locate(scan).voxels;
+}
+std::vector<VoxelHistory> DynamicFilter::histories(std::span<const std::uint32_t> voxels) const {
+    return impl_->histories(voxels);
+}
+std::vector<std::size_t> DynamicFilter::keyframes() const { return impl_->evidence_.keyframes(); }
+std::size_t DynamicFilter::keyframes_total() const { return impl_->evidence_.observers(); }
+
+void DynamicFilter::keep_within(const Pose& T_world_center, double radius, std::size_t most) {
+    impl_->keep_within(T_world_center, radius, most);
+}
+std::size_t DynamicFilter::size() const { return impl_->size(); }
+std::vector<StaticVoxel> DynamicFilter::local_static_map(const Pose& T_world_query,
+                                                         std::optional<double> radius) {
+    return impl_->local_static_map(T_world_query, radius);
+}
+
+StageTimes DynamicFilter::times() const { return impl_->times(); }
+std::optional<BeamPattern> DynamicFilter::beams() const { return impl_->beams(); }
+std::size_t DynamicFilter::submaps() const { return impl_->submaps(); }
+std::size_t DynamicFilter::voxels() const { return impl_->voxels().size(); }
 
 }  // namespace dynamic_filter

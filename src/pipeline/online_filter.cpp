@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "dynamic_filter/error.hpp"
+#include "dynamic_filter/geometry/voxel.hpp"
 #include "dynamic_filter/parallel.hpp"
 #include "dynamic_filter/pipeline/pose_jump.hpp"
 #include "scan_queue.hpp"
@@ -43,7 +44,7 @@ struct Map {
 
 /// What the back-end still has to do about a scan.
 struct Task {
-    BackEndWork work;
+    std::shared_ptr<BackEndWork> work;
     std::optional<Scan> scan;  ///< to settle
     Pose T_world_sensor;
 };
@@ -288,7 +289,7 @@ void OnlineFilter::Engine::judge(Waiting& next) {
     judging = false;
     ++counters.processed;
     // Where submaps observe, most scans leave nothing to do.
-    if (task.work.submap || newest().front_end_waits()) tasks.push_back(std::move(task));
+    if (task.work || newest().front_end_waits()) tasks.push_back(std::move(task));
     changed.notify_all();
 }
 
@@ -351,7 +352,7 @@ void OnlineFilter::Engine::integrate_tasks() {
 void OnlineFilter::Engine::integrate(Task task) {
     {
         const std::lock_guard hold(map_lock);
-        newest().integrate(std::move(task.work));
+        newest().integrate(task.work);
     }
     if (task.scan) {
         unsettled.push_back(std::move(*task.scan));
@@ -430,7 +431,7 @@ std::vector<std::uint64_t> OnlineFilter::places_of(const Scan& scan) const {
     std::vector<std::uint64_t> places(scan.points.size(), kNoPlace);
     const auto map = engine_->map_of(scan);
     if (!map) return places;
-    const PointVoxels voxels = engine_->maps[*map].filter->voxels_of(scan);
+    const std::vector<std::uint32_t> voxels = engine_->maps[*map].filter->voxels_of(scan);
     for (std::size_t i = 0; i < places.size(); ++i) {
         if (voxels[i] != kNoVoxel) places[i] = std::uint64_t{*map} << 32 | voxels[i];
     }
@@ -484,7 +485,7 @@ OnlineFilter::Extent OnlineFilter::extent() const {
     for (const Map& map : engine_->maps) {
         ++extent.maps;
         extent.submaps += map.filter->submaps();
-        extent.voxels += map.filter->voxels().size();
+        extent.voxels += map.filter->voxels();
         if (map.filter->beams()) extent.beams = map.filter->beams();
         const std::vector<std::size_t> keyframes = map.filter->keyframes();
         extent.keyframes_total += map.filter->keyframes_total();

@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <set>
 
 #include "dynamic_filter/error.hpp"
+#include "dynamic_filter/front_end/front_end.hpp"
 #include "dynamic_filter/front_end/submap.hpp"
+#include "dynamic_filter/front_end/window.hpp"
 #include "dynamic_filter/parallel.hpp"
 #include "pipeline/outcome.hpp"
 
@@ -145,13 +148,22 @@ TEST(DynamicFilter, FrontEndOnlyIsTheUnionOfTheStaticSubmaps) {
     config.back_end.enabled = false;
     const auto scans = drive(20, true);
     DynamicFilter filter(config);
-    for (const RoomScan& s : scans) filter.push(s.scan);
-    filter.finish();
+    WindowCutter cutter(config.submap);
+    FrontEnd front_end(config);
+    StageTimes times;
     const auto size = static_cast<float>(config.back_end.voxel_size);
     std::set<VoxelKey> owned;
-    for (const BufferedSubmap& b : filter.back_end().buffer()) {
-        for (const Point& p : b.submap.points) owned.insert(*voxel_of(p, size));
+    const auto own = [&](const std::optional<Window>& window) {
+        if (!window) return;
+        const Submap submap = front_end.process(*window, times).submap;
+        for (const Point& p : submap.points) owned.insert(*voxel_of(p, size));
+    };
+    for (const RoomScan& s : scans) {
+        filter.push(s.scan);
+        own(cutter.push(s.scan));
     }
+    filter.finish();
+    own(cutter.flush());
     for (const RoomScan& s : scans) {  // the map frame is the world here
         Points points;
         to_map(s.scan, points);
@@ -356,7 +368,7 @@ TEST(ScansObserve, PointsThatAreNoMeasurementsAndUnseenScansAreUnknown) {
     EXPECT_TRUE(all_are(std::vector{result.final[4], result.instant[4]}, Label::unknown));
     DynamicFilter never_fed{Config{}};
     never_fed.finish();
-    EXPECT_EQ(never_fed.voxels().size(), 0U);
+    EXPECT_EQ(never_fed.voxels(), 0U);
 }
 
 TEST(ScansObserve, AFootOnTheGroundIsDynamicAndTheGroundIsNot) {

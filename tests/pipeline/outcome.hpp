@@ -37,7 +37,7 @@ inline Outcome run(const std::vector<RoomScan>& scans, const Config& config) {
     for (const RoomScan& s : scans) take(filter.push(s.scan));
     take(filter.finish());
     for (const RoomScan& s : scans) result.final.push_back(filter.verdict(s.scan));
-    result.submaps = filter.back_end().buffer().size();
+    result.submaps = filter.submaps();
     return result;
 }
 

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "dynamic_filter/back_end/line_of_sight.hpp"
+#include "dynamic_filter/back_end/sight.hpp"
 
 namespace dynamic_filter {
 

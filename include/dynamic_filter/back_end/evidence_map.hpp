@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "dynamic_filter/back_end/evidence.hpp"
+#include "dynamic_filter/back_end/line_of_sight.hpp"
 #include "dynamic_filter/config.hpp"
+#include "dynamic_filter/geometry/beam_image.hpp"
 #include "dynamic_filter/geometry/map_points.hpp"
 #include "dynamic_filter/geometry/voxel_index.hpp"
 #include "dynamic_filter/geometry/voxel_neighbors.hpp"

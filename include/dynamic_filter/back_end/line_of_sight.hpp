@@ -3,14 +3,12 @@
 /// re-projected: a beam that ended somewhere was free before, seen from its own pose.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
+#include "dynamic_filter/back_end/sight.hpp"
 #include "dynamic_filter/geometry/beam_image.hpp"
 
 namespace dynamic_filter {
-
-enum class Sight : std::uint8_t { nothing, occupied, passed };
 
 /// Lengths [m] of the check. They bound what poses and ranges may be wrong by, and what a voxel
 /// blurs; what depends on the sensor comes from the image.

@@ -4,12 +4,16 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "dynamic_filter/geometry/voxel_index.hpp"
 #include "dynamic_filter/types.hpp"
+
+namespace dynamic_filter {
+class VoxelIndex;
+}
 
 namespace dynamic_filter::eval {
 
@@ -36,7 +40,9 @@ struct VoxelCount {
 /// caller. Single caller.
 class VoxelTally {
 public:
-    explicit VoxelTally(double voxel_size) : voxel_size_(voxel_size) {}
+    explicit VoxelTally(double voxel_size);
+    VoxelTally(VoxelTally&&) noexcept;
+    ~VoxelTally();
 
     /// One point of the raw map, and whether the clean map kept it.
     void add(const Point& point, Label truth, bool kept);
@@ -59,7 +65,7 @@ private:
     VoxelCount* find(const Point& point, bool insert);
 
     double voxel_size_;
-    VoxelIndex index_;
+    std::unique_ptr<VoxelIndex> index_;
     std::vector<VoxelCount> counts_;
     bool unlabelled_ = false;
 };

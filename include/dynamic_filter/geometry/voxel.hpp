@@ -13,6 +13,9 @@ namespace dynamic_filter {
 
 using VoxelKey = std::uint64_t;
 
+/// In place of a voxel's number: there is none.
+constexpr std::uint32_t kNoVoxel = UINT32_MAX;
+
 /// Integer cell of a point; cells are half-open and use floor, so negative coordinates are fine.
 using Cell = Eigen::Vector3i;
 

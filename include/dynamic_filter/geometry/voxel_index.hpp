@@ -14,8 +14,6 @@
 
 namespace dynamic_filter {
 
-constexpr std::uint32_t kNoVoxel = UINT32_MAX;
-
 /// The numbers of the blocks asked for last. A scan comes back to the same blocks with every ring
 /// or column of it.
 class BlockCache {

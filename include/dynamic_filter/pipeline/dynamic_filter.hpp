@@ -2,18 +2,16 @@
 /// The whole pipeline, scan by scan (Fig. 2).
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
-#include "dynamic_filter/back_end/back_end.hpp"
-#include "dynamic_filter/back_end/contact.hpp"
-#include "dynamic_filter/back_end/evidence_map.hpp"
+#include "dynamic_filter/back_end/evidence.hpp"
 #include "dynamic_filter/config.hpp"
-#include "dynamic_filter/front_end/front_end.hpp"
-#include "dynamic_filter/geometry/map_points.hpp"
-#include "dynamic_filter/pipeline/merge.hpp"
+#include "dynamic_filter/geometry/range_image.hpp"
 #include "dynamic_filter/stage_times.hpp"
 #include "dynamic_filter/types.hpp"
 
@@ -28,15 +26,12 @@ struct Verdict {
                       ///< be dynamic all the same); empty in instant verdicts
 };
 
-/// What judging leaves to the back-end.
-struct BackEndWork {
-    std::optional<Submap> submap;  ///< where submaps observe and a window has closed
-    BeamPattern beams;             ///< that it was seen with
-};
+/// A submap on its way to the back-end.
+struct BackEndWork;
 
 struct Judged {
     std::vector<Verdict> verdicts;
-    BackEndWork work;
+    std::shared_ptr<BackEndWork> work;  ///< where submaps observe and a window has closed
 };
 
 /// A voxel of the static local map.
@@ -63,6 +58,9 @@ class DynamicFilter {
 public:
     /// Throws ConfigError.
     explicit DynamicFilter(const Config& config);
+    DynamicFilter(DynamicFilter&&) noexcept;
+    DynamicFilter& operator=(DynamicFilter&&) noexcept;
+    ~DynamicFilter();
 
     /// Takes a scan, points in the sensor frame, stamps in order. Scans observe: returns its
     /// instant verdict. Submaps observe: when the scan opens a new window, the one before is
@@ -74,8 +72,8 @@ public:
     /// submaps observe, one thread may judge while another integrates earlier work; where scans
     /// observe (`front_end_waits()`), the work must be integrated before the next scan is judged.
     Judged judge(Scan scan);
-    void integrate(BackEndWork work);
-    [[nodiscard]] bool front_end_waits() const { return scans_observe(); }
+    void integrate(const std::shared_ptr<BackEndWork>& work);
+    [[nodiscard]] bool front_end_waits() const;
 
     /// Decides every voxel. Submaps observe: processes the last window (its verdicts are returned)
     /// and merges the local maps of all submap poses. No push() after it.
@@ -89,14 +87,14 @@ public:
     /// surface is told from it by the final verdict only.
     [[nodiscard]] Verdict settled(const Scan& scan) const;
 
-    /// The voxel of each point of a scan; kNoVoxel: none.
-    [[nodiscard]] PointVoxels voxels_of(const Scan& scan) const { return locate(scan).voxels; }
+    /// The voxel of each point of a scan; UINT32_MAX: none.
+    [[nodiscard]] std::vector<std::uint32_t> voxels_of(const Scan& scan) const;
     /// After finish(): of each of the voxels. Costs as much as it cost to observe those of them
     /// that were ever seen through.
     [[nodiscard]] std::vector<VoxelHistory> histories(std::span<const std::uint32_t> voxels) const;
     /// Scan::index of the keyframes that `VoxelHistory::seen_through` knows.
-    [[nodiscard]] std::vector<std::size_t> keyframes() const { return evidence_.keyframes(); }
-    [[nodiscard]] std::size_t keyframes_total() const { return evidence_.observers(); }
+    [[nodiscard]] std::vector<std::size_t> keyframes() const;
+    [[nodiscard]] std::size_t keyframes_total() const;
 
     /// Forgets the map beyond `radius` [m] of a pose, and the farthest of it until its size() is at
     /// most `most`. What is forgotten is unknown.
@@ -111,58 +109,16 @@ public:
                                               std::optional<double> radius = {});
 
     [[nodiscard]] StageTimes times() const;
-    [[nodiscard]] const BackEnd& back_end() const { return back_end_; }
     /// How densely the sensor looks. Empty before it is known.
-    [[nodiscard]] const std::optional<BeamPattern>& beams() const {
-        return scans_observe() ? evidence_.beams() : front_end_.beams();
-    }
+    [[nodiscard]] std::optional<BeamPattern> beams() const;
     /// Submaps taken in; where scans observe, as many keyframes as make one count as one.
     [[nodiscard]] std::size_t submaps() const;
-    [[nodiscard]] const VoxelIndex& voxels() const {
-        return scans_observe() ? evidence_.voxels() : back_end_.voxels();
-    }
+    /// How many there are of the voxels that voxels_of() names.
+    [[nodiscard]] std::size_t voxels() const;
 
 private:
-    Pose to_map_frame(const Pose& T_world_sensor) const;
-    [[nodiscard]] bool scans_observe() const;
-    [[nodiscard]] Judged process(const Window& window);
-    [[nodiscard]] Verdict instant_verdict(std::size_t index, const PointVoxels& voxels);
-    void decide_voxels();
-    [[nodiscard]] std::optional<Surface> contact_of(std::uint32_t voxel) const;
-    struct Located {
-        MapPoints in_map;
-        PointVoxels voxels;
-        Verdict verdict;  // all unknown
-    };
-    [[nodiscard]] Located locate(const Scan& scan) const;
-    [[nodiscard]] std::pair<Label, float> decision_on(std::uint32_t voxel, const Point& at) const;
-    void judge_contacts(const Points& map_points, const PointVoxels& voxels, Labels& labels) const;
-    void merge_local_maps();
-    [[nodiscard]] Label label_of(std::optional<float> probability) const;
-
-    Config config_;
-    std::optional<Eigen::Vector3d> origin_;  // of the map frame, in the world
-    WindowCutter cutter_;
-    FrontEnd front_end_;
-    BackEnd back_end_;
-    EvidenceMap evidence_;
-    struct Instant {
-        float opinion = 2.0F;  // when it was asked last; none is as large
-        Label label = Label::unknown;
-    };
-    std::vector<Instant> instant_;  // by voxel, when scans observe
-    struct Decision {
-        std::optional<float> probability;
-        std::optional<Surface> contact;
-    };
-    std::vector<Decision> decided_;  // by voxel, when scans observe
-    MergedMap merged_;
-    struct Kept {
-        Point center;
-        float radius;  // [m]
-    };
-    std::optional<Kept> kept_;             // of the submaps, once some are forgotten
-    StageTimes front_times_, back_times_;  // of judge() and of the rest
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace dynamic_filter

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+/// clean_folder RECORDING OUT: a verdict for every point of every scan, and the map without what
+/// moves.
+#include <cstdio>
+#include <dynamic_filter/dynamic_filter.hpp>
+#include <dynamic_filter/io/sequence.hpp>
+#include <dynamic_filter/io/writers.hpp>
+#include <exception>
+
+namespace df = dynamic_filter;
+
+namespace {
+
+df::Scan scan_of(const df::io::Frame& frame, std::size_t index) {
+    return {frame.points, frame.T_world_sensor, frame.stamp, index};
+}
+
+void append(df::io::Cloud& map, const df::Point& in_world) {
+    const auto* const bytes = reinterpret_cast<const std::byte*>(in_world.data());
+    map.data.insert(map.data.end(), bytes, bytes + map.point_bytes);
+}
+
+void clean(const std::filesystem::path& recording, const std::filesystem::path& out) {
+    const df::io::Sequence sequence = df::io::open_sequence(recording);
+    df::DynamicFilter filter{df::Config{}};
+    for (std::size_t i = 0; i < sequence.size(); ++i) {
+        filter.push(scan_of(df::io::read_frame(sequence, i), i));
+    }
+    filter.finish();
+
+    // The filter keeps no scans: they are read once more, for the final verdicts.
+    df::io::Cloud map;
+    for (const char* const axis : {"x", "y", "z"}) {
+        df::io::add_field(map, axis, df::io::FieldType::f32);
+    }
+    std::filesystem::create_directories(out / "labels");
+    for (std::size_t i = 0; i < sequence.size(); ++i) {
+        const df::Scan scan = scan_of(df::io::read_frame(sequence, i), i);
+        const df::Labels labels = filter.verdict(scan).labels;
+        df::io::write_labels(out / "labels" / (df::io::stem(sequence, i) + ".label"), labels);
+        for (std::size_t p = 0; p < labels.size(); ++p) {
+            if (labels[p] == df::Label::dynamic) continue;
+            append(map, (scan.T_world_sensor * scan.points[p].cast<double>()).cast<float>());
+        }
+    }
+    df::io::write_pcd(out / "static_map.pcd", map);
+    std::printf("%zu scans, %zu points stay\n", sequence.size(), map.size());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+    if (argc != 3) throw df::Error("usage: clean_folder RECORDING OUT");
+    clean(argv[1], argv[2]);
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+}

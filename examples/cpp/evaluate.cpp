@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+/// evaluate RECORDING: how good the verdicts are, where the recording has ground truth.
+#include <cstdio>
+#include <dynamic_filter/dynamic_filter.hpp>
+#include <dynamic_filter/eval/scores.hpp>
+#include <dynamic_filter/io/sequence.hpp>
+#include <exception>
+
+namespace df = dynamic_filter;
+
+namespace {
+
+df::Scan scan_of(const df::io::Frame& frame, std::size_t index) {
+    return {frame.points, frame.T_world_sensor, frame.stamp, index};
+}
+
+void evaluate(const df::io::Sequence& sequence) {
+    if (!sequence.has_truth()) throw df::Error("this recording has no ground truth");
+    df::Config config;
+    config.back_end.voxel_size = 0.2;  // [m], as any setting: see config.hpp
+    df::DynamicFilter filter(config);
+    for (std::size_t i = 0; i < sequence.size(); ++i) {
+        filter.push(scan_of(df::io::read_frame(sequence, i), i));
+    }
+    filter.finish();
+
+    const auto judged = [&](std::size_t i) -> std::optional<df::eval::LabelledScan> {
+        df::io::Frame frame = df::io::read_frame(sequence, i);
+        df::Labels verdict = filter.verdict(scan_of(frame, i)).labels;
+        for (df::Point& p : frame.points) {
+            p = (frame.T_world_sensor * p.cast<double>()).cast<float>();
+        }
+        return df::eval::LabelledScan{std::move(frame.points), std::move(frame.truth),
+                                      std::move(verdict)};
+    };
+    const df::eval::Scores scores =
+        df::eval::score_labels(sequence.size(), judged, df::eval::kVoxelSize);
+    const df::eval::VoxelScore& voxel = scores.voxel.at("excluded");
+    std::printf("PR %.4f  RR %.4f  F1 %.4f  IoU of what moves %.4f\n", voxel.pr.value_or(0.0),
+                voxel.rr.value_or(0.0), voxel.f1.value_or(0.0), scores.point.iou.value_or(0.0));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+    if (argc != 2) throw df::Error("usage: evaluate RECORDING");
+    evaluate(df::io::open_sequence(argv[1]));
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+}
