@@ -116,6 +116,15 @@ Points positions_from(const io::Cloud& cloud, const Eigen::Vector3d& origin) {
     return points;
 }
 
+Eigen::Vector3d origin_of(const io::Cloud& cloud) {
+    Pose near = Pose::Identity();
+    const Points points = positions_from(cloud, Eigen::Vector3d::Zero());
+    const auto finite =
+        std::find_if(points.begin(), points.end(), [](const Point& p) { return p.allFinite(); });
+    if (finite != points.end()) near.translation() = finite->cast<double>();
+    return nearby_origin(near, 1.0);
+}
+
 Eigen::Vector3d scoring_origin(const io::Sequence& sequence, double voxel_size) {
     for (std::size_t i = 0; i < sequence.size(); ++i) {
         try {

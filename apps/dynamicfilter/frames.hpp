@@ -38,6 +38,9 @@ Points shifted_world(const io::Frame& frame, const Eigen::Vector3d& origin);
 /// x y z of a cloud in the world, less the origin; in double until then.
 Points positions_from(const io::Cloud& cloud, const Eigen::Vector3d& origin);
 
+/// Whole metres near the first finite point; zero if there is none.
+Eigen::Vector3d origin_of(const io::Cloud& cloud);
+
 /// A whole number of voxels near the first usable pose; the world's origin if there is none.
 Eigen::Vector3d scoring_origin(const io::Sequence& sequence, double voxel_size);
 

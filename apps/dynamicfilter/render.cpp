@@ -9,7 +9,6 @@
 #include "draw/canvas.hpp"
 #include "draw/cleaning.hpp"
 #include "dynamic_filter/error.hpp"
-#include "dynamic_filter/geometry/pose.hpp"
 #include "dynamic_filter/io/cloud.hpp"
 #include "frames.hpp"
 
@@ -27,12 +26,7 @@ struct Maps {
 Maps maps_of(const fs::path& in, bool clean) {
     const bool is_run = fs::is_directory(in);
     const io::Cloud kept = io::read_cloud(is_run ? in / "static_map.pcd" : in);
-    const Points rough = positions_from(kept, Eigen::Vector3d::Zero());
-    Pose first = Pose::Identity();
-    if (!rough.empty() && rough.front().allFinite()) {
-        first.translation() = rough.front().cast<double>();
-    }
-    const Eigen::Vector3d origin = nearby_origin(first, 1.0);
+    const Eigen::Vector3d origin = origin_of(kept);
     Maps maps{positions_from(kept, origin), {}};
     std::erase_if(maps.kept, [](const Point& p) { return !p.allFinite(); });
     if (is_run && !clean && fs::exists(in / "dynamic_points.pcd")) {
@@ -43,20 +37,11 @@ Maps maps_of(const fs::path& in, bool clean) {
 
 io::Image draw(const Maps& maps, const RenderOptions& o) {
     constexpr float kOutermost = 0.002F;
-    constexpr double kRadian = M_PI / 180.0;
     const Eigen::AlignedBox3f box =
         box_of(maps.kept.empty() ? maps.removed : maps.kept, kOutermost);
-    const float aspect = static_cast<float>(o.width) / static_cast<float>(o.height);
-    const Camera camera = o.from_above
-                              ? from_above(box, aspect)
-                              : from_aside(box, aspect, static_cast<float>(kRadian * o.azimuth_deg),
-                                           static_cast<float>(kRadian * o.elevation_deg));
-    Canvas canvas(o.width, o.height, camera);
+    Canvas canvas(o.width, o.height, camera_for(box, o.width, o.height, o));
     const auto size = static_cast<float>(o.point_size);
-    canvas.draw(maps.kept, size, [&](std::size_t i) {
-        const float share = (maps.kept[i].z() - box.min().z()) / std::max(0.1F, box.sizes().z());
-        return height_color(std::clamp(share, 0.0F, 1.0F));
-    });
+    canvas.draw(maps.kept, size, [&](std::size_t i) { return height_color(maps.kept[i], box); });
     canvas.draw(maps.removed, size, [](std::size_t) { return kRemovedColor; });
     return canvas.picture({250, 250, 250});
 }

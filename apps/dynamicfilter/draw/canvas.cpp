@@ -151,4 +151,9 @@ io::Color height_color(float share) {
     return {mix(30, 150), mix(50, 190), mix(90, 175)};
 }
 
+io::Color height_color(const Point& point, const Eigen::AlignedBox3f& box) {
+    const float share = (point.z() - box.min().z()) / std::max(0.1F, box.sizes().z());
+    return height_color(std::clamp(share, 0.0F, 1.0F));
+}
+
 }  // namespace dynamic_filter::app

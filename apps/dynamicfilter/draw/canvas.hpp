@@ -48,6 +48,8 @@ private:
 
 /// Dark blue at the ground to light grey-green above; none of it near red.
 io::Color height_color(float share);
+/// By where the point lies between the bottom and the top of the box.
+io::Color height_color(const Point& point, const Eigen::AlignedBox3f& box);
 constexpr io::Color kRemovedColor{214, 39, 40}, kUnknownColor{148, 64, 150};
 
 }  // namespace dynamic_filter::app

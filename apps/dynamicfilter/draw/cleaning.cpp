@@ -48,22 +48,13 @@ struct Stage {
     float size;
 
     [[nodiscard]] Canvas canvas() const { return {width, height, camera}; }
-    [[nodiscard]] io::Color by_height(const Point& p) const {
-        const float share = (p.z() - box.min().z()) / std::max(0.1F, box.sizes().z());
-        return height_color(std::clamp(share, 0.0F, 1.0F));
-    }
 };
 
 Stage stage_for(const std::vector<Sample>& samples, const RenderOptions& o) {
     Points all;
     for (const Sample& s : samples) all.insert(all.end(), s.in_world.begin(), s.in_world.end());
-    constexpr double kRadian = M_PI / 180.0;
     Stage stage{{}, box_of(all, 0.005F), o.width, o.height / 2, static_cast<float>(o.point_size)};
-    const float aspect = static_cast<float>(stage.width) / static_cast<float>(stage.height);
-    stage.camera = o.from_above
-                       ? from_above(stage.box, aspect)
-                       : from_aside(stage.box, aspect, static_cast<float>(kRadian * o.azimuth_deg),
-                                    static_cast<float>(kRadian * o.elevation_deg));
+    stage.camera = camera_for(stage.box, stage.width, stage.height, o);
     return stage;
 }
 
@@ -83,7 +74,8 @@ std::vector<Points> kept_of(const std::vector<Sample>& samples, std::size_t coun
 io::Image draw_map(const Stage& stage, const std::vector<Points>& kept) {
     Canvas canvas = stage.canvas();
     for (const Points& points : kept) {
-        canvas.draw(points, stage.size, [&](std::size_t i) { return stage.by_height(points[i]); });
+        canvas.draw(points, stage.size,
+                    [&](std::size_t i) { return height_color(points[i], stage.box); });
     }
     return canvas.picture(kPaper);
 }
@@ -115,6 +107,14 @@ io::Image stacked(io::Image above, const io::Image& below) {
 }
 
 }  // namespace
+
+Camera camera_for(const Eigen::AlignedBox3f& box, int width, int height, const RenderOptions& o) {
+    constexpr double kRadian = M_PI / 180.0;
+    const float aspect = static_cast<float>(width) / static_cast<float>(height);
+    return o.from_above ? from_above(box, aspect)
+                        : from_aside(box, aspect, static_cast<float>(kRadian * o.azimuth_deg),
+                                     static_cast<float>(kRadian * o.elevation_deg));
+}
 
 void animate_cleaning(const io::Sequence& sequence, const Config& config, const RenderOptions& o) {
     if (config.back_end.observers != Observers::scans) {

@@ -249,12 +249,7 @@ PageRun view_of(const ViewInput& in) {
 PageRun view_of(const io::Cloud& cloud) {
     PageRun run;
     const auto intensity = intensities(cloud);
-    Pose near = Pose::Identity();
-    const Points first = cloud.size() > 0 ? positions_from(cloud, Origin::Zero()) : Points{};
-    const auto finite =
-        std::find_if(first.begin(), first.end(), [](const Point& p) { return p.allFinite(); });
-    if (finite != first.end()) near.translation() = finite->cast<double>();
-    const Origin origin = nearby_origin(near, 1.0);
+    const Origin origin = origin_of(cloud);
     const Points points = positions_from(cloud, origin);
     ThinnedCloud thinned(kMapPoints);
     for (std::size_t i = 0; i < points.size(); ++i) {

@@ -37,34 +37,28 @@ std::vector<std::uint32_t> drawn(const io::Frame& frame, const Labels& labels, s
     return chosen;
 }
 
-/// The chosen points of one scan.
-struct Drawn {
-    std::vector<ShownPoint> points;
-    bool has_intensity = false;
-};
-
-Drawn draw(const ViewInput& in, std::size_t row, const io::Frame& frame, const Labels& labels,
-           const Eigen::Vector3d& origin, std::size_t most) {
+/// About `most` points of one scan. `intensity`: of all its points, or empty.
+std::vector<ShownPoint> draw(const ViewInput& in, std::size_t row, const io::Frame& frame,
+                             const Labels& labels, const std::vector<double>& intensity,
+                             const Eigen::Vector3d& origin, std::size_t most) {
     const std::size_t index = in.scans[row].index;
     const auto chosen = drawn(frame, labels, index, most);
     Scan scan{{}, frame.T_world_sensor, frame.stamp, index};
     for (const std::uint32_t i : chosen) scan.points.push_back(frame.points[i]);
     const auto places = in.filter.places_of(scan);
-    const auto intensity =
-        in.sequence.intensity_is_truth ? std::vector<double>{} : intensities(frame.cloud);
     Pose T_page_sensor = frame.T_world_sensor;
     T_page_sensor.translation() -= origin;
     const Labels& instant = in.instant[index];
-    Drawn drawn{{}, !intensity.empty()};
+    std::vector<ShownPoint> points;
     for (std::size_t k = 0; k < chosen.size(); ++k) {
         const std::uint32_t i = chosen[k];
         const auto verdict = static_cast<std::uint8_t>(
             verdict_code(labels[i]) | code_at(frame.truth, i) << 2 | code_at(instant, i) << 4);
-        drawn.points.push_back({(T_page_sensor * scan.points[k].cast<double>()).cast<float>(),
-                                intensity.empty() ? 0.0F : static_cast<float>(intensity[i]),
-                                static_cast<std::uint32_t>(row), verdict, places[k]});
+        points.push_back({(T_page_sensor * scan.points[k].cast<double>()).cast<float>(),
+                          intensity.empty() ? 0.0F : static_cast<float>(intensity[i]),
+                          static_cast<std::uint32_t>(row), verdict, places[k]});
     }
-    return drawn;
+    return points;
 }
 
 /// The stride that takes about `most` of `count`, and no more.
@@ -105,14 +99,18 @@ Shown collect(const ViewInput& in, const Eigen::Vector3d& origin) {
         const std::size_t row = rows[at++];
         if (!maybe.frame) return true;  // it was readable a moment ago; the page can do without
         const Labels labels = io::read_labels(in.labels / (io::stem(in.sequence, i) + ".label"));
-        const Drawn of_map = draw(in, row, *maybe.frame, labels, origin, for_map);
-        for (const ShownPoint& point : of_map.points) shown.map.add(point);
-        shown.has_intensity |= of_map.has_intensity;
+        const auto intensity = in.sequence.intensity_is_truth ? std::vector<double>{}
+                                                              : intensities(maybe.frame->cloud);
+        shown.has_intensity |= !intensity.empty();
+        for (const ShownPoint& point :
+             draw(in, row, *maybe.frame, labels, intensity, origin, for_map)) {
+            shown.map.add(point);
+        }
         if (is_frame(i)) {
             shown.frame_of_scan[row] = static_cast<std::int32_t>(shown.frame_begin.size());
             shown.frame_begin.push_back(static_cast<std::uint32_t>(shown.frames.size()));
-            const Drawn of_frame = draw(in, row, *maybe.frame, labels, origin, for_frame);
-            shown.frames.insert(shown.frames.end(), of_frame.points.begin(), of_frame.points.end());
+            const auto points = draw(in, row, *maybe.frame, labels, {}, origin, for_frame);
+            shown.frames.insert(shown.frames.end(), points.begin(), points.end());
         }
         return true;
     };
