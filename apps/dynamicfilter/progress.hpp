@@ -26,8 +26,8 @@ private:
     std::size_t next_line_ = 0;
 };
 
-/// True once SIGINT or SIGTERM has come since the last catch_interrupts(); a second one kills as
-/// usual.
+/// True once SIGINT, SIGTERM or SIGHUP has come since the last catch_interrupts(); another one half a
+/// second later kills as usual.
 void catch_interrupts();
 bool interrupted();
 
