@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: MIT
+/// @file
 /// Every setting, its default, unit and bounds: written once, here.
+///
+/// Units: what visit() says of each field. Ownership: texts of a Setting live for ever.
+/// Shapes: a sentence per fault.
+/// Threads: plain data and pure functions; thread-safe. Errors: ConfigError, where a function says.
 #pragma once
 
 #include <string>
@@ -8,19 +13,25 @@
 
 namespace dynamic_filter {
 
+/// The paper's, or its baseline (Table II).
 enum class Method { dynamic_filter, removert };
+/// What takes points back (Sec. III-B2).
 enum class Reverting { map, visibility, none };
+/// Who looks at a voxel (Sec. III-C2).
 enum class Observers { scans, submaps };
 
+/// All settings, with the defaults of the preset "default". What each means: visit().
 struct Config {
     Method method = Method::dynamic_filter;
 
+    /// Which scans are keyframes, and how many make a submap (Sec. III-B).
     struct Submap {
         int keyframes = 20;
         double keyframe_interval = 0.25;
         double keyframe_distance = 0.5;
     } submap;
 
+    /// Scan to map (Sec. III-B).
     struct FrontEnd {
         bool enabled = true;
         double image_step_deg = 0.5;
@@ -34,6 +45,7 @@ struct Config {
         double revert_image_scale = 2.0;
     } front_end;
 
+    /// Map to map (Sec. III-C).
     struct BackEnd {
         bool enabled = true;
         Observers observers = Observers::scans;
@@ -50,6 +62,7 @@ struct Config {
         double occupancy_threshold = 0.5;
     } back_end;
 
+    /// What goes into the map.
     struct Output {
         bool keep_unknown = true;
     } output;
@@ -60,8 +73,9 @@ struct Setting {
     std::string_view key;     ///< "back_end.voxel_size"
     std::string_view unit;    ///< "m", "deg", "1", ...
     std::string_view symbol;  ///< the paper's symbol or section
-    std::string_view help;
-    double min = 0.0, max = 0.0;
+    std::string_view help;    ///< what it does
+    double min = 0.0;         ///< in `unit`
+    double max = 0.0;         ///< in `unit`
 };
 
 /// Calls f(setting, member) for every field, in the order of the struct.

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
+/// @file
 /// Errors thrown at the boundaries. The message is one sentence for the user: what was found and
-/// where, what was expected, what to do. The core throws ConfigError only.
+/// where, what was expected, what to do.
+///
+/// Errors: the core throws ConfigError only (and std::bad_alloc, as all do); readers InputError,
+/// writers OutputError. Ownership: all texts are copied. Threads: plain data.
 #pragma once
 
 #include <filesystem>
@@ -9,6 +13,7 @@
 
 namespace dynamic_filter {
 
+/// What all of them are.
 struct Error : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -21,12 +26,14 @@ struct ConfigError : Error {
 /// An input cannot be read, or contradicts itself (exit code 3).
 /// `where` says the place in the file ("byte 128", "line 3"); empty for the file as a whole.
 struct InputError : Error {
+    /// what(): "FILE (WHERE): WHAT".
     InputError(const std::filesystem::path& file, const std::string& where, const std::string& what)
         : Error(file.string() + (where.empty() ? "" : " (" + where + ")") + ": " + what) {}
 };
 
 /// An output cannot be written (exit code 1).
 struct OutputError : Error {
+    /// what(): "FILE: WHAT".
     OutputError(const std::filesystem::path& file, const std::string& what)
         : Error(file.string() + ": " + what) {}
 };

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
-/// The words every module shares. Lengths in metres, angles in radians unless a name says `_deg`,
-/// times in seconds. `T_a_b` maps coordinates of frame b into frame a. Frames: *sensor* (one scan),
-/// *world* (the poses' frame), *map* (world, shifted to a nearby origin so that floats suffice).
+/// @file
+/// The words every module shares.
+///
+/// Units: lengths in metres, angles in radians unless a name says `_deg`, times in seconds.
+/// Frames: *sensor* (one scan), *world* (the poses' frame), *map* (world, shifted to a nearby
+/// origin so that floats suffice); `T_a_b` maps coordinates of frame b into frame a. Shapes: arrays
+/// of one scan are parallel, an entry a point. Threads: plain data. Errors: none.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -11,20 +15,20 @@
 
 namespace dynamic_filter {
 
-using Point = Eigen::Vector3f;
-using Points = std::vector<Point>;
-using Pose = Eigen::Isometry3d;
+using Point = Eigen::Vector3f;      ///< x y z [m]
+using Points = std::vector<Point>;  ///< N of them, in one frame
+using Pose = Eigen::Isometry3d;     ///< rigid; translation [m]
 
 /// Verdict on a point; the values are SemanticKITTI's and are what label files hold.
 enum class Label : std::uint8_t { unknown = 0, still = 9, dynamic = 251 };
-using Labels = std::vector<Label>;
+using Labels = std::vector<Label>;  ///< N of them, parallel to the points
 
 /// One sweep of the sensor. Points are in the sensor frame and may be non-finite or at the origin:
 /// such points are no evidence and end as `Label::unknown`.
 struct Scan {
-    Points points;
-    Pose T_world_sensor = Pose::Identity();
-    double stamp = 0.0;     ///< [s], never decreasing within a sequence
+    Points points;                           ///< [m] sensor frame, unordered
+    Pose T_world_sensor = Pose::Identity();  ///< where the sensor was at `stamp`
+    double stamp = 0.0;                      ///< [s], never decreasing within a sequence
     std::size_t index = 0;  ///< position in the sequence; names the scan in errors and outputs
 };
 

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: MIT
-/// What the scans said about a voxel, and how likely that makes it to be static.
+/// @file
+/// What the scans said about a voxel, and how likely that makes it to be static (Sec. III-C1).
+///
+/// Units: counts, and shares -1..1 or 0..1. Ownership: values; record() changes what it is given.
+/// Threads: plain data and pure functions. Errors: none; counters saturate.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +14,13 @@ namespace dynamic_filter {
 
 /// Counters of one voxel; they stop at their largest value.
 struct Evidence {
-    std::uint16_t owned = 0;     ///< scans with a point in it
-    std::uint16_t seen = 0;      ///< n_occ: observers that saw it occupied
-    std::uint16_t passed = 0;    ///< n_free: observers that saw through it
-    std::uint16_t switches = 0;  ///< changes between the two, in the order of the observers
-    Sight last = Sight::nothing;
-    std::uint32_t first_owner = 0, last_owner = 0;  ///< scans that own it, by their order
+    std::uint16_t owned = 0;        ///< scans with a point in it
+    std::uint16_t seen = 0;         ///< n_occ: observers that saw it occupied
+    std::uint16_t passed = 0;       ///< n_free: observers that saw through it
+    std::uint16_t switches = 0;     ///< changes between the two, in the order of the observers
+    Sight last = Sight::nothing;    ///< what the newest observer saw
+    std::uint32_t first_owner = 0;  ///< the first scan with a point in it, by their order ...
+    std::uint32_t last_owner = 0;   ///< ... and the last
 };
 
 /// Takes in what the next observer saw, as if `weight` observers like it had seen it.

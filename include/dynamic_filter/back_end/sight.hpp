@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+/// @file
+/// What a scan can say about a place (Sec. III-C2). Plain data.
 #pragma once
 
 #include <cstdint>
@@ -6,6 +8,10 @@
 namespace dynamic_filter {
 
 /// What a scan says about a place.
-enum class Sight : std::uint8_t { nothing, occupied, passed };
+enum class Sight : std::uint8_t {
+    nothing,   ///< it did not look there, or cannot tell
+    occupied,  ///< its beams end there
+    passed     ///< its beams go through
+};
 
 }  // namespace dynamic_filter

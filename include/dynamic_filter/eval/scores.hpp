@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: MIT
+/// @file
 /// All scores of one result against ground truth.
+///
+/// Units: [m]; scores are fractions 0..1. Frames: any one for all scans and the map.
+/// Shapes: arrays of one scan are parallel. Ownership: sources and maps are borrowed for the call.
+/// Threads: thread-safe; sources are called from several. Errors: what a source throws.
 #pragma once
 
 #include <cstddef>
@@ -14,17 +19,18 @@
 
 namespace dynamic_filter::eval {
 
+/// What a result is worth.
 struct Scores {
-    std::map<std::string, VoxelScore> voxel;  ///< by reading of mixed voxels
-    PointScore point;
-    double dynamic_share = 0.0;  ///< voxels with a dynamic point / voxels
+    std::map<std::string, VoxelScore> voxel;  ///< by reading of mixed voxels, see VoxelTally
+    PointScore point;                         ///< over all points
+    double dynamic_share = 0.0;               ///< 0..1: voxels with a dynamic point / voxels
 };
 
 /// A scan with ground truth; all parallel. Points of unknown truth are left out of every score.
 struct LabelledScan {
-    Points points;  ///< any one frame for all scans, near enough to its origin for floats
-    Labels truth;
-    Labels verdict;  ///< empty when a map is scored
+    Points points;   ///< any one frame for all scans, near enough to its origin for floats
+    Labels truth;    ///< one per point
+    Labels verdict;  ///< one per point, or empty when a map is scored
 };
 
 /// Gives scan i, or nothing if it was rejected. Called more than once per scan, in parallel.
@@ -33,10 +39,12 @@ using ScanSource = std::function<std::optional<LabelledScan>(std::size_t)>;
 constexpr double kVoxelSize = 0.2;       ///< [m] Sec. IV-A
 constexpr double kCoverDistance = 0.05;  ///< [m] DynamicMap_Benchmark's rule
 
-/// Scores verdicts: the clean map is every point not labelled dynamic.
+/// Scores the verdicts of so many scans, on voxels of `voxel_size` [m]: the clean map is every
+/// point not labelled dynamic.
 Scores score_labels(std::size_t scans, const ScanSource& source, double voxel_size);
 
-/// Scores a clean map given as points (same frame as the scans). No IoU.
+/// Scores a clean map given as points (same frame as the scans), on voxels of `voxel_size` [m]. No
+/// IoU.
 Scores score_map(std::size_t scans, const ScanSource& source, const Points& map, double voxel_size);
 
 }  // namespace dynamic_filter::eval

@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: MIT
+/// @file
 /// Preservation rate, rejection rate and F1 of a static map, voxel by voxel (Sec. IV-A).
+///
+/// Units: [m]; scores are fractions 0..1. Frames: any one for both maps. Shapes: point by point.
+/// Ownership: values. Threads: a VoxelTally has a single caller. Errors: none; what cannot be said
+/// is empty.
 #pragma once
 
 #include <cstdint>
@@ -19,20 +24,27 @@ namespace dynamic_filter::eval {
 
 /// Fractions; empty where the raw map holds nothing of that kind.
 struct VoxelScore {
-    std::optional<double> pr;  ///< preserved static voxels / static voxels of the raw map
-    std::optional<double> rr;  ///< 1 - preserved dynamic voxels / dynamic voxels of the raw map
-    std::optional<double> f1;  ///< harmonic mean of the two
+    std::optional<double> pr;  ///< 0..1: preserved static voxels / static voxels of the raw map
+    std::optional<double>
+        rr;  ///< 0..1: 1 - preserved dynamic voxels / dynamic voxels of the raw map
+    std::optional<double> f1;  ///< 0..1: harmonic mean of the two
 };
 
+/// The fractions, 0..1, of such counts of voxels.
 VoxelScore voxel_score(double static_total, double static_kept, double dynamic_total,
                        double dynamic_kept);
 
 /// Points of one voxel of the raw map, and those of them that the clean map kept.
 struct VoxelCount {
-    std::uint32_t still = 0, dynamic = 0, kept_still = 0, kept_dynamic = 0;
-    std::uint32_t kept_unlabelled = 0;  ///< points of a map given without labels
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero(), kept_sum = Eigen::Vector3d::Zero();
+    std::uint32_t still = 0;                             ///< points of static things
+    std::uint32_t dynamic = 0;                           ///< points of moving things
+    std::uint32_t kept_still = 0;                        ///< of the static ones, in the clean map
+    std::uint32_t kept_dynamic = 0;                      ///< of the moving ones, in the clean map
+    std::uint32_t kept_unlabelled = 0;                   ///< points of a map given without labels
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();       ///< [m] of the points' coordinates
+    Eigen::Vector3d kept_sum = Eigen::Vector3d::Zero();  ///< [m] the same of those kept
 
+    /// Whether the clean map has a point in it.
     [[nodiscard]] bool preserved() const { return kept_still + kept_dynamic + kept_unlabelled > 0; }
 };
 
@@ -40,8 +52,8 @@ struct VoxelCount {
 /// caller. Single caller.
 class VoxelTally {
 public:
-    explicit VoxelTally(double voxel_size);
-    VoxelTally(VoxelTally&&) noexcept;
+    explicit VoxelTally(double voxel_size);  ///< [m]
+    VoxelTally(VoxelTally&&) noexcept;       ///< the other one can only be destroyed
     ~VoxelTally();
 
     /// One point of the raw map, and whether the clean map kept it.
@@ -57,7 +69,7 @@ public:
     /// for maps without labels.
     [[nodiscard]] std::map<std::string, VoxelScore> scores() const;
 
-    /// Share of voxels with at least one dynamic point.
+    /// 0..1: share of voxels with at least one dynamic point.
     [[nodiscard]] double dynamic_share() const;
 
 private:

@@ -1,5 +1,11 @@
 // SPDX-License-Identifier: MIT
+/// @file
 /// Spherical range images (Sec. III-B1): azimuth wraps, elevation covers what the data covers.
+///
+/// Units: [m], [rad]. Frames: the image's own: x ahead, z up, azimuth from x to y; points come in
+/// it or with a transform into it. Shapes: a value per pixel, row by row; arrays of points are
+/// parallel. Ownership: points are borrowed for the call, results are the caller's.
+/// Threads: pure functions; thread-safe. Errors: none; what is no measurement falls outside.
 #pragma once
 
 #include <cstdint>
@@ -15,9 +21,10 @@ struct ImageGrid {
     float azimuth_step = 0.0F;    ///< [rad]; columns * azimuth_step = 2 pi
     float elevation_step = 0.0F;  ///< [rad]
     float elevation_min = 0.0F;   ///< [rad] lower edge of row 0
-    int columns = 0;
-    int rows = 0;
+    int columns = 0;              ///< around the circle
+    int rows = 0;                 ///< from below to above
 
+    /// How many pixels it has.
     [[nodiscard]] std::size_t size() const {
         return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
     }
@@ -41,8 +48,8 @@ void project(std::span<const Point> points, const Eigen::Isometry3f& T_image_poi
 
 /// Range per pixel [m]; infinity where nothing returned.
 struct RangeImage {
-    ImageGrid grid;
-    std::vector<float> range;
+    ImageGrid grid;            ///< where the pixels look
+    std::vector<float> range;  ///< [m] grid.size() of them
 };
 
 /// The nearest range per pixel of points given in the image's own frame.
@@ -57,17 +64,19 @@ RangeImage halve_rows(const RangeImage& image);
 /// How densely the sensor looks, read off its scans rather than off its name.
 struct BeamPattern {
     float azimuth_spacing = 0.0F;    ///< [rad] typical angle between neighbouring beams
-    float elevation_spacing = 0.0F;  ///< [rad]
+    float elevation_spacing = 0.0F;  ///< [rad] the same between its rows
 };
 
 /// Median angular gap between neighbouring returns, along azimuth and along elevation.
 /// Scans without two measured points leave 0. Costs one sort of the points.
 BeamPattern estimate_beam_pattern(std::span<const Scan> scans);
 
-/// Lowest and highest elevation of the measured points [rad]; {0, 0} if there are none.
+/// What a sensor looks at, upwards.
 struct ElevationRange {
-    float min = 0.0F, max = 0.0F;
+    float min = 0.0F;  ///< [rad]
+    float max = 0.0F;  ///< [rad]
 };
+/// Lowest and highest elevation of the measured points [rad]; {0, 0} if there are none.
 ElevationRange elevation_range(std::span<const Point> points);
 
 }  // namespace dynamic_filter

@@ -1,5 +1,11 @@
 // SPDX-License-Identifier: MIT
+/// @file
 /// A point cloud as files hold it: packed records with named fields, nothing lost or converted.
+///
+/// Units: the file's own, metres by custom. Frames: the file's own: the sensor's for scans, the
+/// world's for maps. Shapes: N records; arrays made of them are parallel to these. Ownership:
+/// values, copied; find() points into the cloud. Threads: plain data; const and free functions are
+/// thread-safe. Errors: InputError with the byte or line; Error where a field is missing.
 #pragma once
 
 #include <cstddef>
@@ -13,27 +19,30 @@
 
 namespace dynamic_filter::io {
 
+/// Signed and unsigned integers and floats, by their bits.
 enum class FieldType : std::uint8_t { i8, u8, i16, u16, i32, u32, i64, u64, f32, f64 };
 
 std::size_t size_of(FieldType type);  ///< [bytes]
 
+/// One of the things that each point has.
 struct Field {
-    std::string name;
-    FieldType type = FieldType::f32;
-    std::uint32_t count = 1;   ///< values of this type per point
-    std::uint32_t offset = 0;  ///< [bytes] from the start of the point's record
-    bool operator==(const Field&) const = default;
+    std::string name;                 ///< "x", "intensity", ... as the file has it
+    FieldType type = FieldType::f32;  ///< of each value
+    std::uint32_t count = 1;          ///< values of this type per point
+    std::uint32_t offset = 0;         ///< [bytes] from the start of the point's record
+    bool operator==(const Field&) const = default;  ///< all four
 };
 
 /// `data` holds size() records of `point_bytes` bytes, little endian, without padding between
 /// fields.
 struct Cloud {
-    std::vector<Field> fields;
-    std::size_t point_bytes = 0;
-    std::vector<std::byte> data;
+    std::vector<Field> fields;    ///< in the file's order
+    std::size_t point_bytes = 0;  ///< [bytes] of a record
+    std::vector<std::byte> data;  ///< the records
     std::optional<Pose>
         viewpoint;  ///< PCD's VIEWPOINT if the file gave one that is not the identity
 
+    /// N.
     [[nodiscard]] std::size_t size() const {
         return point_bytes == 0 ? 0 : data.size() / point_bytes;
     }
@@ -43,7 +52,7 @@ struct Cloud {
 /// Adds a field behind the others; existing records must not exist yet (call on an empty cloud).
 void add_field(Cloud& cloud, const std::string& name, FieldType type, std::uint32_t count = 1);
 
-/// The first value of `field` in each record, converted to double. Thread-safe.
+/// The first value of `field` in each record, in the file's unit, converted to double. Thread-safe.
 std::vector<double> values(const Cloud& cloud, const Field& field);
 
 /// x, y, z of each record as float (float64 is narrowed). Throws Error if a coordinate is missing.

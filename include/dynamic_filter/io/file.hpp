@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: MIT
+/// @file
 /// Files that appear whole or not at all.
+///
+/// Units: [bytes]. Shapes: bytes as they are. Ownership: an AtomicFile owns its descriptor; what it
+/// writes is borrowed for the call. Threads: single caller per file. Errors: InputError of a
+/// reader, OutputError of a writer, both with the system's reason.
 #pragma once
 
 #include <cstddef>
@@ -18,13 +23,14 @@ std::string read_file(const std::filesystem::path& file);
 /// Single caller; movable.
 class AtomicFile {
 public:
+    /// Makes the temporary file, in the folder of `path`.
     explicit AtomicFile(std::filesystem::path path);
-    AtomicFile(AtomicFile&& other) noexcept;
+    AtomicFile(AtomicFile&& other) noexcept;  ///< the other one can only be destroyed
     AtomicFile& operator=(AtomicFile&&) = delete;
     ~AtomicFile();
 
-    void write(std::span<const std::byte> bytes);  ///< appends, buffered
-    void write(std::string_view text);
+    void write(std::span<const std::byte> bytes);             ///< appends, buffered
+    void write(std::string_view text);                        ///< as above
     void rewrite(std::size_t offset, std::string_view text);  ///< overwrites bytes already written
     void commit();                                            ///< flushes, fsyncs, renames
     /// What it is called until then, for libraries that write by name.

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
-/// Pose files. A line that is not a rigid motion is an error that names the line and the likely
-/// cause.
+/// @file
+/// Pose files.
+///
+/// Units: [m]; stamps [s]. Frames: T_world_sensor, if that is what the file holds (see
+/// pose_fix.hpp). Shapes: an entry a line. Ownership: values. Threads: thread-safe. Errors:
+/// InputError; for a line that is no rigid motion it names the line and the likely cause.
 #pragma once
 
 #include <filesystem>
@@ -10,6 +14,7 @@
 
 namespace dynamic_filter::io {
 
+/// What a pose file holds.
 struct PoseFile {
     std::vector<Pose> poses;     ///< T_world_sensor as written; NaN rows stay NaN (lost tracking)
     std::vector<double> stamps;  ///< [s], empty for KITTI rows and g2o
@@ -26,7 +31,7 @@ PoseFile read_poses(const std::filesystem::path& file);
 /// KITTI calib.txt: the 3x4 row after "Tr:" (velodyne to camera). Throws InputError.
 Pose read_calib_tr(const std::filesystem::path& file);
 
-/// One number a line [s]. Throws InputError.
+/// Stamps [s], one a line. Throws InputError.
 std::vector<double> read_times(const std::filesystem::path& file);
 
 }  // namespace dynamic_filter::io

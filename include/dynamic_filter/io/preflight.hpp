@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: MIT
+/// @file
 /// Whether the scans of a recording fit together by their poses, and what is wrong if they do not.
+///
+/// Units: shares 0..1. Shapes: lists, the likeliest first. Ownership: values; the sequence is
+/// borrowed. Threads: thread-safe; uses parallel_for. Errors: InputError, if no scan can be read.
 #pragma once
 
 #include <cstddef>
@@ -20,9 +24,10 @@ struct Finding {
 /// upright that falls on what stands in the other scan, 0..1, over pairs of scans 1 to 20 apart.
 struct Overlay {
     std::string reading;  ///< "as given", a PoseFix, "points in world" or "points in sensor"
-    double share = 0.0;
+    double share = 0.0;   ///< 0..1
 };
 
+/// What was found.
 struct Preflight {
     std::vector<Finding> findings;  ///< empty: nothing suspicious
     std::vector<Overlay> overlays;  ///< "as given" first; empty if no two scans could be compared

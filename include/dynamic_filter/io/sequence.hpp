@@ -1,5 +1,12 @@
 // SPDX-License-Identifier: MIT
+/// @file
 /// A recording: scans in order, a pose and a stamp for each, ground truth where there is any.
+///
+/// Units: [m]; stamps [s]. Frames: points in the sensor's, poses T_world_sensor; what comes
+/// otherwise is converted. Shapes: arrays of a Sequence have an entry a scan, those of a Frame one
+/// a point. Ownership: values; a Sequence shares its open bag with its copies. Threads: a Sequence
+/// is not changed once open; functions that take one are thread-safe. Errors: InputError (which
+/// file, where in it) and ConfigError.
 #pragma once
 
 #include <cstddef>
@@ -16,40 +23,42 @@
 
 namespace dynamic_filter::io {
 
+/// The layouts that are told apart; docs/formats.md.
 enum class Format { kitti, benchmark, folder, bag };
 
 std::string to_string(Format format);  ///< "kitti", "benchmark", "folder", "bag"
 
 struct BagScans;
 
+/// How to read a recording, where looking at it does not say.
 struct OpenOptions {
     std::optional<Format> format;                ///< empty: recognised by looking at the folder
     std::optional<std::filesystem::path> poses;  ///< empty: the format's usual place
     std::size_t first = 0;                       ///< index of the first scan used
     std::optional<std::size_t> last;             ///< index of the last scan used; empty: the end
-    std::size_t stride = 1;
-    std::string topic;       ///< of a bag's scans; empty: the only one
+    std::size_t stride = 1;                      ///< every so many scans
+    std::string topic;                           ///< of a bag's scans; empty: the only one
     std::string pose_topic;  ///< of a bag's poses, or "/tf"; empty: chosen, and a note says how
     bool deskew = false;     ///< undo the sensor's motion during each scan
-    PoseFix pose_fix = PoseFix::none;
-    bool points_in_world = false;  ///< scans are in the poses' frame, not in the sensor's
-    double time_unit = 1.0;        ///< [s] of the stamps of scans and poses
+    PoseFix pose_fix = PoseFix::none;  ///< what is put right of the poses
+    bool points_in_world = false;      ///< scans are in the poses' frame, not in the sensor's
+    double time_unit = 1.0;            ///< [s] of the stamps of scans and poses
 };
 
 /// What is known without reading the scans. Immutable after open_sequence; thread-safe.
 struct Sequence {
-    Format format = Format::folder;
-    std::filesystem::path root;
+    Format format = Format::folder;                  ///< as recognised or forced
+    std::filesystem::path root;                      ///< what was opened
     std::vector<std::filesystem::path> scan_files;   ///< in natural order of their names; of a bag
                                                      ///< not files, but numbers below its path
     std::vector<std::filesystem::path> label_files;  ///< parallel to scan_files (empty path: none),
                                                      ///< or empty
     std::vector<Pose> T_world_sensor;  ///< parallel; empty for `benchmark` (poses are in the files)
     std::vector<double> stamps;        ///< parallel [s]; made up at 10 Hz where not measured
-    bool measured_stamps = false;
+    bool measured_stamps = false;      ///< they come from the recording
     Trajectory trajectory;  ///< poses as dense in time as the recording has them; may be empty
-    bool deskew = false;
-    bool points_in_world = false;
+    bool deskew = false;    ///< as asked for
+    bool points_in_world = false;         ///< as asked for
     PoseFix pose_fix = PoseFix::none;     ///< of the poses in the scans' files; all others have it
     std::shared_ptr<const BagScans> bag;  ///< of format `bag`
     std::vector<std::size_t> bag_scans;   ///< parallel to scan_files: places in it
@@ -58,7 +67,9 @@ struct Sequence {
     std::vector<std::string> losses;      ///< what of a bag cannot be read: scans are missing
     std::vector<double> pose_stamps;      ///< [s] of poses matched by order, where both have stamps
 
+    /// How many scans there are.
     [[nodiscard]] std::size_t size() const { return scan_files.size(); }
+    /// Whether there is ground truth of any.
     [[nodiscard]] bool has_truth() const { return intensity_is_truth || !label_files.empty(); }
 };
 
@@ -66,8 +77,8 @@ struct Sequence {
 struct Frame {
     Cloud cloud;    ///< as in the file (`benchmark`: x y z in the world frame)
     Points points;  ///< sensor frame, same order, their motion undone if that was asked for
-    Pose T_world_sensor = Pose::Identity();
-    double stamp = 0.0;
+    Pose T_world_sensor = Pose::Identity();  ///< at `stamp`
+    double stamp = 0.0;                      ///< [s]
     Labels truth;             ///< empty without ground truth; otherwise one per point
     std::string truth_fault;  ///< why this scan's truth cannot be used; the scan itself can
 };

@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: MIT
+/// @file
 /// Poses over time.
+///
+/// Units: [m], [s]. Frames: poses T_world_sensor; points in the sensor's. Shapes: arrays are
+/// parallel. Ownership: values; undo_motion() changes what it is given. Threads: pure functions;
+/// thread-safe. Errors: none.
 #pragma once
 
 #include <optional>
@@ -10,27 +15,28 @@
 
 namespace dynamic_filter::io {
 
+/// Where the sensor was, and when.
 struct Trajectory {
     std::vector<double> stamps;  ///< [s], increasing
-    std::vector<Pose> poses;     ///< parallel
+    std::vector<Pose> poses;     ///< T_world_sensor, parallel
 };
 
 /// Sorts by time; of equal stamps the first is kept.
 void put_in_order(Trajectory& trajectory);
 
-/// Between the two poses around that time: translation in a line, rotation by the shortest way.
+/// Between the two poses around `stamp` [s]: translation in a line, rotation by the shortest way.
 /// Empty before the first and after the last (but for `beyond` [s], where the end's motion goes
 /// on), and in gaps of more than `gap` [s]. Thread-safe.
 std::optional<Pose> pose_at(const Trajectory& trajectory, double stamp, double gap = 1.0,
                             double beyond = 0.0);
 
-/// When each point was measured, [s] from the scan's stamp, from the field that says so ("t",
+/// When each point was measured, [s] from the scan's stamp [s], from the field that says so ("t",
 /// "time", "timestamp", "offset_time", "time_offset"); seconds, milliseconds, microseconds or
 /// nanoseconds, from the stamp or absolute. Empty if there is none that spans up to a second, or if
 /// all are equal.
 std::vector<float> point_times(const Cloud& cloud, double stamp);
 
-/// The points as if all had been measured at the scan's stamp: each is moved by what the sensor
+/// The points as if all had been measured at the scan's stamp [s]: each is moved by what the sensor
 /// moved since or until then. Points whose time lies beyond the trajectory stay where they are.
 /// Sensor frame in, sensor frame out.
 void undo_motion(Points& points, const std::vector<float>& times, double stamp,

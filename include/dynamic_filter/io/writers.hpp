@@ -1,5 +1,11 @@
 // SPDX-License-Identifier: MIT
-/// Writers of what a run and a simulation leave behind. All are atomic; all throw OutputError.
+/// @file
+/// Writers of what a run and a simulation leave behind. All are atomic.
+///
+/// Units: as given, metres by custom; stamps [s]. Frames: as given; poses T_world_sensor.
+/// Shapes: a record a point, a line a pose. Ownership: what is written is borrowed for the call.
+/// Threads: a PcdWriter has a single caller; functions are thread-safe for files that differ.
+/// Errors: OutputError; write_cloud() ConfigError for an extension that it does not know.
 #pragma once
 
 #include <cstddef>
@@ -19,11 +25,12 @@ namespace dynamic_filter::io {
 /// `fields` are those of the clouds appended. Single caller.
 class PcdWriter {
 public:
+    /// Begins the file; records have `point_bytes` bytes.
     PcdWriter(const std::filesystem::path& path, const std::vector<Field>& fields,
               std::size_t point_bytes);
-    void append(std::span<const std::byte> records);  ///< whole records
-    void commit();
-    [[nodiscard]] std::size_t size() const { return points_; }
+    void append(std::span<const std::byte> records);            ///< whole records
+    void commit();                                              ///< completes it, the last call
+    [[nodiscard]] std::size_t size() const { return points_; }  ///< points so far
 
 private:
     AtomicFile file_;
@@ -38,9 +45,10 @@ void write_pcd(const std::filesystem::path& path, const Cloud& cloud,
 // The following return what the format could not hold, as a sentence for the user; empty if it held
 // all. Fields with several values become one field each, "n_0", "n_1" and so on.
 
+/// What came of a cloud.
 struct Written {
     std::size_t points = 0;  ///< in the file
-    std::string loss;
+    std::string loss;        ///< what the format could not hold
 };
 
 /// By extension, in any case: .pcd (binary), .ply, .las, .npy, .bin, .xyz, .txt or .csv.
@@ -60,7 +68,7 @@ std::string write_npy(const std::filesystem::path& path, const Cloud& cloud);
 std::string write_text_cloud(const std::filesystem::path& path, const Cloud& cloud);
 /// float32 x y z intensity (0 if there is none).
 std::string write_bin(const std::filesystem::path& path, const Cloud& cloud);
-/// float32 x y z intensity per point, as KITTI's velodyne/*.bin.
+/// float32 x y z [m] intensity per point, as KITTI's velodyne/*.bin; `intensity` is parallel.
 void write_bin(const std::filesystem::path& path, const Points& points,
                std::span<const float> intensity);
 /// uint32 per point, as SemanticKITTI's labels/*.label.
@@ -70,11 +78,12 @@ void write_poses_kitti(const std::filesystem::path& path, std::span<const Pose> 
 /// t x y z qx qy qz qw a line; `stamps` [s] are parallel, to 1 ns.
 void write_poses_tum(const std::filesystem::path& path, std::span<const double> stamps,
                      std::span<const Pose> T_world_sensor);
-/// As EuRoC: a CSV of ns, x y z, qw qx qy qz.
+/// As EuRoC: a CSV of ns, x y z, qw qx qy qz; `stamps` [s] are parallel.
 void write_poses_csv(const std::filesystem::path& path, std::span<const double> stamps,
                      std::span<const Pose> T_world_sensor);
 /// A vertex each, numbered from 0; poses that are not finite are left out and keep their number.
 void write_poses_g2o(const std::filesystem::path& path, std::span<const Pose> T_world_sensor);
+/// Stamps [s], one a line.
 void write_times(const std::filesystem::path& path, std::span<const double> stamps);
 
 }  // namespace dynamic_filter::io

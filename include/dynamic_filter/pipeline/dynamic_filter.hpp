@@ -1,5 +1,12 @@
 // SPDX-License-Identifier: MIT
+/// @file
 /// The whole pipeline, scan by scan (Fig. 2).
+///
+/// Units: [m], [s], probabilities 0..1. Frames: points in the sensor's, poses T_world_sensor, maps
+/// in the world's. Shapes: verdicts are parallel to the points of their scan. Ownership: scans are
+/// moved in and not kept; results are the caller's. Threads: single caller; const members may run
+/// in several threads while no other runs. Errors: ConfigError from the constructor;
+/// std::bad_alloc.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +27,7 @@ namespace dynamic_filter {
 /// Verdict on one scan, point by point.
 struct Verdict {
     std::size_t index = 0;  ///< Scan::index
-    Labels labels;
+    Labels labels;          ///< one per point
     std::vector<float>
         probability;  ///< occupancy 0..1 of the point's voxel (what stands on a static surface may
                       ///< be dynamic all the same); empty in instant verdicts
@@ -29,8 +36,9 @@ struct Verdict {
 /// A submap on its way to the back-end.
 struct BackEndWork;
 
+/// What the front-end hands on.
 struct Judged {
-    std::vector<Verdict> verdicts;
+    std::vector<Verdict> verdicts;      ///< instant ones, see DynamicFilter::push()
     std::shared_ptr<BackEndWork> work;  ///< where submaps observe and a window has closed
 };
 
@@ -42,9 +50,10 @@ struct StaticVoxel {
 
 /// What the scans said about a voxel, to explain the verdict on a point in it.
 struct VoxelHistory {
-    std::optional<float> probability;  ///< occupancy 0..1; empty: unknown
-    Evidence evidence;                 ///< all zero where submaps observe: nothing is kept
-    std::size_t first = 0, last = 0;   ///< Scan::index of the first and last with a point in it
+    std::optional<float> probability;       ///< occupancy 0..1; empty: unknown
+    Evidence evidence;                      ///< all zero where submaps observe: nothing is kept
+    std::size_t first = 0;                  ///< Scan::index of the first with a point in it ...
+    std::size_t last = 0;                   ///< ... and of the last
     std::vector<std::size_t> seen_through;  ///< Scan::index of keyframes that see through it, of
                                             ///< the newest `back_end.max_scans`
 };
@@ -58,8 +67,8 @@ class DynamicFilter {
 public:
     /// Throws ConfigError.
     explicit DynamicFilter(const Config& config);
-    DynamicFilter(DynamicFilter&&) noexcept;
-    DynamicFilter& operator=(DynamicFilter&&) noexcept;
+    DynamicFilter(DynamicFilter&&) noexcept;             ///< the other one can only be destroyed
+    DynamicFilter& operator=(DynamicFilter&&) noexcept;  ///< as above
     ~DynamicFilter();
 
     /// Takes a scan, points in the sensor frame, stamps in order. Scans observe: returns its
@@ -72,8 +81,8 @@ public:
     /// submaps observe, one thread may judge while another integrates earlier work; where scans
     /// observe (`front_end_waits()`), the work must be integrated before the next scan is judged.
     Judged judge(Scan scan);
-    void integrate(const std::shared_ptr<BackEndWork>& work);
-    [[nodiscard]] bool front_end_waits() const;
+    void integrate(const std::shared_ptr<BackEndWork>& work);  ///< see judge()
+    [[nodiscard]] bool front_end_waits() const;                ///< true where scans observe
 
     /// Decides every voxel. Submaps observe: processes the last window (its verdicts are returned)
     /// and merges the local maps of all submap poses. No push() after it.
@@ -94,7 +103,7 @@ public:
     [[nodiscard]] std::vector<VoxelHistory> histories(std::span<const std::uint32_t> voxels) const;
     /// Scan::index of the keyframes that `VoxelHistory::seen_through` knows.
     [[nodiscard]] std::vector<std::size_t> keyframes() const;
-    [[nodiscard]] std::size_t keyframes_total() const;
+    [[nodiscard]] std::size_t keyframes_total() const;  ///< with those that are known no more
 
     /// Forgets the map beyond `radius` [m] of a pose, and the farthest of it until its size() is at
     /// most `most`. What is forgotten is unknown.
@@ -108,7 +117,7 @@ public:
     std::vector<StaticVoxel> local_static_map(const Pose& T_world_query,
                                               std::optional<double> radius = {});
 
-    [[nodiscard]] StageTimes times() const;
+    [[nodiscard]] StageTimes times() const;  ///< [s] of each stage so far
     /// How densely the sensor looks. Empty before it is known.
     [[nodiscard]] std::optional<BeamPattern> beams() const;
     /// Submaps taken in; where scans observe, as many keyframes as make one count as one.

@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: MIT
+/// @file
 /// The pipeline beside a running sensor: scans in at any time, verdicts out, never more behind than
 /// a short queue.
+///
+/// Units: [m], [s], [bytes]. Frames: points in the sensor's, poses T_world_sensor, maps in the
+/// world's. Shapes: verdicts are parallel to the points of their scan. Ownership: scans are moved
+/// in and not kept; callbacks are copied, and what they are given is valid for the call. Threads:
+/// any may call, see OnlineFilter. Errors: ConfigError from the constructor; what a stage or a
+/// callback throws comes out of the next push(), ask(), flush() or finish().
 #pragma once
 
 #include <cstdint>
@@ -21,10 +28,11 @@ enum class Overload {
     wait          ///< the caller waits: nothing is lost
 };
 
+/// How an OnlineFilter keeps up, and how much it keeps.
 struct OnlineOptions {
     std::size_t queue = 2;  ///< scans that may wait, besides the one being judged; at least 1
-    Overload overload = Overload::drop_oldest;
-    double horizon = 200.0;  ///< [m] the map is forgotten beyond it; 0: no bound
+    Overload overload = Overload::drop_oldest;  ///< what a full queue does
+    double horizon = 200.0;                     ///< [m] the map is forgotten beyond it; 0: no bound
     /// The farthest of the map is forgotten where its voxels (submaps: their points) need more; to
     /// forget, the map is copied, so for a moment there is more. 0: no bound.
     std::size_t max_bytes = std::size_t{2} << 30;
@@ -43,10 +51,11 @@ enum class NoticeKind {
     restart     ///< stamps went back by more than a second: a new map begins
 };
 
+/// What the log should say of a scan.
 struct Notice {
-    NoticeKind kind = NoticeKind::dropped;
-    std::size_t index = 0;  ///< Scan::index
-    std::string text;       ///< one sentence
+    NoticeKind kind = NoticeKind::dropped;  ///< what happened
+    std::size_t index = 0;                  ///< Scan::index
+    std::string text;                       ///< one sentence
 };
 
 /// Verdicts come from the filter's threads (the last ones from the caller of finish()), notices
@@ -56,12 +65,16 @@ struct Notice {
 struct OnlineCallbacks {
     std::function<void(const Verdict&)> instant;  ///< of every scan judged, in order
     std::function<void(const Verdict&)> settled;  ///< corrections, see `settle_after`
-    std::function<void(const Notice&)> notice;
+    std::function<void(const Notice&)> notice;    ///< for the robot's log
 };
 
 /// in = processed + dropped + rejected + queued, whenever asked. A scan in work is still queued.
 struct Counters {
-    std::uint64_t in = 0, processed = 0, dropped = 0, rejected = 0, queued = 0;
+    std::uint64_t in = 0;         ///< pushed
+    std::uint64_t processed = 0;  ///< judged and integrated
+    std::uint64_t dropped = 0;    ///< by overload
+    std::uint64_t rejected = 0;   ///< late, duplicate or invalid
+    std::uint64_t queued = 0;     ///< waiting, or in work
 };
 
 /// Two threads of its own, and those of the work inside: the front-end judges scan after scan, the
@@ -107,25 +120,29 @@ public:
 
     /// After finish(), to explain verdicts: a number for the voxel of each point of a scan that was
     /// pushed (kNoPlace: none), and what DynamicFilter knows of such voxels.
-    static constexpr std::uint64_t kNoPlace = UINT64_MAX;
     [[nodiscard]] std::vector<std::uint64_t> places_of(const Scan& scan) const;
+    static constexpr std::uint64_t kNoPlace = UINT64_MAX;  ///< see places_of()
+    /// Parallel to `places`; see DynamicFilter::histories().
     [[nodiscard]] std::vector<VoxelHistory> histories(std::span<const std::uint64_t> places) const;
 
-    [[nodiscard]] Counters counters() const;
-    /// The static voxels around a pose (DynamicFilter::local_static_map), as of now. Waits for the
-    /// stage in work, and the next one waits for it.
+    [[nodiscard]] Counters counters() const;  ///< consistent, whenever asked
+    /// The static voxels within `radius` [m] of a pose (DynamicFilter::local_static_map), as of
+    /// now. Waits for the stage in work, and the next one waits for it.
     [[nodiscard]] std::vector<StaticVoxel> local_static_map(const Pose& T_world_query,
                                                             std::optional<double> radius = {});
 
     /// How the stages did, once flush() has returned; `latency`: from push() to the end of judging.
     [[nodiscard]] StageTimes times() const;
+    /// What there is.
     struct Extent {
-        std::size_t maps = 0, submaps = 0, voxels = 0;
-        std::optional<BeamPattern> beams;
+        std::size_t maps = 0;                ///< one, and one per break of the trajectory
+        std::size_t submaps = 0;             ///< of all maps, see DynamicFilter::submaps()
+        std::size_t voxels = 0;              ///< of all maps
+        std::optional<BeamPattern> beams;    ///< see DynamicFilter::beams()
         std::vector<std::size_t> keyframes;  ///< see DynamicFilter::keyframes()
         std::size_t keyframes_total = 0;     ///< with those that are known no more
     };
-    /// What there is, once flush() has returned.
+    /// Once flush() has returned.
     [[nodiscard]] Extent extent() const;
 
 private:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// What a simulated point lies on: errors are tabulated by it.
+/// @file
+/// What a simulated point lies on: errors are tabulated by it. Plain data.
 #pragma once
 
 #include <array>
@@ -8,6 +9,7 @@
 
 namespace dynamic_filter::sim {
 
+/// Walking and standing are people, by what they do at that moment.
 enum class Kind : std::uint8_t {
     ground,      ///< floor, pavement, kerbs, tops of steps and ramps
     structure,   ///< buildings, blocks, furniture, parked cars
@@ -18,6 +20,7 @@ enum class Kind : std::uint8_t {
     vehicle      ///< those that move or halt on their way; cyclists too
 };
 
+/// By their values.
 constexpr std::array<std::string_view, 7> kind_names = {
     "ground", "structure", "thin", "vegetation", "walking", "standing", "vehicle"};
 

@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: MIT
+/// @file
 /// Scenes with exact labels: a crowd (Sec. IV-A), a street, a square, a hall; rays cast by Embree.
+///
+/// Units: [m], [s], [deg]. Frames: points in the sensor's, poses T_world_sensor; world: z up.
+/// Shapes: arrays of a scan are parallel. Ownership: values. Threads: a Simulation has a single
+/// caller (it uses parallel_for inside). Errors: ConfigError.
 #pragma once
 
 #include <cstddef>
@@ -14,40 +19,42 @@
 
 namespace dynamic_filter::sim {
 
+/// What to simulate.
 struct SimulationOptions {
-    std::string scene = "crowd";   ///< one of scene_names()
-    std::string sensor = "vlp16";  ///< one of sensor_names()
-    int pedestrians = -1;          ///< -1: the scene's own number (crowd: 100)
-    std::uint64_t seed = 1;
+    std::string scene = "crowd";        ///< one of scene_names()
+    std::string sensor = "vlp16";       ///< one of sensor_names()
+    int pedestrians = -1;               ///< -1: the scene's own number (crowd: 100)
+    std::uint64_t seed = 1;             ///< same seed, same bytes
     std::optional<std::size_t> frames;  ///< empty: the scene's full length (crowd: two rounds)
-    double rate_hz = 0.0;               ///< scans per second; 0: the scene's own
+    double rate_hz = 0.0;               ///< [Hz] scans per second; 0: the scene's own
     double pose_noise_m = 0.0;          ///< [m] standard deviation of each axis of the written pose
     double pose_noise_deg = 0.0;        ///< [deg] standard deviation of each rotation axis
 };
 
+/// One sweep, with all that is known of it.
 struct SimulatedScan {
-    Points points;                 ///< sensor frame, returns only
+    Points points;                 ///< [m] sensor frame, returns only
     std::vector<float> intensity;  ///< 0..1, parallel
     Labels labels;                 ///< exact, parallel: still or dynamic
     std::vector<Kind> kinds;       ///< parallel
     Pose T_world_sensor;           ///< as a SLAM would report it (with pose noise, if asked)
-    double stamp = 0.0;
+    double stamp = 0.0;            ///< [s] since the scene began
 };
 
-std::vector<std::string> scene_names();
-std::vector<std::string> sensor_names();
+std::vector<std::string> scene_names();   ///< what SimulationOptions::scene may be
+std::vector<std::string> sensor_names();  ///< what SimulationOptions::sensor may be
 
 /// Same options, same bytes. Throws ConfigError (unknown scene or sensor, naming the choices; more
 /// frames than the scene has scans at its rate).
-/// scan() may be called in any order; single caller (it uses parallel_for inside).
+/// scan() may be called in any order.
 class Simulation {
 public:
-    explicit Simulation(const SimulationOptions& options);
+    explicit Simulation(const SimulationOptions& options);  ///< builds the scene
     ~Simulation();
-    Simulation(Simulation&&) noexcept;
+    Simulation(Simulation&&) noexcept;  ///< the other one can only be destroyed
 
-    [[nodiscard]] std::size_t size() const;
-    [[nodiscard]] SimulatedScan scan(std::size_t i);
+    [[nodiscard]] std::size_t size() const;           ///< scans
+    [[nodiscard]] SimulatedScan scan(std::size_t i);  ///< scan i < size()
 
 private:
     struct World;
