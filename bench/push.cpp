@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-/// push RECORDING: scans per second of OnlineFilter::ask(), reading not counted: what
-/// bench/python_push.py compares with.
+/// push RECORDING [keep]: scans per second of OnlineFilter::ask(), reading not counted: what
+/// bench/python_push.py compares with. keep: scans and their labels are kept, as who wants
+/// corrections must.
 #include <fmt/format.h>
 
 #include <chrono>
+#include <deque>
 
 #include "dynamic_filter/dynamic_filter.hpp"
 #include "dynamic_filter/io/sequence.hpp"
@@ -12,12 +14,16 @@ using namespace dynamic_filter;
 
 namespace {
 
-double scans_per_second(const std::vector<io::Frame>& frames) {
+double scans_per_second(const std::vector<io::Frame>& frames, bool keep) {
+    std::deque<std::pair<Scan, Labels>> kept;
     OnlineFilter filter(preset("default"),
                         {.overload = Overload::wait, .horizon = 0.0, .max_bytes = 0});
     const auto start = std::chrono::steady_clock::now();
     for (std::size_t i = 0; i < frames.size(); ++i) {
-        filter.ask({frames[i].points, frames[i].T_world_sensor, frames[i].stamp, i});
+        Scan scan{frames[i].points, frames[i].T_world_sensor, frames[i].stamp, i};
+        if (keep) kept.emplace_back(scan, Labels());
+        const std::optional<Verdict> verdict = filter.ask(std::move(scan));
+        if (keep) kept.back().second = verdict->labels;
     }
     filter.flush();
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
@@ -27,12 +33,13 @@ double scans_per_second(const std::vector<io::Frame>& frames) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 2) return 2;
+    if (argc < 2) return 2;
+    const bool keep = argc > 2;
     const io::Sequence sequence = io::open_sequence(argv[1]);
     std::vector<io::Frame> frames;
     for (std::size_t i = 0; i < sequence.size(); ++i) {
         frames.push_back(io::read_frame(sequence, i));
     }
-    scans_per_second(frames);  // the second time memory and threads are there, as in Python
-    fmt::print("{}\n", scans_per_second(frames));
+    scans_per_second(frames, keep);  // the second time memory and threads are there, as in Python
+    fmt::print("{}\n", scans_per_second(frames, keep));
 }

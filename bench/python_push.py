@@ -25,11 +25,12 @@ def from_python(keep):
     return len(frames) / (time.perf_counter() - start)
 
 
-def from_cpp():
-    return float(subprocess.run([f"{build}/push", recording], check=True, capture_output=True).stdout)
+def from_cpp(*keep):
+    return float(subprocess.run([f"{build}/push", recording, *keep], check=True, capture_output=True).stdout)
 
 
-ways = {"C++": from_cpp, "Python": lambda: from_python(False), "Python, keeping": lambda: from_python(True)}
+ways = {"C++": from_cpp, "Python": lambda: from_python(False),
+        "C++, keeping": lambda: from_cpp("keep"), "Python, keeping": lambda: from_python(True)}
 from_python(False)
 rates = {name: [] for name in ways}
 for _ in range(rounds):

@@ -46,6 +46,7 @@ struct RunOptions {
     bool overwrite = false, resume = false;
     bool view = false;
     std::uint16_t port = 0;  ///< of the view; 0: any
+    bool quiet = false;      ///< says only what is wrong
 };
 
 struct EvalOptions {
@@ -62,7 +63,7 @@ struct Evaluation {
 struct SimulateOptions {
     sim::SimulationOptions simulation;
     std::filesystem::path output;
-    bool overwrite = false;
+    bool overwrite = false, quiet = false;
 };
 
 struct ConvertOptions {

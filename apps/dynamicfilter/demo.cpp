@@ -46,7 +46,8 @@ int demo(const DemoOptions& o) {
 
     TopView view;
     const io::Sequence sequence = open({.data = recording, .format = "kitti", .open = {}});
-    const RunSummary summary = run_sequence(sequence, preset("default"), {}, result, {.from_above = &view});
+    const RunSummary summary =
+        run_sequence(sequence, preset("default"), {}, result, {.from_above = &view});
     result.commit();
     io::write_png(output.path() / "before.png", view.draw(true));
     io::write_png(output.path() / "after.png", view.draw(false));

@@ -91,6 +91,7 @@ void add_run(CLI::App& app, std::function<int()>& chosen) {
     CLI::Option* const view =
         c.add_flag("--view", o->view, "show the run in a browser, live, at the address it prints");
     c.add_option("--port", o->port, "of the view (default: any that is free)")->needs(view);
+    c.add_flag("-q,--quiet", o->quiet, "say only what is wrong");
     c.callback([o, &chosen] { chosen = [o] { return run(*o); }; });
 }
 
@@ -119,7 +120,9 @@ void add_simulate(CLI::App& app, std::function<int()>& chosen) {
         ->required();
     c.add_option("-o,--output", o->output, "output folder")->required();
     c.add_option("--pedestrians", s.pedestrians, "how many (default: the scene's own number)");
-    c.add_option("--seed", s.seed, "same seed, same bytes")->capture_default_str();
+    c.add_option("--seed", s.seed, "same seed, same bytes")
+        ->check(whole_from(0))
+        ->capture_default_str();
     c.add_option("--sensor", s.sensor, fmt::format("{}", fmt::join(sim::sensor_names(), ", ")))
         ->capture_default_str();
     c.add_option("--frames", s.frames, "number of scans (default: the whole scene)")
@@ -131,6 +134,7 @@ void add_simulate(CLI::App& app, std::function<int()>& chosen) {
     c.add_option("--pose-noise-deg", s.pose_noise_deg, "standard deviation of each axis [deg]")
         ->check(CLI::Range(0.0, 90.0));
     c.add_flag("--overwrite", o->overwrite, "replace an earlier recording in the output folder");
+    c.add_flag("-q,--quiet", o->quiet, "say only what is wrong");
     c.callback([o, &chosen] { chosen = [o] { return simulate(*o); }; });
 }
 

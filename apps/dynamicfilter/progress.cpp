@@ -42,15 +42,16 @@ std::string clock_text(double seconds) {
 
 }  // namespace
 
-Progress::Progress(std::string verb, std::size_t total)
-    : verb_(std::move(verb)), total_(total), terminal_(isatty(STDERR_FILENO) != 0) {}
+Progress::Progress(std::string verb, std::size_t total, bool quiet)
+    : verb_(std::move(verb)), total_(total), quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
 
 Progress::~Progress() {
-    if (terminal_ && done_ > 0) fmt::print(stderr, "\n");
+    if (!quiet_ && terminal_ && done_ > 0) fmt::print(stderr, "\n");
 }
 
 void Progress::advance() {
     ++done_;
+    if (quiet_) return;
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
     const double seconds = passed.count();
     if (terminal_) {

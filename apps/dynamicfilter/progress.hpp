@@ -11,7 +11,7 @@ namespace dynamic_filter::app {
 /// Goes to stderr, so that stdout holds results only. Single caller.
 class Progress {
 public:
-    Progress(std::string verb, std::size_t total);
+    Progress(std::string verb, std::size_t total, bool quiet = false);
     ~Progress();
     void advance();
 
@@ -20,14 +20,14 @@ private:
 
     std::string verb_;
     std::size_t total_, done_ = 0;
-    bool terminal_;
+    bool quiet_, terminal_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     double printed_at_ = -1.0;
     std::size_t next_line_ = 0;
 };
 
-/// True once SIGINT, SIGTERM or SIGHUP has come since the last catch_interrupts(); another one half a
-/// second later kills as usual.
+/// True once SIGINT, SIGTERM or SIGHUP has come since the last catch_interrupts(); another one half
+/// a second later kills as usual.
 void catch_interrupts();
 bool interrupted();
 

@@ -61,6 +61,11 @@ bool is_complete(const OutputFolder& output, const std::string& state) {
         "--overwrite");
 }
 
+void tell(const std::vector<std::string>& notes, bool quiet) {
+    if (quiet) return;
+    for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
+}
+
 }  // namespace
 
 int run(const RunOptions& o) {
@@ -84,11 +89,11 @@ int run(const RunOptions& o) {
     const std::string state = begun_with(sequence, config);
     if (o.resume && is_complete(output, state)) {
         output.commit();
-        fmt::print("complete {}\n", output.name().string());
+        if (!o.quiet) fmt::print("complete {}\n", output.name().string());
         return kDone;
     }
     io::write_file(output.path() / kRunState, state);
-    for (const std::string& note : sequence.notes) fmt::print(stderr, "note: {}\n", note);
+    tell(sequence.notes, o.quiet);
     for (const io::Finding& finding : io::check_recording(sequence, io::Depth::quick).findings) {
         fmt::print(stderr, "warning: {}; {}{} (`dynamicfilter check` looks closer)\n", finding.what,
                    finding.advice.starts_with("--") ? "try " : "", finding.advice);
@@ -97,10 +102,10 @@ int run(const RunOptions& o) {
     catch_interrupts();
     const Pace pace{.threads = o.threads,
                     .online = o.online ? std::optional(o.speed) : std::nullopt};
-    const RunSummary summary =
-        run_sequence(sequence, config, pace, output, {.live = live ? &*live : nullptr});
+    const RunSummary summary = run_sequence(sequence, config, pace, output,
+                                            {.live = live ? &*live : nullptr, .quiet = o.quiet});
 
-    for (const std::string& line : summary.notes) fmt::print(stderr, "note: {}\n", line);
+    tell(summary.notes, o.quiet);
     for (const std::string& line : sequence.losses) fmt::print(stderr, "lost     {}\n", line);
     for (const std::string& line : summary.rejected) fmt::print(stderr, "rejected {}\n", line);
     for (const std::string& line : summary.dropped) fmt::print(stderr, "dropped {}\n", line);
@@ -111,7 +116,7 @@ int run(const RunOptions& o) {
     }
     output.commit();
     if (live) live->finish(output.name() / "report.html");
-    fmt::print("{}written  {}\n", to_text(summary), output.name().string());
+    if (!o.quiet) fmt::print("{}written  {}\n", to_text(summary), output.name().string());
     if (!named && !link_latest(output.name())) fmt::print(stderr, "note: no link results/latest\n");
     if (2 * summary.unknown > summary.points) {
         fmt::print(stderr,

@@ -32,6 +32,7 @@ struct RunSummary {
 struct Watchers {
     TopView* from_above = nullptr;  ///< collects the final verdicts
     LiveView* live = nullptr;       ///< is told of every scan
+    bool quiet = false;             ///< no progress on stderr
 };
 
 struct Pace {

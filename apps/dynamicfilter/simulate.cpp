@@ -10,14 +10,14 @@
 namespace dynamic_filter::app {
 
 std::size_t write_simulation(const sim::SimulationOptions& options,
-                             const std::filesystem::path& folder) {
+                             const std::filesystem::path& folder, bool quiet) {
     sim::Simulation simulation(options);
     std::filesystem::create_directories(folder / "velodyne");
     std::filesystem::create_directories(folder / "labels");
     std::vector<Pose> poses;
     std::vector<double> stamps;
     std::size_t points = 0;
-    Progress progress("simulate", simulation.size());
+    Progress progress("simulate", simulation.size(), quiet);
     for (std::size_t i = 0; i < simulation.size() && !interrupted(); ++i) {
         const sim::SimulatedScan scan = simulation.scan(i);
         const std::string stem = fmt::format("{:06}", i);
@@ -36,9 +36,9 @@ std::size_t write_simulation(const sim::SimulationOptions& options,
 int simulate(const SimulateOptions& o) {
     OutputFolder output(o.output, Contents::recording, replaced_if(o.overwrite));
     catch_interrupts();
-    const std::size_t points = write_simulation(o.simulation, output.path());
+    const std::size_t points = write_simulation(o.simulation, output.path(), o.quiet);
     output.commit();
-    fmt::print("written  {} ({} points)\n", output.name().string(), points);
+    if (!o.quiet) fmt::print("written  {} ({} points)\n", output.name().string(), points);
     return interrupted() ? kInterrupted : kDone;
 }
 

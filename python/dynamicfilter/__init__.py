@@ -28,7 +28,8 @@ def run(data, output=None, **options):
 
     data: bag or folder; output: folder, by default results/<UTC stamp>.
     Options: config and threads as of DynamicFilter, overwrite, resume, online (times the sensor's
-    rate; 0: as fast as it can), and how to read the recording, as of open_recording().
+    rate; 0: as fast as it can), quiet (False: progress, notes and the closing table on stderr and
+    stdout, as the command has them), and how to read the recording, as of open_recording().
     Returns {"output": folder, "metrics": as in metrics.json, "timing": as in timing.json [s, ms]};
     labels are in its folder `labels`, N uint32 a scan.
     Raises ConfigError, InputError, OutputError, and KeyboardInterrupt after what was filtered

@@ -69,14 +69,8 @@ py::array labels(KeptFilter& filter, std::size_t scan) {
 }
 
 /// Two views of the same voxels.
-py::tuple static_map(KeptFilter& filter, std::optional<double> radius) {
-    if (radius && !(*radius >= 0.0)) throw py::value_error("radius: expected metres, 0 or more");
-    std::vector<StaticVoxel> found;
-    {
-        const py::gil_scoped_release others_go_on;
-        found = filter.static_map(radius);
-    }
-    const auto [voxels, owner] = handed_over(std::move(found));
+py::tuple map_arrays(std::vector<StaticVoxel> map) {
+    const auto [voxels, owner] = handed_over(std::move(map));
     const auto n = static_cast<py::ssize_t>(voxels.size());
     constexpr py::ssize_t kStep = sizeof(StaticVoxel), kSize = sizeof(double);
     const StaticVoxel* const first = voxels.data();
@@ -84,6 +78,27 @@ py::tuple static_map(KeptFilter& filter, std::optional<double> radius) {
                                     n > 0 ? first->center.data() : nullptr, owner),
                           py::array(py::dtype::of<float>(), {n}, {kStep},
                                     n > 0 ? &first->probability : nullptr, owner));
+}
+
+py::tuple static_map(KeptFilter& filter) {
+    std::vector<StaticVoxel> map;
+    {
+        const py::gil_scoped_release others_go_on;
+        map = filter.static_map();
+    }
+    return map_arrays(std::move(map));
+}
+
+py::tuple local_map(KeptFilter& filter, const py::object& pose, std::optional<double> radius) {
+    if (radius && !(*radius >= 0.0)) throw py::value_error("radius: expected metres, 0 or more");
+    std::optional<Pose> T_world_query;
+    if (!pose.is_none()) T_world_query = pose_from(pose);
+    std::vector<StaticVoxel> map;
+    {
+        const py::gil_scoped_release others_go_on;
+        map = filter.local_map(T_world_query, radius);
+    }
+    return map_arrays(std::move(map));
 }
 
 }  // namespace
@@ -99,8 +114,8 @@ keep: True keeps every scan for labels() and corrections(), 13 bytes a point; a 
 newest so many, False none. horizon [m]: the map beyond it is forgotten, 0: none is.
 max_bytes: of the map, 0: no bound. A voxel takes about 160 bytes.
 
-One filter serves one sensor. Any thread may call; the GIL is free meanwhile. Scans are numbered
-from 0 as they come. Raises ConfigError.)")
+One filter serves one sensor. Scans are numbered from 0 as they come. Arrays given are copied, arrays
+returned are the caller's. Any thread may call; the GIL is free meanwhile. Raises ConfigError.)")
         .def(py::init(&make_filter), py::arg("config") = py::none(), py::kw_only(),
              py::arg("threads") = 0, py::arg("keep") = true, py::arg("horizon") = 0.0,
              py::arg("max_bytes") = 0)
@@ -118,27 +133,34 @@ Raises TypeError, ValueError, and Error if the scan comes late or again; it is n
              R"(Scans kept whose labels changed since they were told last.
 
 newest: asks only so many scans, the newest; each costs about what labels() does.
-Returns a list of (number of the scan, labels: N uint8, as push() returns them).)")
+Returns a list of (number of the scan, labels: N uint8, as push() returns them). Raises what went
+wrong in the filter's threads, as flush() does.)")
         .def("labels", &labels, py::arg("scan"),
              R"(The labels of a scan from all evidence so far; after finish(), the final ones.
 
 scan: its number. Returns N uint8: 0 unknown, 9 static, 251 dynamic.
 Raises IndexError if it is not kept.)")
-        .def("static_map", &static_map, py::arg("radius") = py::none(),
-             R"(The static voxels, of the map since the last break of the trajectory.
+        .def("static_map", &static_map, R"(The static voxels of the whole map.
 
-radius [m]: only those around the last scan. Where submaps observe ("paper"), always
-`back_end.search_radius`.
+After finish(), of all there is, merged; before it, of what came since the last break of the
+trajectory (with the preset "paper": as local_map()).
 Returns (centers: M x 3 float64 [m] in the world's frame, probability: M float32, 0..1, that the
-place is occupied).)")
+place is occupied). Raises as flush() does.)")
+        .def("local_map", &local_map, py::arg("pose") = py::none(), py::arg("radius") = py::none(),
+             R"(The static voxels around a place, from all evidence so far.
+
+pose: 4 x 4, T_world_query, anywhere; None: the last scan's.
+radius [m]: None: `back_end.search_radius`; with the preset "paper" always that.
+Returns (centers, probability), as static_map() does. Raises TypeError and ValueError.)")
         .def("flush", &KeptFilter::flush, Release(),
-             "Waits until every scan pushed is in the map. Returns nothing.")
+             "Waits until every scan pushed is in the map. Raises what went wrong in the filter's "
+             "threads (MemoryError); the filter is of no use then.")
         .def("finish", &KeptFilter::finish, Release(),
              "Decides every voxel: labels() are final from now on, and push() raises Error. "
-             "Returns nothing.")
+             "Raises as flush() does.")
         .def("notices", &KeptFilter::notices, Release(),
-             "What happened since the last call (the trajectory broke, and a new map began): a "
-             "list of (number of the scan, sentence).")
+             "Returns what happened since the last call (the trajectory broke, and a new map began): "
+             "a list of (number of the scan, sentence). Raises nothing.")
         .def("__len__", &KeptFilter::size, Release(), "How many scans were taken.");
 }
 

@@ -52,7 +52,7 @@ Labels KeptFilter::push(Points points, const Pose& T_world_sensor, double stamp)
 }
 
 void KeptFilter::keep(Scan scan, const Labels& told) {
-    kept_.push_back({std::move(scan), told, told});
+    kept_.push_back({std::move(scan), told, scans_observe_ ? Labels() : told});
     if (kept_.size() > most_kept_) kept_.pop_front();
 }
 
@@ -92,16 +92,25 @@ Labels KeptFilter::labels(std::size_t scan) {
     return kept->told = current(*kept);
 }
 
-std::vector<StaticVoxel> KeptFilter::static_map(std::optional<double> radius) {
+std::vector<StaticVoxel> KeptFilter::static_map() {
     constexpr double kAll = 1e9;  // [m]
-    filter_.flush();
-    std::optional<Pose> pose;
     {
+        const std::lock_guard hold(lock_);
+        if (finished_) return filter_.static_map();
+    }
+    return local_map(std::nullopt, kAll);
+}
+
+std::vector<StaticVoxel> KeptFilter::local_map(const std::optional<Pose>& T_world_query,
+                                               std::optional<double> radius) {
+    filter_.flush();
+    std::optional<Pose> pose = T_world_query;
+    if (!pose) {
         const std::lock_guard hold(lock_);
         pose = last_pose_;
     }
     if (!pose) return {};
-    return filter_.local_static_map(*pose, radius.value_or(kAll));
+    return filter_.local_static_map(*pose, radius);
 }
 
 void KeptFilter::finish() {

@@ -33,8 +33,11 @@ public:
     /// From the evidence so far; final after finish(). Throws std::out_of_range if it is not kept.
     Labels labels(std::size_t scan);
 
-    /// Within `radius` [m] of the last scan; empty: all since the last break of the trajectory.
-    std::vector<StaticVoxel> static_map(std::optional<double> radius);
+    /// The merged map, after finish(); before it, all since the last break of the trajectory.
+    std::vector<StaticVoxel> static_map();
+    /// Within `radius` [m] (empty: `back_end.search_radius`) of a pose (empty: the last scan's).
+    std::vector<StaticVoxel> local_map(const std::optional<Pose>& T_world_query,
+                                       std::optional<double> radius);
 
     void flush() { filter_.flush(); }
     void finish();

@@ -59,6 +59,7 @@ app::RunOptions run_options(const fs::path& data, const std::optional<fs::path>&
     o.threads = popped(options, "threads", 0);
     o.overwrite = popped(options, "overwrite", false);
     o.resume = popped(options, "resume", false);
+    o.quiet = popped(options, "quiet", true);
     const py::object online = options.attr("pop")("online", py::none());
     o.online = !online.is_none();
     if (o.online) o.speed = online.cast<double>();
@@ -101,15 +102,15 @@ std::string evaluate(const fs::path& truth, const std::optional<fs::path>& label
     return app::text_of(json);
 }
 
-std::size_t simulate(const sim::SimulationOptions& options, const fs::path& folder,
-                     bool overwrite) {
+std::size_t simulate(const sim::SimulationOptions& options, const fs::path& folder, bool overwrite,
+                     bool quiet) {
     std::size_t points = 0;
     bool stopped = false;
     {
         const py::gil_scoped_release others_go_on;
         const Interruptible guard;
         app::OutputFolder output(folder, app::Contents::recording, app::replaced_if(overwrite));
-        points = app::write_simulation(options, output.path());
+        points = app::write_simulation(options, output.path(), quiet);
         stopped = app::interrupted();
         if (!stopped) output.commit();
     }
@@ -126,21 +127,22 @@ void bind_programs(py::module_& module) {
         "simulate",
         [](const std::string& scene, const fs::path& output, const std::string& sensor,
            int pedestrians, std::uint64_t seed, std::optional<std::size_t> frames, double rate,
-           double pose_noise, double pose_noise_deg, bool overwrite) {
+           double pose_noise, double pose_noise_deg, bool overwrite, bool quiet) {
             return simulate(
                 {scene, sensor, pedestrians, seed, frames, rate, pose_noise, pose_noise_deg},
-                output, overwrite);
+                output, overwrite, quiet);
         },
         py::arg("scene"), py::arg("output"), py::kw_only(), py::arg("sensor") = "vlp16",
         py::arg("pedestrians") = -1, py::arg("seed") = 1, py::arg("frames") = py::none(),
         py::arg("rate") = 0.0, py::arg("pose_noise") = 0.0, py::arg("pose_noise_deg") = 0.0,
-        py::arg("overwrite") = false,
+        py::arg("overwrite") = false, py::arg("quiet") = true,
         R"(Makes a recording with exact labels, in KITTI's layout, in the folder `output`.
 
 scene: crowd, street, square or hall; sensor: see `dynamicfilter simulate --help`;
 pedestrians: -1: the scene's own number; seed: same seed, same bytes; frames: None: the whole scene;
 rate: scans per second, 0: the scene's own; pose_noise [m], pose_noise_deg [deg]: standard deviation
-of each axis. Returns the number of points. Raises ConfigError, OutputError, and KeyboardInterrupt,
+of each axis; overwrite: replaces an earlier recording; quiet: False shows the progress on stderr.
+Returns the number of points. Raises ConfigError, OutputError, and KeyboardInterrupt,
 which leaves nothing.)");
 }
 

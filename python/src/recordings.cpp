@@ -48,7 +48,9 @@ auto view(View of) {
 }
 
 void bind_frame(py::module_& module) {
-    py::class_<io::Frame>(module, "Frame", "A scan of a recording; arrays are views of its memory.")
+    py::class_<io::Frame>(module, "Frame", R"(A scan of a recording.
+
+Arrays are views of its memory, which they keep alive; any thread may read.)")
         .def_property_readonly("points", view([](const io::Frame& f, const py::object& self) {
                                    return points_array(f.points, self);
                                }),
@@ -75,7 +77,9 @@ void bind_frame(py::module_& module) {
 
 void bind_recordings(py::module_& module) {
     bind_frame(module);
-    py::class_<io::Sequence>(module, "Recording", "Scans with poses: a sequence of Frame.")
+    py::class_<io::Sequence>(module, "Recording", R"(Scans with poses: a sequence of Frame.
+
+Scans are read when asked for and not kept. Any thread may read; the GIL is free meanwhile.)")
         .def("__len__", &io::Sequence::size, "How many scans there are.")
         // By index until IndexError; so is iteration.
         .def("__getitem__", &frame_at, py::arg("i"),
@@ -88,13 +92,16 @@ void bind_recordings(py::module_& module) {
     module.def("read_cloud", &read_cloud, py::arg("file"),
                R"(Reads a cloud: .pcd, .ply, .las, .bin, .npy, .xyz, .txt or .csv.
 
-Returns a structured array of N records with the file's fields, types and units:
+Returns a structured array of N records with the file's fields, types, units and frame:
 cloud["x"], cloud["intensity"]. Raises InputError.)");
     module.def("open_recording", &open_recording, py::arg("data"),
                R"(Opens a recording: a bag, or a folder with scans and poses.
 
-Options, as of the command: format, poses, topic, pose_topic, pose_fix, points_in_world, time_unit,
-deskew, first, last, stride.
+data: its path. format: kitti, benchmark, folder or bag (otherwise recognised by looking at it).
+poses: pose file, T_world_sensor [m] (otherwise the format's usual place). topic, pose_topic: of a bag.
+pose_fix: none, inverse, camera, lidar, wxyz, xyzw or mm, as `dynamicfilter check` advises.
+points_in_world: scans are in the poses' frame. time_unit: s, ms, us or ns, of the stamps.
+deskew: undoes the sensor's motion during each scan. first, last, stride: which scans.
 Returns a sequence of Frame: points N x 3 float32 [m] in the sensor's frame, pose 4 x 4
 T_world_sensor [m], stamp [s], truth N uint8 or None, fields N records. Raises InputError and
 ConfigError.)");

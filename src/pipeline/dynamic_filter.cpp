@@ -48,6 +48,7 @@ struct DynamicFilter::Impl {
     void keep_within(const Pose& T_world_center, double radius, std::size_t most);
     std::vector<StaticVoxel> local_static_map(const Pose& T_world_query,
                                               std::optional<double> radius);
+    [[nodiscard]] std::vector<StaticVoxel> static_map() const;
 
     [[nodiscard]] Verdict verdict(const Scan& scan) const;
     [[nodiscard]] Verdict settled(const Scan& scan) const;
@@ -64,6 +65,7 @@ struct DynamicFilter::Impl {
     [[nodiscard]] StageTimes times() const;
 
     Pose to_map_frame(const Pose& T_world_sensor) const;
+    [[nodiscard]] StaticVoxel static_voxel(std::uint32_t voxel, float probability) const;
     [[nodiscard]] Judged process(const Window& window);
     [[nodiscard]] Verdict instant_verdict(std::size_t index, const PointVoxels& voxels);
     void decide_voxels();
@@ -280,11 +282,6 @@ std::vector<StaticVoxel> DynamicFilter::Impl::local_static_map(const Pose& T_wor
                                                                std::optional<double> radius) {
     std::vector<StaticVoxel> result;
     if (!origin_) return result;
-    const auto size = static_cast<float>(config_.back_end.voxel_size);
-    const auto add = [&](std::uint32_t voxel, float probability) {
-        const Point at = center(voxels().key(voxel), size);
-        result.push_back({*origin_ + at.cast<double>(), probability});
-    };
     const Pose T_map_query = to_map_frame(T_world_query);
     if (scans_observe()) {
         const Point position = T_map_query.translation().cast<float>();
@@ -292,17 +289,32 @@ std::vector<StaticVoxel> DynamicFilter::Impl::local_static_map(const Pose& T_wor
         const std::vector<std::uint32_t> near = evidence_.within(position, reach);
         const auto probabilities = evidence_.probabilities(near);
         for (std::size_t i = 0; i < near.size(); ++i) {
-            if (label_of(probabilities[i]) == Label::still) add(near[i], *probabilities[i]);
+            if (label_of(probabilities[i]) != Label::still) continue;
+            result.push_back(static_voxel(near[i], *probabilities[i]));
         }
         return result;
     }
     const LocalMap local = back_end_.local_map(T_map_query, back_times_);
     for (std::size_t i = 0; i < local.voxels.size(); ++i) {
         if (label_of(std::optional(local.probability[i])) == Label::still) {
-            add(local.voxels[i], local.probability[i]);
+            result.push_back(static_voxel(local.voxels[i], local.probability[i]));
         }
     }
     return result;
+}
+
+std::vector<StaticVoxel> DynamicFilter::Impl::static_map() const {
+    std::vector<StaticVoxel> result;
+    for (std::uint32_t v = 0; v < voxels().size(); ++v) {
+        const auto [label, probability] = decision_on(v, Point::Zero());
+        if (label == Label::still) result.push_back(static_voxel(v, probability));
+    }
+    return result;
+}
+
+StaticVoxel DynamicFilter::Impl::static_voxel(std::uint32_t voxel, float probability) const {
+    const auto size = static_cast<float>(config_.back_end.voxel_size);
+    return {*origin_ + center(voxels().key(voxel), size).cast<double>(), probability};
 }
 
 DynamicFilter::Impl::Located DynamicFilter::Impl::locate(const Scan& scan) const {
@@ -453,6 +465,8 @@ std::vector<StaticVoxel> DynamicFilter::local_static_map(const Pose& T_world_que
                                                          std::optional<double> radius) {
     return impl_->local_static_map(T_world_query, radius);
 }
+
+std::vector<StaticVoxel> DynamicFilter::static_map() const { return impl_->static_map(); }
 
 StageTimes DynamicFilter::times() const { return impl_->times(); }
 std::optional<BeamPattern> DynamicFilter::beams() const { return impl_->beams(); }

@@ -471,6 +471,15 @@ std::vector<StaticVoxel> OnlineFilter::local_static_map(const Pose& T_world_quer
     return voxels;
 }
 
+std::vector<StaticVoxel> OnlineFilter::static_map() const {
+    std::vector<StaticVoxel> all;
+    for (const Map& map : engine_->maps) {
+        const std::vector<StaticVoxel> some = map.filter->static_map();
+        all.insert(all.end(), some.begin(), some.end());
+    }
+    return all;
+}
+
 StageTimes OnlineFilter::times() const {
     StageTimes times;
     for (const Map& map : engine_->maps) {

@@ -212,6 +212,16 @@ TEST_F(Command, NeverWritesOverARecording) {
     EXPECT_EQ(run("run data -o out"), 0);
 }
 
+TEST_F(Command, QuietSaysOnlyWhatIsWrong) {
+    EXPECT_EQ(run("simulate crowd --frames 3 --pedestrians 5 -q -o data"), 0);
+    EXPECT_EQ(said(), "");
+    EXPECT_EQ(run("run data -q -o out"), 0);
+    EXPECT_EQ(said(), "");
+    fs::resize_file(folder_ / "data/velodyne/000001.bin", 7);
+    EXPECT_EQ(run("run data --quiet -o again"), 4);
+    expect_said("rejected 000001");
+}
+
 TEST_F(Command, EvalSaysWhatItLeftOut) {
     ASSERT_EQ(run("run " + recording().string() + " -o out"), 0);
     const fs::path data = copy();

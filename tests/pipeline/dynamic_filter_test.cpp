@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <set>
@@ -311,6 +313,34 @@ TEST_P(StaticLocalMap, HoldsTheVoxelsAroundAnyPose) {
     EXPECT_TRUE(filter.local_static_map(query).empty());
     const bool scans_observe = GetParam().back_end.observers == Observers::scans;
     EXPECT_EQ(filter.local_static_map(query, 1e6).empty(), !scans_observe);
+}
+
+TEST_P(StaticLocalMap, MergedHoldsTheStaticPointsOfAllScans) {
+    auto scans = drive(6, true);
+    DynamicFilter filter(GetParam());
+    EXPECT_TRUE(filter.static_map().empty());
+    for (auto& s : scans) filter.push(s.scan);
+    filter.finish();
+    const auto map = filter.static_map();
+    ASSERT_FALSE(map.empty());
+    const auto cell = [&](const Eigen::Vector3d& at) {
+        const Eigen::Vector3d steps = (at - map[0].center) / GetParam().back_end.voxel_size;
+        return std::array{std::lround(steps.x()), std::lround(steps.y()), std::lround(steps.z())};
+    };
+    std::set<std::array<long, 3>> cells;
+    for (const StaticVoxel& v : map) cells.insert(cell(v.center));
+    EXPECT_EQ(cells.size(), map.size());
+    std::size_t still = 0, held = 0;
+    for (auto& s : scans) {
+        const Labels labels = filter.verdict(s.scan).labels;
+        for (std::size_t i = 0; i < labels.size(); ++i) {
+            if (labels[i] != Label::still) continue;
+            ++still;
+            held += cells.count(cell(s.scan.T_world_sensor * s.scan.points[i].cast<double>()));
+        }
+    }
+    EXPECT_GT(still, 10000U);
+    EXPECT_GT(held, still - still / 200);  // contacts, and points on a voxel's face
 }
 
 INSTANTIATE_TEST_SUITE_P(Observers, StaticLocalMap, testing::Values(small_windows(), Config{}),

@@ -85,6 +85,9 @@ TEST(OnlineFilter, AskReturnsTheVerdictOfThatScan) {
     EXPECT_FALSE(filter.ask(scans[4].scan));  // late
     EXPECT_EQ(filter.counters().rejected, 1U);
     EXPECT_GT(filter.local_static_map(scans[3].scan.T_world_sensor).size(), 500U);
+    filter.finish();
+    EXPECT_EQ(filter.static_map().size(),
+              filter.local_static_map(scans[3].scan.T_world_sensor, 1e6).size());
 }
 
 TEST(OnlineFilter, SaysAtAnyTimeWhatItThinksOfAScan) {

@@ -7,11 +7,6 @@ import unittest
 
 from support import df, main
 
-WITH_ARRAYS = (df.DynamicFilter.push, df.DynamicFilter.labels, df.DynamicFilter.corrections,
-               df.DynamicFilter.static_map, df.Frame.points, df.Frame.pose, df.Frame.truth,
-               df.Frame.fields, df.read_cloud, df.open_recording)
-
-
 def members(cls):
     return {name for name in vars(cls) if not name.startswith("_")}
 
@@ -19,6 +14,17 @@ def members(cls):
 def stubs():
     with open(os.path.join(os.path.dirname(df.__file__), "__init__.pyi")) as file:
         return ast.parse(file.read()).body
+
+
+def functions():
+    """Name, object and stub of every public function, method and property."""
+    for node in stubs():
+        if isinstance(node, ast.FunctionDef):
+            yield node.name, getattr(df, node.name), node
+        elif isinstance(node, ast.ClassDef):
+            for member in node.body:
+                if isinstance(member, ast.FunctionDef) and not member.name.startswith("_"):
+                    yield f"{node.name}.{member.name}", getattr(getattr(df, node.name), member.name), member
 
 
 class Api(unittest.TestCase):
@@ -32,13 +38,32 @@ class Api(unittest.TestCase):
                 self.assertTrue(inspect.getdoc(getattr(thing, member)), f"{name}.{member}")
 
     def test_arrays_have_shapes(self):
-        for thing in WITH_ARRAYS:
-            self.assertRegex(inspect.getdoc(thing), r"[NM] x 3|N uint8|N records|4 x 4")
+        for name, thing, node in functions():
+            if "NDArray" in ast.unparse(node.returns):
+                self.assertRegex(inspect.getdoc(thing), r"[NM] x 3|[NM] uint8|N records|4 x 4|static_map\(\)", name)
 
-    def test_lengths_have_units(self):
-        for thing in (df.DynamicFilter.push, df.DynamicFilter.static_map, df.Frame.points,
-                      df.Frame.pose, df.simulate, df.evaluate, df.open_recording):
-            self.assertIn("[m]", inspect.getdoc(thing))
+    def test_arguments_are_explained_with_shapes_units_and_frames(self):
+        facets = {"points": "N x 3.*\[m\] in the sensor's frame", "pose": "4 x 4, T_world_"}
+        for name, thing, node in functions():
+            doc = " ".join(inspect.getdoc(thing).split())
+            for argument in node.args.args + node.args.kwonlyargs:
+                if argument.arg in ("self", "i"): continue
+                self.assertRegex(doc, rf"\b{argument.arg}\b", name)
+                if argument.arg in facets: self.assertRegex(doc, argument.arg + ": " + facets[argument.arg], name)
+                if "float" in ast.unparse(argument.annotation):
+                    self.assertRegex(doc, rf"\b{argument.arg}\b[^;.]*?(\[\w+\]|per second|rate)", name)
+
+    def test_results_and_errors_are_named(self):
+        for name, thing, node in functions():
+            if any(isinstance(d, ast.Name) and d.id == "property" for d in node.decorator_list): continue
+            self.assertIn("Raises", inspect.getdoc(thing), name)
+            if ast.unparse(node.returns) != "None": self.assertRegex(inspect.getdoc(thing), "Returns|returns", name)
+
+    def test_classes_say_who_owns_arrays_and_who_may_call(self):
+        for cls in (df.DynamicFilter, df.Frame, df.Recording):
+            self.assertIn("thread", inspect.getdoc(cls))
+        self.assertIn("copied", inspect.getdoc(df.DynamicFilter))
+        self.assertIn("views", inspect.getdoc(df.Frame))
 
     def test_names(self):
         self.assertEqual(df.DynamicFilter.__module__, "dynamicfilter")

@@ -112,10 +112,24 @@ class Course(unittest.TestCase):
         self.assertEqual(probability.shape, (len(centers),))
         self.assertGreater(len(centers), 1000)
         self.assertTrue(((probability >= 0.5) & (probability <= 1)).all())
-        near, _ = filter.static_map(radius=5.0)
-        self.assertLess(len(near), len(centers))
-        off = np.linalg.norm(near - frames()[-1].pose[:3, 3], axis=1)
-        self.assertLess(off.max(), 5.0 + 0.4)
+        for pose in (None, frames()[0].pose):
+            near, _ = filter.local_map(pose, radius=5.0)
+            self.assertLess(len(near), len(centers))
+            off = np.linalg.norm(near - frames()[0 if pose is not None else -1].pose[:3, 3], axis=1)
+            self.assertLess(off.max(), 5.0 + 0.4)
+        self.assertRaises(ValueError, filter.local_map, radius=-1.0)
+        self.assertRaises(ValueError, filter.local_map, np.eye(3))
+
+    def test_merged_map(self):
+        for config in ("default", {"preset": "paper", "submap.keyframes": 5}):
+            filter = df.DynamicFilter(config)
+            self.assertEqual(filter.local_map()[0].shape, (0, 3))
+            push_all(filter)
+            filter.finish()
+            merged = {tuple(center) for center in np.round(filter.static_map()[0], 3)}
+            local = {tuple(center) for center in np.round(filter.local_map(radius=5.0)[0], 3)}
+            self.assertGreater(min(len(local), len(merged)), 100)
+            if config == "default": self.assertTrue(local < merged)
 
     def test_late_and_repeated_scans_are_refused(self):
         filter, points = df.DynamicFilter(), small_scan()

@@ -27,7 +27,7 @@ class Threads(unittest.TestCase):
 
         def ask():
             while not asking.is_set():
-                filter.static_map(radius=5.0)
+                filter.local_map(radius=5.0)
                 filter.corrections(newest=1)
 
         other = threading.Thread(target=ask)

@@ -117,6 +117,9 @@ public:
     std::vector<StaticVoxel> local_static_map(const Pose& T_world_query,
                                               std::optional<double> radius = {});
 
+    /// The merged map, after finish() (Sec. III-D): every static voxel.
+    [[nodiscard]] std::vector<StaticVoxel> static_map() const;
+
     [[nodiscard]] StageTimes times() const;  ///< [s] of each stage so far
     /// How densely the sensor looks. Empty before it is known.
     [[nodiscard]] std::optional<BeamPattern> beams() const;

@@ -131,6 +131,10 @@ public:
     [[nodiscard]] std::vector<StaticVoxel> local_static_map(const Pose& T_world_query,
                                                             std::optional<double> radius = {});
 
+    /// The merged map, after finish() (Sec. III-D): the static voxels of all maps; where maps
+    /// overlap, a place comes once from each.
+    [[nodiscard]] std::vector<StaticVoxel> static_map() const;
+
     /// How the stages did, once flush() has returned; `latency`: from push() to the end of judging.
     [[nodiscard]] StageTimes times() const;
     /// What there is.

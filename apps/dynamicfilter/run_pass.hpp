@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+/// What a run holds while it goes over the scans and reports.
+#pragma once
+
+#include <mutex>
+#include <vector>
+
+#include "dynamic_filter/pipeline/online_filter.hpp"
+#include "run_sequence.hpp"
+#include "view/run_view.hpp"
+
+namespace dynamic_filter::app {
+
+/// Lives from the first pass over the scans to the reports.
+struct Pass {
+    const io::Sequence& sequence;
+    const Config& config;
+    const Pace& pace;
+    const OutputFolder& output;
+    const Watchers& watchers;
+    RunSummary summary{};
+    std::vector<bool> accepted = std::vector<bool>(sequence.size());
+    std::vector<Labels> instant{};  ///< by scan; of those that are scored or shown
+    std::vector<ScanNote> scan_notes{};
+    std::mutex notices_lock{};
+    std::vector<Notice> notices{};
+    OnlineFilter filter{config, options(), callbacks()};  // the last: it uses the others
+
+    /// Verdicts are written at the end, so nothing is forgotten.
+    [[nodiscard]] OnlineOptions options() const {
+        const bool drops = pace.online.value_or(0.0) > 0.0;
+        return {.overload = drops ? Overload::drop_oldest : Overload::wait,
+                .horizon = 0.0,
+                .max_bytes = 0,
+                .threads = pace.threads};
+    }
+    OnlineCallbacks callbacks() {
+        return {.instant =
+                    [this](const Verdict& verdict) {
+                        if (sequence.has_truth() || is_shown(verdict.index, sequence.size())) {
+                            instant[verdict.index] = verdict.labels;
+                        }
+                        if (watchers.live) {
+                            watchers.live->feed().judged(verdict.index, verdict.labels);
+                        }
+                    },
+                .settled = {},
+                .notice =
+                    [this](const Notice& notice) {
+                        const std::lock_guard hold(notices_lock);
+                        notices.push_back(notice);
+                    }};
+    }
+};
+
+}  // namespace dynamic_filter::app
