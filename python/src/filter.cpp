@@ -159,7 +159,8 @@ Returns (centers, probability), as static_map() does. Raises TypeError and Value
              "Decides every voxel: labels() are final from now on, and push() raises Error. "
              "Raises as flush() does.")
         .def("notices", &KeptFilter::notices, Release(),
-             "Returns what happened since the last call (the trajectory broke, and a new map began): "
+             "Returns what happened since the last call (the trajectory broke, and a new map "
+             "began): "
              "a list of (number of the scan, sentence). Raises nothing.")
         .def("__len__", &KeptFilter::size, Release(), "How many scans were taken.");
 }

@@ -3,6 +3,7 @@
 /// dynamicfilter/__init__.pyi, and documented where it is bound.
 #pragma once
 
+#include <fmt/format.h>
 #include <pybind11/pybind11.h>
 
 #include "commands.hpp"
@@ -16,6 +17,21 @@ void bind_programs(pybind11::module_& module);
 /// None, a preset's name, a TOML file, or a dict of settings (flat or by section; `preset` names
 /// what they change). Raises TypeError.
 app::ConfigOptions config_options(const pybind11::object& given);
+
+/// Moves an option, if it is there and not None, to its place. Raises TypeError.
+template <class T>
+void take(pybind11::dict& options, const char* name, T& to) {
+    if (!options.contains(name)) return;
+    const pybind11::object value = options.attr("pop")(name);
+    if (value.is_none()) return;
+    try {
+        to = value.cast<T>();
+    } catch (const pybind11::cast_error&) {
+        throw pybind11::type_error(fmt::format(
+            "{}: cannot take {} {}", name, std::string(pybind11::str(pybind11::type::of(value))),
+            std::string(pybind11::repr(value))));
+    }
+}
 
 /// Takes what says how to read a recording out of `options`. Raises TypeError, throws ConfigError.
 app::DataOptions data_options(const std::filesystem::path& data, pybind11::dict& options);

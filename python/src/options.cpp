@@ -31,21 +31,6 @@ void add_settings(const py::dict& settings, const std::string& section, app::Con
     }
 }
 
-/// Moves an option, if it is there and not None, to its place.
-template <class T>
-void take(py::dict& options, const char* name, T& to) {
-    if (!options.contains(name)) return;
-    const py::object value = options.attr("pop")(name);
-    if (value.is_none()) return;
-    try {
-        to = value.cast<T>();
-    } catch (const py::cast_error&) {
-        throw py::type_error(fmt::format("{}: cannot take {} {}", name,
-                                         std::string(py::str(py::type::of(value))),
-                                         std::string(py::repr(value))));
-    }
-}
-
 void refuse_other(const char* name, const std::string& value,
                   const std::vector<std::string>& choices) {
     if (std::find(choices.begin(), choices.end(), value) != choices.end()) return;

@@ -46,23 +46,24 @@ void raise_if(bool interrupted) {
     throw py::error_already_set();
 }
 
-template <class T>
-T popped(py::dict& options, const char* name, T otherwise) {
-    return options.attr("pop")(name, otherwise).template cast<T>();
-}
-
 app::RunOptions run_options(const fs::path& data, const std::optional<fs::path>& output,
                             py::dict& options) {
     app::RunOptions o;
     o.output = output ? *output : app::default_output();
     o.config = config_options(options.attr("pop")("config", py::none()));
-    o.threads = popped(options, "threads", 0);
-    o.overwrite = popped(options, "overwrite", false);
-    o.resume = popped(options, "resume", false);
-    o.quiet = popped(options, "quiet", true);
-    const py::object online = options.attr("pop")("online", py::none());
-    o.online = !online.is_none();
-    if (o.online) o.speed = online.cast<double>();
+    take(options, "threads", o.threads);
+    take(options, "overwrite", o.overwrite);
+    take(options, "resume", o.resume);
+    o.quiet = true;
+    take(options, "quiet", o.quiet);
+    std::optional<double> online;
+    take(options, "online", online);
+    if (o.threads < 0) throw py::value_error("threads: expected 0 (all cores) or more");
+    if (!(online.value_or(0.0) >= 0.0)) {
+        throw py::value_error("online: expected times the sensor's rate, 0 or more");
+    }
+    o.online = online.has_value();
+    o.speed = online.value_or(0.0);
     o.data = data_options(data, options);
     refuse_unknown("run", options);
     return o;

@@ -76,6 +76,9 @@ class Programs(unittest.TestCase):
                 (df.ConfigError, lambda: df.run(recording(), self.result["output"])),
                 (df.OutputError, lambda: df.simulate("crowd", "/proc/none", frames=1)),
                 (TypeError, lambda: df.run(recording(), scratch("x"), spedd=1)),
+                (TypeError, lambda: df.run(recording(), scratch("x"), threads="two")),
+                (ValueError, lambda: df.run(recording(), scratch("x"), threads=-1)),
+                (ValueError, lambda: df.run(recording(), scratch("x"), online=-1.0)),
                 (TypeError, lambda: df.open_recording(recording(), stride="two"))):
             self.assertRaises(error, call)
 
