@@ -87,6 +87,7 @@ void describe(PageRun& run, const Pass& pass) {
         if (to_toml(pass.config) == to_toml(preset(name))) run.info["preset"] = name;
     }
     run.info["voxel_size"] = pass.config.back_end.voxel_size;
+    run.info["occupancy_threshold"] = pass.config.back_end.occupancy_threshold;
     run.info["keyframes_total"] = pass.filter.extent().keyframes_total;
     run.info["config"] = to_toml(pass.config);
     const RunSummary& s = pass.summary;

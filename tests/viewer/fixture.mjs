@@ -111,7 +111,7 @@ export function makeRun({ name = "street", points = 120_000, framePoints = 2500,
   };
   const meta = {
     name, command: "run", version: "0.0.0-test", input: "recordings/street", format: "kitti", preset: evidence ? "default" : "paper", created: "2026-01-02T03:04:05Z",
-    origin, low: LOW, step: STEP, voxel_size: VOXEL, scans: SCANS, has_truth: truth, has_instant: true, has_evidence: evidence,
+    origin, low: LOW, step: STEP, voxel_size: VOXEL, occupancy_threshold: 0.5, scans: SCANS, has_truth: truth, has_instant: true, has_evidence: evidence,
     points_total: Math.round(9.4 * points), points_shown: points, spacing: 0.12,
     frame_points_total: SCANS * framePoints, frame_points_shown: (SCANS / 2) * framePoints, frames_shown: SCANS / 2, counts,
     keyframes: KEY_FRAMES, keyframes_total: KEY_FRAMES.length + FORGOTTEN,

@@ -7,8 +7,6 @@ import { count, fixed, plural, short } from "./format.js";
 const VERDICTS = ["unknown", "static", "removed"];
 export const verdictWord = (verdict) => VERDICTS[verdict] ?? "unknown";
 
-const isStatic = (probability) => probability >= 0.5;
-
 function headline(verdict) {
   if (verdict === DYNAMIC) return "Removed: taken for something that moves";
   if (verdict === STATIC) return "Kept: taken for something that stays";
@@ -16,18 +14,18 @@ function headline(verdict) {
 }
 
 /** One sentence: what decided. */
-function reason(verdict, { probability, evidence }) {
+function reason(verdict, { probability, evidence }, threshold) {
   if (probability === undefined) {
     return "Nobody looked through this place, and fewer than two scans saw it: there is nothing to judge by.";
   }
   const said = `the probability of being static is ${fixed(probability, 2)}`;
-  if (verdict === DYNAMIC && isStatic(probability)) {
+  if (verdict === DYNAMIC && probability >= threshold) {
     return `Its voxel is static (${said}), but it touches a removed one: there a point that stands out from the ground's plane is removed with the foot that stands on it.`;
   }
-  if (verdict === STATIC && !isStatic(probability)) {
+  if (verdict === STATIC && probability < threshold) {
     return `Its voxel is removed (${said}), but the point lies in the ground's plane where something stood on it, and stays.`;
   }
-  if (!evidence) return `In its voxel ${said}; from 0.5 on a voxel is static.`;
+  if (!evidence) return `In its voxel ${said}; from ${threshold} on a voxel is static.`;
   const seenThrough = evidence.free === 0 ? "No scan saw through this place" : `${plural(evidence.free, "scan")} saw through this place`;
   const expected = expectedPasses(evidence);
   const opinion = transience(evidence);
@@ -70,9 +68,9 @@ export function explain(point, facts, meta, words) {
     result.reason = "It has no voxel: the run keeps none for it, or the place was forgotten beyond the horizon.";
     return result;
   }
-  result.reason = reason(verdict, facts);
+  result.reason = reason(verdict, facts, meta.occupancy_threshold);
   if (facts.probability !== undefined) {
-    result.counters.push(["probability", fixed(facts.probability, 2), "of being static; from 0.5 on it is kept"]);
+    result.counters.push(["probability", fixed(facts.probability, 2), `of being static; from ${meta.occupancy_threshold} on it is kept`]);
   }
   const { evidence, span } = facts;
   if (!evidence) return result;
