@@ -20,7 +20,7 @@ install(DIRECTORY include/dynamic_filter/io include/dynamic_filter/eval include/
 foreach(part io eval sim)
   set_target_properties(dynamic_filter_${part} PROPERTIES EXPORT_NAME ${part})
 endforeach()
-# While the major version is 0, a minor one may break the ABI, too.
+# While the major version is 0, a minor one may break the ABI, too; from 1.0 on, the major alone counts.
 set_target_properties(dynamic_filter dynamic_filter_io dynamic_filter_eval dynamic_filter_sim PROPERTIES
   VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 set(destinations LIBRARY COMPONENT library NAMELINK_COMPONENT dev ARCHIVE COMPONENT dev

@@ -40,7 +40,7 @@ needs() {  # PACKAGE PATTERN...: each matches one that it depends on
     done
 }
 ours="libdynamicfilter$soversion \\(= $version-1\\)"
-arch=lib/[a-z0-9_-]+-linux-gnu
+arch='lib/[a-z0-9_-]+-linux-gnu'
 for part in "" _io _eval _sim; do
     holds "$library" "$arch/libdynamic_filter$part.so.$soversion"
     holds "$dev" "$arch/libdynamic_filter$part.so"
@@ -71,7 +71,7 @@ tar -xzf "$packages"/dynamicfilter-*.tar.gz -C anywhere --strip-components 1
 awk '/^```python$/ {on = 1; next} /^```$/ {on = 0} on' "$source/README.md" > lines.py
 for prefix in "$work/root/usr" "$work/anywhere"; do
     "$prefix/bin/dynamicfilter" --version | grep -qF "$version"
-    for program in "$prefix"/bin/dynamicfilter "$prefix"/$modules/dynamicfilter/_*.so; do
+    for program in "$prefix"/bin/dynamicfilter "$prefix/$modules"/dynamicfilter/_*.so; do
         [ "$(ldd "$program" | grep -c "libdynamic_filter.* => $prefix")" -eq 4 ] ||
             { echo "$program finds not its own libraries"; exit 1; }
     done
