@@ -21,7 +21,8 @@ foreach(part io eval sim)
   set_target_properties(dynamic_filter_${part} PROPERTIES EXPORT_NAME ${part})
 endforeach()
 # While the major version is 0, a minor one may break the ABI, too; from 1.0 on, the major alone counts.
-set_target_properties(dynamic_filter dynamic_filter_io dynamic_filter_eval dynamic_filter_sim PROPERTIES
+set(DF_LIBRARIES dynamic_filter dynamic_filter_io dynamic_filter_eval dynamic_filter_sim)
+set_target_properties(${DF_LIBRARIES} PROPERTIES
   VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 set(destinations LIBRARY COMPONENT library NAMELINK_COMPONENT dev ARCHIVE COMPONENT dev
                  INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
@@ -50,8 +51,7 @@ endif()
 
 # Shared libraries are found wherever the whole is moved to.
 if(BUILD_SHARED_LIBS)
-  set_target_properties(dynamic_filter dynamic_filter_io dynamic_filter_eval dynamic_filter_sim PROPERTIES
-    INSTALL_RPATH $ORIGIN)
+  set_target_properties(${DF_LIBRARIES} PROPERTIES INSTALL_RPATH $ORIGIN)
   set_target_properties(dynamicfilter PROPERTIES INSTALL_RPATH $ORIGIN/../${CMAKE_INSTALL_LIBDIR})
   if(DF_BUILD_PYTHON)
     set_target_properties(_dynamicfilter PROPERTIES INSTALL_RPATH $ORIGIN/../../../../${CMAKE_INSTALL_LIBDIR})
