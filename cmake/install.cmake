@@ -1,4 +1,5 @@
-# What users get: the command (component `command`); the libraries, their headers and DynamicFilterConfig.cmake (`dev`).
+# What users get: the command (component `command`); the libraries, their headers and DynamicFilterConfig.cmake (`dev`);
+# shared libraries (`library`), where BUILD_SHARED_LIBS asks for them; the Python package (`python`).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(DF_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/DynamicFilter)
@@ -16,13 +17,18 @@ endforeach()
 install(DIRECTORY include/dynamic_filter/io include/dynamic_filter/eval include/dynamic_filter/sim COMPONENT dev
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/dynamic_filter)
 
-# The simulator is apart because only it needs Embree.
 foreach(part io eval sim)
   set_target_properties(dynamic_filter_${part} PROPERTIES EXPORT_NAME ${part})
 endforeach()
-install(TARGETS dynamic_filter dynamic_filter_io dynamic_filter_eval EXPORT DynamicFilterTargets
-        ARCHIVE COMPONENT dev INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-install(TARGETS dynamic_filter_sim EXPORT DynamicFilterSimTargets ARCHIVE COMPONENT dev)
+# While the major version is 0, a minor one may break the ABI, too; from 1.0 on, the major alone counts.
+set(DF_LIBRARIES dynamic_filter dynamic_filter_io dynamic_filter_eval dynamic_filter_sim)
+set_target_properties(${DF_LIBRARIES} PROPERTIES
+  VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+set(destinations LIBRARY COMPONENT library NAMELINK_COMPONENT dev ARCHIVE COMPONENT dev
+                 INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+# The simulator is apart because only it needs Embree.
+install(TARGETS dynamic_filter dynamic_filter_io dynamic_filter_eval EXPORT DynamicFilterTargets ${destinations})
+install(TARGETS dynamic_filter_sim EXPORT DynamicFilterSimTargets ${destinations})
 foreach(set DynamicFilterTargets DynamicFilterSimTargets)
   install(EXPORT ${set} NAMESPACE DynamicFilter:: DESTINATION ${DF_CMAKE_DIR} COMPONENT dev)
 endforeach()
@@ -35,3 +41,19 @@ install(FILES ${PROJECT_BINARY_DIR}/DynamicFilterConfig.cmake ${PROJECT_BINARY_D
         DESTINATION ${DF_CMAKE_DIR} COMPONENT dev)
 
 install(TARGETS dynamicfilter RUNTIME COMPONENT command)
+
+set(DF_PYTHON_DIR lib/python3/dist-packages)  # where Debian's Python looks, below /usr
+if(DF_BUILD_PYTHON)
+  install(TARGETS _dynamicfilter LIBRARY DESTINATION ${DF_PYTHON_DIR}/dynamicfilter COMPONENT python)
+  install(FILES ${DF_PYTHON_SOURCES} DESTINATION ${DF_PYTHON_DIR}/dynamicfilter COMPONENT python)
+  install(DIRECTORY ${DF_PYTHON_DIST_INFO} DESTINATION ${DF_PYTHON_DIR} COMPONENT python)
+endif()
+
+# Shared libraries are found wherever the whole is moved to.
+if(BUILD_SHARED_LIBS)
+  set_target_properties(${DF_LIBRARIES} PROPERTIES INSTALL_RPATH $ORIGIN)
+  set_target_properties(dynamicfilter PROPERTIES INSTALL_RPATH $ORIGIN/../${CMAKE_INSTALL_LIBDIR})
+  if(DF_BUILD_PYTHON)
+    set_target_properties(_dynamicfilter PROPERTIES INSTALL_RPATH $ORIGIN/../../../../${CMAKE_INSTALL_LIBDIR})
+  endif()
+endif()

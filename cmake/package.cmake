@@ -1,23 +1,32 @@
 # Debian packages and a tarball that runs from wherever it is unpacked; script/package makes them.
-# The libraries are static, so users need only their development package.
 set(DF_DEBIAN ${PROJECT_SOURCE_DIR}/packaging/debian)
-set(DF_GZIPPED ${PROJECT_BINARY_DIR}/packaging)
+set(DF_PREPARED ${PROJECT_BINARY_DIR}/packaging)
 foreach(plain ${DF_DEBIAN}/changelog ${PROJECT_SOURCE_DIR}/packaging/dynamicfilter.1)
   cmake_path(GET plain FILENAME name)
-  file(MAKE_DIRECTORY ${DF_GZIPPED})
+  file(MAKE_DIRECTORY ${DF_PREPARED})
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${plain})
-  execute_process(COMMAND gzip -9nc ${plain} OUTPUT_FILE ${DF_GZIPPED}/${name}.gz COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND gzip -9nc ${plain} OUTPUT_FILE ${DF_PREPARED}/${name}.gz COMMAND_ERROR_IS_FATAL ANY)
 endforeach()
-install(FILES ${DF_GZIPPED}/dynamicfilter.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT command)
+install(FILES ${DF_PREPARED}/dynamicfilter.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT command)
 install(FILES packaging/dynamicfilter.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
         RENAME dynamicfilter COMPONENT command)
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libdynamicfilter-dev COMPONENT dev)
-set(components command dev)
-set(packages dynamicfilter libdynamicfilter-dev)
-foreach(component package IN ZIP_LISTS components packages)
+
+# The rest is for shared libraries: preset `package`.
+if(NOT BUILD_SHARED_LIBS)
+  return()
+endif()
+set(CPACK_COMPONENTS_ALL library dev command python)
+set(DF_LIBRARY_PACKAGE libdynamicfilter${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+set(packages ${DF_LIBRARY_PACKAGE} libdynamicfilter-dev dynamicfilter python3-dynamicfilter)
+set(sections libs libdevel science python)
+foreach(component package section IN ZIP_LISTS CPACK_COMPONENTS_ALL packages sections)
   set(doc ${CMAKE_INSTALL_DATADIR}/doc/${package})
   install(FILES ${DF_DEBIAN}/copyright DESTINATION ${doc} COMPONENT ${component})
-  install(FILES ${DF_GZIPPED}/changelog.gz DESTINATION ${doc} RENAME changelog.Debian.gz COMPONENT ${component})
+  install(FILES ${DF_PREPARED}/changelog.gz DESTINATION ${doc} RENAME changelog.Debian.gz COMPONENT ${component})
+  string(TOUPPER ${component} upper)
+  set(CPACK_DEBIAN_${upper}_PACKAGE_NAME ${package})
+  set(CPACK_DEBIAN_${upper}_PACKAGE_SECTION ${section})
 endforeach()
 
 set(CPACK_GENERATOR DEB TGZ)
@@ -33,19 +42,41 @@ set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
-set(CPACK_DEBIAN_COMMAND_PACKAGE_NAME dynamicfilter)
-set(CPACK_DEBIAN_COMMAND_PACKAGE_SECTION science)
-set(CPACK_DEBIAN_COMMAND_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SOURCE dynamicfilter)
+# dpkg-shlibdeps knows the libraries of others; ours is wanted at the same version, as the command and the module
+# use more of it than its public headers.
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/src ${PROJECT_BINARY_DIR}/src/io
+    ${PROJECT_BINARY_DIR}/src/eval ${PROJECT_BINARY_DIR}/src/sim)
+set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS ON)
+set(CPACK_COMPONENT_DEV_DEPENDS library)
+set(CPACK_COMPONENT_COMMAND_DEPENDS library)
+set(CPACK_COMPONENT_PYTHON_DEPENDS library)
+
+foreach(library IN LISTS DF_LIBRARIES)
+  get_target_property(soversion ${library} SOVERSION)
+  string(APPEND shlibs "lib${library} ${soversion} ${DF_LIBRARY_PACKAGE} (>= ${PROJECT_VERSION})\n")
+endforeach()
+file(WRITE ${DF_PREPARED}/shlibs ${shlibs})  # CPack's own would count the Python module, and warn
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${DF_PREPARED}/shlibs ${DF_DEBIAN}/library/triggers)
+install(FILES ${DF_DEBIAN}/library/lintian-overrides DESTINATION ${CMAKE_INSTALL_DATADIR}/lintian/overrides
+        RENAME ${DF_LIBRARY_PACKAGE} COMPONENT library)
+set(CPACK_COMPONENT_LIBRARY_DESCRIPTION "remove moving objects from LiDAR scans, shared libraries
+The filter, its readers and writers, scores, and a simulator, as the command
+dynamicfilter and the Python module use them, and programs in C++ may.")
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS libeigen3-dev)
+set(CPACK_COMPONENT_DEV_DESCRIPTION "remove moving objects from LiDAR scans, C++ headers
+Headers and CMake files of the filter, its readers and writers, scores, and a
+simulator; with examples.")
 set(CPACK_COMPONENT_COMMAND_DESCRIPTION "remove moving objects from LiDAR scans and maps
 Labels every point of a recording as static, dynamic or unknown, from scans
 and poses alone, and writes the map without what moves. Reads ROS bags, KITTI
 and folders of clouds.")
-set(CPACK_DEBIAN_DEV_PACKAGE_NAME libdynamicfilter-dev)
-set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
-    "libeigen3-dev, libtbb-dev, libfmt-dev, libpng-dev, libsqlite3-dev, libzstd-dev, libbz2-dev, zlib1g-dev, liblz4-dev, pkg-config")
-set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS libembree-dev)
-set(CPACK_COMPONENT_DEV_DESCRIPTION "remove moving objects from LiDAR scans, C++ libraries
-Static libraries, headers and CMake files: the filter, its readers and
-writers, scores, and a simulator (which needs libembree-dev).")
+math(EXPR next_python "${Python3_VERSION_MINOR} + 1")  # the module is for one minor version
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3-numpy, \
+python3 (>= ${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}), python3 (<< ${Python3_VERSION_MAJOR}.${next_python})")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${DF_DEBIAN}/python/postinst ${DF_DEBIAN}/python/prerm)
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION "remove moving objects from LiDAR scans, Python module
+The filter scan by scan with numpy's arrays, recordings and clouds as arrays,
+and what the command does: run, evaluate, simulate.")
 include(CPack)

@@ -15,7 +15,6 @@ if(DYNAMIC_FILTER_PYTHON)
   endif()
   if(Python3_Development.Module_FOUND AND pybind11_FOUND)
     set(DF_BUILD_PYTHON ON)
-    set(CMAKE_POSITION_INDEPENDENT_CODE ON)  # the module holds the libraries
   else()
     message(STATUS "No Python package: pybind11-dev or python3-dev is missing")
   endif()

@@ -27,12 +27,6 @@ def tag():
     return f"{python}-{python}-{platform}"
 
 
-def metadata():
-    return (f"Metadata-Version: 2.1\nName: dynamicfilter\nVersion: {version()}\n"
-            "Summary: Removes moving objects from LiDAR scans and maps\nLicense: MIT\n"
-            "Requires-Python: >=3.9\nRequires-Dist: numpy\n")
-
-
 def build():
     python = pathlib.Path(sys.executable).resolve()  # an environment of pip's would not last
     subprocess.run(["cmake", "--preset", "release", "-DDYNAMIC_FILTER_PYTHON=ON",
@@ -49,7 +43,7 @@ def files(name):
         yield f"dynamicfilter/{file}", (package / file).read_bytes()
     yield f"{name}.data/scripts/dynamicfilter", (BUILD / "dynamicfilter").read_bytes()
     yield f"{name}.dist-info/LICENSE", (ROOT / "LICENSE").read_bytes()
-    yield f"{name}.dist-info/METADATA", metadata().encode()
+    yield f"{name}.dist-info/METADATA", (BUILD / "python" / f"{name}.dist-info" / "METADATA").read_bytes()
     yield f"{name}.dist-info/WHEEL", (f"Wheel-Version: 1.0\nGenerator: dynamicfilter\n"
                                       f"Root-Is-Purelib: false\nTag: {tag()}\n").encode()
 

@@ -1,42 +1,89 @@
 #!/bin/sh
-# Builds the packages, and looks into them.
-#   run.sh BUILD VERSION
+# Makes the packages, looks into them, and uses them unpacked: the command, Python, a C++ project.
+#   run.sh SOURCE WORK VERSION LAUNCHER
 set -eu
-build=$1 version=$2
-work=$build/tests/package
+source=$1 work=$2 version=$3 launcher=$4
+"$source/script/package"
 rm -rf "$work"
-cpack --config "$build/CPackConfig.cmake" -B "$work" > "$work.log"
+mkdir -p "$work/root" "$work/anywhere"
 cd "$work"
 
-command=$(echo dynamicfilter_*.deb)
-dev=$(echo libdynamicfilter-dev_*.deb)
+packages=$source/build/packages
+soversion=${version%.*}
+library=$(echo "$packages"/libdynamicfilter"$soversion"_*.deb)
+dev=$(echo "$packages"/libdynamicfilter-dev_*.deb)
+command=$(echo "$packages"/dynamicfilter_*.deb)
+python=$(echo "$packages"/python3-dynamicfilter_*.deb)
 if command -v lintian > /dev/null; then
-    lintian --allow-root --fail-on error "$command" "$dev"
+    lintian --allow-root --fail-on error "$library" "$dev" "$command" "$python"
+else
+    echo "lintian is missing: the packages are not checked by it"
 fi
+
 holds() {  # PACKAGE PATH...
     package=$1
     shift
-    dpkg-deb -c "$package" > contents
+    dpkg-deb -c "$package" | sed 's/ -> .*//' > contents
     for path; do
-        grep -q " \./usr/$path\$" contents || { echo "$package holds no $path"; exit 1; }
+        grep -qE " \./usr/$path\$" contents || { echo "$package holds no $path"; exit 1; }
     done
 }
 holds_none() {  # PATTERN, of the package asked last
     if grep -E "$1" contents; then exit 1; fi
 }
+needs() {  # PACKAGE PATTERN...: each matches one that it depends on
+    dpkg-deb -f "$1" Depends | sed 's/, /\n/g' > depends
+    package=$1
+    shift
+    for pattern; do
+        grep -qxE "$pattern" depends || { echo "$package depends on no $pattern"; exit 1; }
+    done
+}
+ours="libdynamicfilter$soversion \\(= $version-1\\)"
+arch='lib/[a-z0-9_-]+-linux-gnu'
+for part in "" _io _eval _sim; do
+    holds "$library" "$arch/libdynamic_filter$part.so.$soversion"
+    holds "$dev" "$arch/libdynamic_filter$part.so"
+done
+holds "$library" share/doc/libdynamicfilter"$soversion"/copyright
+holds_none '/(include|bin|python3)/|\.so$'
+needs "$library" 'libc6 .*' 'libtbb12 .*' 'libembree3-3 .*'
+holds "$dev" include/dynamic_filter/dynamic_filter.hpp "$arch/cmake/DynamicFilter/DynamicFilterConfig.cmake" \
+    share/doc/libdynamicfilter-dev/examples/README.md
+holds_none '/bin/|\.a$|\.so\.'
+needs "$dev" "$ours" libeigen3-dev
+[ "$(wc -l < depends)" -eq 2 ] || { echo "$dev depends on more"; exit 1; }
 holds "$command" bin/dynamicfilter share/man/man1/dynamicfilter.1.gz share/bash-completion/completions/dynamicfilter \
     share/doc/dynamicfilter/copyright share/doc/dynamicfilter/changelog.Debian.gz
 holds_none '/(include|lib)/'
-holds "$dev" include/dynamic_filter/dynamic_filter.hpp lib/libdynamic_filter.a lib/libdynamic_filter_io.a \
-    lib/cmake/DynamicFilter/DynamicFilterConfig.cmake share/doc/libdynamicfilter-dev/examples/README.md
-holds_none /bin/
+needs "$command" "$ours" 'libc6 .*' 'libfmt9 .*'
+modules=lib/python3/dist-packages
+holds "$python" $modules/dynamicfilter/__init__.py $modules/dynamicfilter/__init__.pyi $modules/dynamicfilter/py.typed \
+    "$modules/dynamicfilter/_dynamicfilter\\..*\\.so" "$modules/dynamicfilter-$version.dist-info/METADATA"
+holds_none '/(include|bin)/'
+needs "$python" "$ours" python3-numpy 'python3 \(>= 3\.[0-9]+\)' 'python3 \(<< 3\.[0-9]+\)'
 
-dpkg-deb -x "$command" root
-mkdir anywhere
-tar -xzf dynamicfilter-*.tar.gz -C anywhere --strip-components 1
-for program in root/usr/bin/dynamicfilter anywhere/bin/dynamicfilter; do
-    "./$program" --version | grep -qF "$version"
+# Unpacked: all the packages in one root, and the tarball somewhere else. Each finds its own libraries.
+for package in "$library" "$dev" "$command" "$python"; do
+    dpkg-deb -x "$package" root
 done
+tar -xzf "$packages"/dynamicfilter-*.tar.gz -C anywhere --strip-components 1
+awk '/^```python$/ {on = 1; next} /^```$/ {on = 0} on' "$source/README.md" > lines.py
+for prefix in "$work/root/usr" "$work/anywhere"; do
+    "$prefix/bin/dynamicfilter" --version | grep -qF "$version"
+    for program in "$prefix"/bin/dynamicfilter "$prefix/$modules"/dynamicfilter/_*.so; do
+        [ "$(ldd "$program" | grep -c "libdynamic_filter.* => $prefix")" -eq 4 ] ||
+            { echo "$program finds not its own libraries"; exit 1; }
+    done
+    rm -rf demo from_python
+    "$prefix/bin/dynamicfilter" simulate crowd -o demo/recording --frames 20
+    PYTHONPATH=$prefix/$modules /usr/bin/python3 lines.py
+    PYTHONPATH=$prefix/$modules /usr/bin/python3 -c "
+from importlib.metadata import version
+assert version('dynamicfilter') == '$version'"
+done
+if grep -r "$source" root/usr/lib/*/cmake; then exit 1; fi
+"$source/tests/consumer/build.sh" "$source" "$work/root/usr" "$work/consumer" "$launcher"
 
 # The manual and the completion know every command.
 ./anywhere/bin/dynamicfilter --help | sed -n '/^Subcommands:/,$ s/^  \([a-z]*\) .*/\1/p' > commands
