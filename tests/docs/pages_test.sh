@@ -1,0 +1,41 @@
+#!/bin/sh
+# Runs every command of pages, as it stands there, in order: each page in an empty folder. Where a line
+# ends in `# exit N`, so must the command. script/demo is run as the command that it ends with (installing
+# and building have happened), and once for all pages; script/test is what runs this.
+#   pages_test.sh SOURCE COMMAND PAGE...
+set -eu
+source=$1 command=$2
+shift 2
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+PATH=$(dirname "$command"):$PATH
+
+run() {  # LINE
+    line=$1 expected=$(printf '%s\n' "$1" | sed -n 's/.*# exit \([0-9]*\)$/\1/p') status=0
+    case $line in
+        script/demo*)
+            grep -q '^build/release/dynamicfilter demo' "$source/script/demo"
+            if [ -d "$work/demo" ]; then cp -al "$work/demo" demo; return; fi
+            line='dynamicfilter demo' ;;
+        script/*) return ;;
+        *dynamicfilter\ serve\ *) line="timeout --preserve-status --signal=INT 2 $line" ;;  # ends by Ctrl-C
+    esac
+    echo "\$ $line"
+    sh -c "$line" </dev/null || status=$?
+    [ "$status" -eq "${expected:-0}" ] || { echo "$page: exit $status, not ${expected:-0}: $line"; exit 1; }
+}
+
+for page; do
+    mkdir -p "$work/here/build/release"
+    cd "$work/here"
+    ln -s "$command" build/release/dynamicfilter
+    awk '/^```sh$/ {on = 1; next} /^```$/ {on = 0} on' "$source/$page" > "$work/lines"
+    grep -o '`build/release/dynamicfilter [^`]*`' "$source/$page" | tr -d '`' >> "$work/lines" || true
+    grep -q dynamicfilter "$work/lines" || { echo "$page: no command found"; exit 1; }
+    while IFS= read -r line; do
+        case $line in ''|'#'*) ;; *) run "$line" ;; esac
+    done < "$work/lines"
+    [ -d "$work/demo" ] || [ ! -d demo ] || mv demo "$work/demo"
+    cd "$work"
+    rm -rf here
+done
