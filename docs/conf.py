@@ -21,6 +21,7 @@ myst_heading_anchors = 3
 html_math_renderer = "mathml"
 
 breathe_show_include = False  # it names files without their folders
+breathe_show_enumvalue_initializer = True
 
 html_theme = "furo"
 html_title = "DynamicFilter"

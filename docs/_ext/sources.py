@@ -22,14 +22,17 @@ class SourceLinks(SphinxTransform):
 
     def apply(self):
         folder = Path(self.env.doc2path(self.env.docname)).parent
-        for node in list(self.document.findall(lambda n: isinstance(n, (addnodes.pending_xref, addnodes.download_reference)))):
+        kinds = (addnodes.pending_xref, addnodes.download_reference)
+        for node in list(self.document.findall(lambda n: isinstance(n, kinds))):
             file = (folder / node.get("reftarget", "").split("#")[0]).resolve()
             if not file.is_file() or ROOT / "docs" in file.parents:
                 continue
             name = file.relative_to(ROOT).as_posix()
             shown.add(name)
             line = line_of(file.read_text(), node.astext())
-            uri = "../" * self.env.docname.count("/") + f"code/{name}.html" + (f"#line-{line}" if line else "")
+            uri = "../" * self.env.docname.count("/") + f"code/{name}.html"
+            if line:
+                uri += f"#line-{line}"
             link = nodes.reference("", "", refuri=uri, internal=True)
             link += node.children[0].children if isinstance(node.children[0], nodes.inline) else node.children
             node.replace_self(link)
@@ -42,8 +45,9 @@ def pages(app):
             lexer = get_lexer_for_filename(name)
         except ClassNotFound:
             lexer = TextLexer()
-        body = highlight(text, lexer, HtmlFormatter(lineanchors="line", wrapcode=True))
-        yield f"code/{name}", {"title": name, "body": f"<h1>{html.escape(name)}</h1>{body}", "parents": []}, "page.html"
+        body = f"<h1>{html.escape(name)}</h1>"
+        body += highlight(text, lexer, HtmlFormatter(lineanchors="line", wrapcode=True))
+        yield f"code/{name}", {"title": name, "body": body, "parents": []}, "page.html"
 
 
 def setup(app):
