@@ -15,6 +15,8 @@ version = release = re.search(r"VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").rea
 extensions = ["myst_parser", "breathe", "sphinx.ext.autodoc", "headers", "equations", "sources", "stubs", "furo_repair"]
 exclude_patterns = ["_*"]
 highlight_language = "none"
+smartquotes = False  # docstrings hold code
+default_role = "literal"
 
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 3
