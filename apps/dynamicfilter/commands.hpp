@@ -114,6 +114,6 @@ int report(const ReportOptions& options);
 int render(const RenderOptions& options);
 int serve(const ServeOptions& options);
 int info(const std::filesystem::path& file);
-int show_config(const ConfigOptions& options);
+int show_config(const ConfigOptions& options, bool json);
 
 }  // namespace dynamic_filter::app

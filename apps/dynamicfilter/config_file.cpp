@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <sstream>
 #include <vector>
@@ -106,8 +108,31 @@ std::string to_toml(const Config& config) {
     return text;
 }
 
-int show_config(const ConfigOptions& options) {
-    fmt::print("{}", to_toml(load_config(options)));
+std::string to_json(const Config& config) {
+    auto list = nlohmann::ordered_json::array();
+    visit(config, [&](const Setting& setting, const auto& member) {
+        nlohmann::ordered_json entry{{"key", setting.key}};
+        using Value = std::decay_t<decltype(member)>;
+        if constexpr (std::is_arithmetic_v<Value>) {
+            entry["value"] = member;
+        } else {
+            entry["value"] = get(config, setting.key);
+        }
+        if (setting.min < setting.max) {
+            entry["min"] = setting.min;
+            entry["max"] = setting.max;
+        }
+        entry["unit"] = setting.unit;
+        entry["symbol"] = setting.symbol;
+        entry["help"] = setting.help;
+        list.push_back(std::move(entry));
+    });
+    return list.dump(2) + '\n';
+}
+
+int show_config(const ConfigOptions& options, bool json) {
+    const Config config = load_config(options);
+    fmt::print("{}", json ? to_json(config) : to_toml(config));
     return kDone;
 }
 

@@ -239,7 +239,9 @@ void add_others(CLI::App& app, std::function<int()>& chosen) {
     auto config_options = std::make_shared<ConfigOptions>();
     CLI::App& c = *app.add_subcommand("config", "Print all settings as TOML");
     add_config_options(c, *config_options);
-    c.callback([=, &chosen] { chosen = [=] { return show_config(*config_options); }; });
+    auto json = std::make_shared<bool>(false);
+    c.add_flag("--json", *json, "as JSON, with bounds");
+    c.callback([=, &chosen] { chosen = [=] { return show_config(*config_options, *json); }; });
 }
 
 /// CLI11 would only ask for a subcommand.

@@ -369,6 +369,8 @@ TEST_F(Command, ConfigPrintsWhatRunReads) {
     spill(folder_ / "paper.toml", said());
     EXPECT_EQ(run("config --config paper.toml"), 0);
     EXPECT_EQ(said(), slurp(folder_ / "paper.toml"));
+    EXPECT_EQ(run("config --json --set back_end.voxel_size=0.125"), 0);
+    expect_said("0.125");
 }
 
 TEST_F(Command, NamesTheDefaultOutputByTimeAndLinksTheLatest) {

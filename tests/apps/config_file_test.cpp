@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "dynamic_filter/error.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -56,6 +58,26 @@ TEST(ConfigFile, RejectsWhatIsNotToml) {
     EXPECT_NE(error_of("[back_end\n").find("not TOML"), std::string::npos);
     EXPECT_NE(error_of("a = 1\na = 2\n").find("line 2"), std::string::npos);
     EXPECT_NE(error_of("back_end = 3\n").find("unknown setting"), std::string::npos);
+}
+
+/// What docs/parameters.md is made of.
+TEST(ConfigFile, JsonHoldsEverySettingWithItsBounds) {
+    const auto settings = nlohmann::json::parse(to_json(preset("paper")));
+    const Config config = preset("paper");
+    std::size_t i = 0;
+    visit(config, [&](const Setting& setting, const auto& member) {
+        const nlohmann::json& entry = settings.at(i++);
+        EXPECT_EQ(entry.at("key"), setting.key);
+        EXPECT_EQ(entry.at("help"), setting.help);
+        if constexpr (std::is_arithmetic_v<std::decay_t<decltype(member)>>) {
+            EXPECT_EQ(entry.at("value"), member);
+        } else {
+            EXPECT_EQ(entry.at("value"), get(config, setting.key));
+        }
+        EXPECT_EQ(entry.contains("min"), setting.max > 0.0);
+        EXPECT_EQ(entry.value("max", 0.0), setting.max);
+    });
+    EXPECT_EQ(settings.size(), i);
 }
 
 /// Deeper than any stack; and as deep as is let through.

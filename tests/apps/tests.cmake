@@ -8,8 +8,5 @@ df_test(apps/command dynamic_filter_app)
 add_dependencies(apps_command_test dynamicfilter)
 target_compile_definitions(apps_command_test PRIVATE COMMAND="$<TARGET_FILE:dynamicfilter>")
 
-# Every command of the README, as it stands there.
-add_test(NAME apps/readme COMMAND ${CMAKE_CURRENT_LIST_DIR}/readme_test.sh
-         ${PROJECT_SOURCE_DIR} $<TARGET_FILE:dynamicfilter>)
 add_test(NAME apps/kill COMMAND ${CMAKE_CURRENT_LIST_DIR}/kill_test.sh $<TARGET_FILE:dynamicfilter>)
 add_test(NAME apps/interrupt COMMAND ${CMAKE_CURRENT_LIST_DIR}/interrupt_test.sh $<TARGET_FILE:dynamicfilter>)

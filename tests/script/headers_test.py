@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Do the installed headers say what their users need? usage: headers_test.py ROOT
+"""Do the installed headers say what their users need? usage: headers_test.py
 
 Every declaration has a comment (doxygen tells), every number of type float or double a unit, and every
 header says in its first comment what holds for all of it: shapes, units, frames, ownership, threads and
@@ -13,6 +13,9 @@ import tempfile
 import xml.etree.ElementTree as ET
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "docs/_ext"))
+from headers import installed  # noqa: E402
+
 UNIT = r"\[(m|rad|s|ns|deg|Hz|bytes)\]|-?[01]\.\.1|in unit|file's unit"
 CONTRACT = {  # what a header's first comment must name, if its code has this
     "Shapes": r"\b(vector|span|Points?|Labels)\b",
@@ -24,15 +27,6 @@ CONTRACT = {  # what a header's first comment must name, if its code has this
 }
 SETTING = re.compile(r"of struct dynamic_filter::Config")  # visit() says what it is, and a test that it does
 PLAIN = "Plain data."  # a header of which there is no more to say
-
-
-def installed(root):
-    cmake = (root / "cmake/install.cmake").read_text()
-    core = re.search(r"set\(DF_CORE_HEADERS(.*?)\)", cmake, re.S).group(1).split()
-    base = root / "include/dynamic_filter"
-    parts = re.findall(r"include/dynamic_filter/(\w+)\b(?=[ )])", cmake)
-    assert parts == ["io", "eval", "sim"], parts
-    return [base / name for name in core] + [h for part in parts for h in sorted((base / part).glob("*.hpp"))]
 
 
 def xml_of(headers, folder):
@@ -74,7 +68,7 @@ def main():
     if not shutil.which("doxygen"):
         print("skipped: doxygen is missing (script/bootstrap tests)")
         sys.exit(77)
-    headers = installed(Path(sys.argv[1]))
+    headers = installed()
     with tempfile.TemporaryDirectory() as folder:
         roots, warnings = xml_of(headers, folder)
         functions = sum(len(list(root.iter("memberdef"))) for root in roots)

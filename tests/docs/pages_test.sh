@@ -1,0 +1,51 @@
+#!/bin/sh
+# Runs every command of pages, as it stands there, in order: each page in an empty folder. Where a line
+# ends in `# exit N`, so must the command. What stands in ```text must be said by them, but for speeds and "...".
+# script/demo is run as the command that it ends with (installing and building have happened), and once
+# for all pages; script/test is what runs this. Packages are not installed here: script/fresh --packages
+# does that, and takes the lines from the README, too.
+#   pages_test.sh SOURCE COMMAND PAGE...
+set -eu
+source=$1 command=$2
+shift 2
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+PATH=$(dirname "$command"):$PATH
+
+run() {  # LINE
+    line=$1 expected=$(printf '%s\n' "$1" | sed -n 's/.*# exit \([0-9]*\)$/\1/p') status=0
+    case $line in
+        script/demo*)
+            grep -q '^build/release/dynamicfilter demo' "$source/script/demo"
+            if [ -d "$work/demo" ]; then cp -al "$work/demo" demo; cat "$work/demo_said" >> "$work/said"; return; fi
+            line='dynamicfilter demo' ;;
+        script/* | apt-get\ install\ *) return ;;
+        *dynamicfilter\ serve\ *) line="timeout --preserve-status --signal=INT 2 $line" ;;  # ends by Ctrl-C
+    esac
+    echo "\$ $line"
+    sh -c "$line" < /dev/null > "$work/out" 2>&1 || status=$?
+    tee -a "$work/said" < "$work/out"
+    [ "$status" -eq "${expected:-0}" ] || { echo "$page: exit $status, not ${expected:-0}: $line"; exit 1; }
+}
+
+block() { awk -v begin="^\`\`\`$1\$" '$0 ~ begin {on = 1; next} /^```$/ {on = 0} on' "$source/$page"; }
+
+for page; do
+    : > "$work/said"
+    mkdir -p "$work/here/build/release"
+    cd "$work/here"
+    ln -s "$command" build/release/dynamicfilter
+    block sh > "$work/lines"
+    grep -o '`build/release/dynamicfilter [^`]*`' "$source/$page" | tr -d '`' >> "$work/lines" || true
+    grep -q dynamicfilter "$work/lines" || { echo "$page: no command found"; exit 1; }
+    while IFS= read -r line; do
+        case $line in ''|'#'*) ;; *) run "$line" ;; esac
+    done < "$work/lines"
+    block text | grep -v '^\.\.\.$\|scans/s' > "$work/lines" || true
+    while IFS= read -r line; do
+        grep -qxF -- "$line" "$work/said" || { echo "$page: not said any more: $line"; exit 1; }
+    done < "$work/lines"
+    if [ ! -d "$work/demo" ] && [ -d demo ]; then mv demo "$work/demo"; cp "$work/said" "$work/demo_said"; fi
+    cd "$work"
+    rm -rf here
+done
