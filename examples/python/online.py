@@ -12,7 +12,7 @@ for frame in df.open_recording(sys.argv[1]):  # on a robot: points N x 3 [m], T_
         for scan, better in filter.corrections():  # of the scans kept, those that later ones changed
             corrected += 1
 filter.finish()
-centers, probability = filter.static_map(radius=20.0)  # M x 3 [m] in the world's frame
+centers, probability = filter.local_map(radius=20.0)  # M x 3 [m] in the world's frame
 print(f"{len(filter)} scans, {corrected} corrected, {len(centers)} static voxels around")
 for scan, sentence in filter.notices():  # a jump of the poses, say
     print(f"scan {scan}: {sentence}")

@@ -2,9 +2,11 @@
 /// @file
 /// Every setting, its default, unit and bounds: written once, here.
 ///
-/// Units: what visit() says of each field. Ownership: texts of a Setting live for ever.
-/// Shapes: a sentence per fault.
-/// Threads: plain data and pure functions; thread-safe. Errors: ConfigError, where a function says.
+/// - Units: what visit() says of each field.
+/// - Ownership: texts of a Setting live for ever.
+/// - Shapes: a sentence per fault.
+/// - Threads: plain data and pure functions; thread-safe.
+/// - Errors: ConfigError, where a function says.
 #pragma once
 
 #include <string>

@@ -3,8 +3,10 @@
 /// Errors thrown at the boundaries. The message is one sentence for the user: what was found and
 /// where, what was expected, what to do.
 ///
-/// Errors: the core throws ConfigError only (and std::bad_alloc, as all do); readers InputError,
-/// writers OutputError. Ownership: all texts are copied. Threads: plain data.
+/// - Errors: the core throws ConfigError only (and std::bad_alloc, as all do); readers InputError,
+///   writers OutputError.
+/// - Ownership: all texts are copied.
+/// - Threads: plain data.
 #pragma once
 
 #include <filesystem>

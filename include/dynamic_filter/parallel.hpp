@@ -2,8 +2,9 @@
 /// @file
 /// The one door to threads. Bodies write by index only, so results do not depend on scheduling.
 ///
-/// Ownership: bodies are borrowed for the call. Threads: callable from any, also from a body.
-/// Errors: what the bodies throw.
+/// - Ownership: bodies are borrowed for the call.
+/// - Threads: callable from any, also from a body.
+/// - Errors: what the bodies throw.
 #pragma once
 
 #include <cstddef>

@@ -2,8 +2,11 @@
 /// @file
 /// Wall time per call of each stage, for timing.json.
 ///
-/// Units: [s]. Shapes: a Durations per stage. Ownership: values, copied; timed() borrows.
-/// Threads: single caller. Errors: none of its own.
+/// - Units: [s].
+/// - Shapes: a Durations per stage.
+/// - Ownership: values, copied; timed() borrows.
+/// - Threads: single caller.
+/// - Errors: none of its own.
 #pragma once
 
 #include <algorithm>

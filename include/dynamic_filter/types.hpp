@@ -2,10 +2,12 @@
 /// @file
 /// The words every module shares.
 ///
-/// Units: lengths in metres, angles in radians unless a name says `_deg`, times in seconds.
-/// Frames: *sensor* (one scan), *world* (the poses' frame), *map* (world, shifted to a nearby
-/// origin so that floats suffice); `T_a_b` maps coordinates of frame b into frame a. Shapes: arrays
-/// of one scan are parallel, an entry a point. Threads: plain data. Errors: none.
+/// - Units: lengths in metres, angles in radians unless a name says `_deg`, times in seconds.
+/// - Frames: *sensor* (one scan), *world* (the poses' frame), *map* (world, shifted to a nearby
+///   origin so that floats suffice); `T_a_b` maps coordinates of frame b into frame a.
+/// - Shapes: arrays of one scan are parallel, an entry a point.
+/// - Threads: plain data.
+/// - Errors: none.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -109,9 +109,11 @@ void bind_filter(py::module_& module) {
 
 config: None, a preset ("default", "paper"), the path of a TOML file, or a dict of settings such as
 {"back_end.voxel_size": 0.1} or {"preset": "paper", "submap": {"keyframes": 10}}; units and bounds:
-`dynamicfilter config`. threads: of each stage, 0: all cores.
+`dynamicfilter config`.
+threads: of each stage, 0: all cores.
 keep: True keeps every scan for labels() and corrections(), 13 bytes a point; a number keeps the
-newest so many, False none. horizon [m]: the map beyond it is forgotten, 0: none is.
+newest so many, False none.
+horizon [m]: the map beyond it is forgotten, 0: none is.
 max_bytes: of the map, 0: no bound. A voxel takes about 160 bytes.
 
 One filter serves one sensor. Scans are numbered from 0 as they come. Arrays given are copied, arrays

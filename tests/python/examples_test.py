@@ -17,7 +17,7 @@ def said(name, *arguments):
 
 class Examples(unittest.TestCase):
     def test_clean_folder_then_evaluate(self):
-        self.assertRegex(said("clean_folder", recording(), scratch("cleaned")), rf"\n{SCANS} scans, \d{{5,}} points stay\n$")
+        self.assertRegex(said("clean_folder", recording(), scratch("cleaned")), rf"^{SCANS} scans, \d{{5,}} points stay\n$")
         f1 = said("evaluate", recording(), scratch("cleaned")).split()[-1]
         self.assertGreater(float(f1), 0.8)
 

@@ -2,8 +2,10 @@
 /// @file
 /// What the scans said about a voxel, and how likely that makes it to be static (Sec. III-C1).
 ///
-/// Units: counts, and shares -1..1 or 0..1. Ownership: values; record() changes what it is given.
-/// Threads: plain data and pure functions. Errors: none; counters saturate.
+/// - Units: counts, and shares -1..1 or 0..1.
+/// - Ownership: values; record() changes what it is given.
+/// - Threads: plain data and pure functions.
+/// - Errors: none; counters saturate.
 #pragma once
 
 #include <cstdint>

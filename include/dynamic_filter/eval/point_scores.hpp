@@ -2,8 +2,10 @@
 /// @file
 /// Scores per point: those of DynamicMap_Benchmark, and the moving IoU.
 ///
-/// Units: fractions 0..1. Ownership: values. Threads: plain data and pure functions. Errors: none;
-/// what cannot be said is empty.
+/// - Units: fractions 0..1.
+/// - Ownership: values.
+/// - Threads: plain data and pure functions.
+/// - Errors: none; what cannot be said is empty.
 #pragma once
 
 #include <cstddef>

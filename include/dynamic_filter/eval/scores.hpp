@@ -2,9 +2,12 @@
 /// @file
 /// All scores of one result against ground truth.
 ///
-/// Units: [m]; scores are fractions 0..1. Frames: any one for all scans and the map.
-/// Shapes: arrays of one scan are parallel. Ownership: sources and maps are borrowed for the call.
-/// Threads: thread-safe; sources are called from several. Errors: what a source throws.
+/// - Units: [m]; scores are fractions 0..1.
+/// - Frames: any one for all scans and the map.
+/// - Shapes: arrays of one scan are parallel.
+/// - Ownership: sources and maps are borrowed for the call.
+/// - Threads: thread-safe; sources are called from several.
+/// - Errors: what a source throws.
 #pragma once
 
 #include <cstddef>

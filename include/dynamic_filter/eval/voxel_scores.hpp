@@ -2,9 +2,12 @@
 /// @file
 /// Preservation rate, rejection rate and F1 of a static map, voxel by voxel (Sec. IV-A).
 ///
-/// Units: [m]; scores are fractions 0..1. Frames: any one for both maps. Shapes: point by point.
-/// Ownership: values. Threads: a VoxelTally has a single caller. Errors: none; what cannot be said
-/// is empty.
+/// - Units: [m]; scores are fractions 0..1.
+/// - Frames: any one for both maps.
+/// - Shapes: point by point.
+/// - Ownership: values.
+/// - Threads: a VoxelTally has a single caller.
+/// - Errors: none; what cannot be said is empty.
 #pragma once
 
 #include <cstdint>

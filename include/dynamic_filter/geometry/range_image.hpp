@@ -2,10 +2,13 @@
 /// @file
 /// Spherical range images (Sec. III-B1): azimuth wraps, elevation covers what the data covers.
 ///
-/// Units: [m], [rad]. Frames: the image's own: x ahead, z up, azimuth from x to y; points come in
-/// it or with a transform into it. Shapes: a value per pixel, row by row; arrays of points are
-/// parallel. Ownership: points are borrowed for the call, results are the caller's.
-/// Threads: pure functions; thread-safe. Errors: none; what is no measurement falls outside.
+/// - Units: [m], [rad].
+/// - Frames: the image's own: x ahead, z up, azimuth from x to y; points come in it or with a
+///   transform into it.
+/// - Shapes: a value per pixel, row by row; arrays of points are parallel.
+/// - Ownership: points are borrowed for the call, results are the caller's.
+/// - Threads: pure functions; thread-safe.
+/// - Errors: none; what is no measurement falls outside.
 #pragma once
 
 #include <cstdint>

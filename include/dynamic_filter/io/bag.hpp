@@ -3,10 +3,11 @@
 /// Messages recorded on topics: MCAP files, ROS 1 bags (.bag) and ROS 2 bags (a folder of .db3 or
 /// .mcap files, with or without metadata.yaml, or one such file).
 ///
-/// Units: [ns] since the recorder's epoch, [bytes]. Shapes: messages are bytes, see messages.hpp.
-/// Ownership: a Bag owns its open files; a Message borrows from it for the call.
-/// Threads: read() from any; the rest single caller. Errors: InputError; what is damaged, not all
-/// unreadable, is a Defect.
+/// - Units: [ns] since the recorder's epoch, [bytes].
+/// - Shapes: messages are bytes, see messages.hpp.
+/// - Ownership: a Bag owns its open files; a Message borrows from it for the call.
+/// - Threads: read() from any; the rest single caller.
+/// - Errors: InputError; what is damaged, not all unreadable, is a Defect.
 #pragma once
 
 #include <cstddef>

@@ -2,9 +2,11 @@
 /// @file
 /// Bags that other programs read: MCAP and SQLite as ROS 2 writes them, and ROS 1's .bag.
 ///
-/// Units: [ns] since the recorder's epoch. Shapes: messages are bytes, see messages.hpp.
-/// Ownership: topics and bytes are borrowed for the call. Threads: single caller.
-/// Errors: OutputError, and ConfigError from create(); nothing is left of a bag without commit().
+/// - Units: [ns] since the recorder's epoch.
+/// - Shapes: messages are bytes, see messages.hpp.
+/// - Ownership: topics and bytes are borrowed for the call.
+/// - Threads: single caller.
+/// - Errors: OutputError, and ConfigError from create(); nothing is left of a bag without commit().
 #pragma once
 
 #include <cstddef>

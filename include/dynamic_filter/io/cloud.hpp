@@ -2,10 +2,12 @@
 /// @file
 /// A point cloud as files hold it: packed records with named fields, nothing lost or converted.
 ///
-/// Units: the file's own, metres by custom. Frames: the file's own: the sensor's for scans, the
-/// world's for maps. Shapes: N records; arrays made of them are parallel to these. Ownership:
-/// values, copied; find() points into the cloud. Threads: plain data; const and free functions are
-/// thread-safe. Errors: InputError with the byte or line; Error where a field is missing.
+/// - Units: the file's own, metres by custom.
+/// - Frames: the file's own: the sensor's for scans, the world's for maps.
+/// - Shapes: N records; arrays made of them are parallel to these.
+/// - Ownership: values, copied; find() points into the cloud.
+/// - Threads: plain data; const and free functions are thread-safe.
+/// - Errors: InputError with the byte or line; Error where a field is missing.
 #pragma once
 
 #include <cstddef>

@@ -2,9 +2,11 @@
 /// @file
 /// Files that appear whole or not at all.
 ///
-/// Units: [bytes]. Shapes: bytes as they are. Ownership: an AtomicFile owns its descriptor; what it
-/// writes is borrowed for the call. Threads: single caller per file. Errors: InputError of a
-/// reader, OutputError of a writer, both with the system's reason.
+/// - Units: [bytes].
+/// - Shapes: bytes as they are.
+/// - Ownership: an AtomicFile owns its descriptor; what it writes is borrowed for the call.
+/// - Threads: single caller per file.
+/// - Errors: InputError of a reader, OutputError of a writer, both with the system's reason.
 #pragma once
 
 #include <cstddef>

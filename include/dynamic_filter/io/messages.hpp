@@ -2,9 +2,12 @@
 /// @file
 /// ROS messages as bytes, for BagWriter. Covariances and velocities are zero.
 ///
-/// Units: [m]; stamps [s], rounded to nanoseconds. Frames: named by the caller.
-/// Shapes: bytes of one message. Ownership: values. Threads: pure functions; thread-safe.
-/// Errors: Error, where a stamp or a text does not fit the message.
+/// - Units: [m]; stamps [s], rounded to nanoseconds.
+/// - Frames: named by the caller.
+/// - Shapes: bytes of one message.
+/// - Ownership: values.
+/// - Threads: pure functions; thread-safe.
+/// - Errors: Error, where a stamp or a text does not fit the message.
 #pragma once
 
 #include <cstddef>

@@ -2,8 +2,10 @@
 /// @file
 /// Pictures.
 ///
-/// Shapes: rows of pixels, row by row. Threads: thread-safe. Errors: OutputError.
-/// Ownership: values.
+/// - Shapes: rows of pixels, row by row.
+/// - Threads: thread-safe.
+/// - Errors: OutputError.
+/// - Ownership: values.
 #pragma once
 
 #include <array>

@@ -2,8 +2,12 @@
 /// @file
 /// What users get wrong about poses, and how it is put right.
 ///
-/// Frames: what each fix says. Units: [m] but for millimetres. Shapes: one pose at a time.
-/// Ownership: values. Threads: pure functions; thread-safe. Errors: none.
+/// - Frames: what each fix says.
+/// - Units: [m] but for millimetres.
+/// - Shapes: one pose at a time.
+/// - Ownership: values.
+/// - Threads: pure functions; thread-safe.
+/// - Errors: none.
 #pragma once
 
 #include <string>

@@ -2,9 +2,12 @@
 /// @file
 /// Pose files.
 ///
-/// Units: [m]; stamps [s]. Frames: T_world_sensor, if that is what the file holds (see
-/// pose_fix.hpp). Shapes: an entry a line. Ownership: values. Threads: thread-safe. Errors:
-/// InputError; for a line that is no rigid motion it names the line and the likely cause.
+/// - Units: [m]; stamps [s].
+/// - Frames: T_world_sensor, if that is what the file holds (see pose_fix.hpp).
+/// - Shapes: an entry a line.
+/// - Ownership: values.
+/// - Threads: thread-safe.
+/// - Errors: InputError; for a line that is no rigid motion it names the line and the likely cause.
 #pragma once
 
 #include <filesystem>

@@ -2,8 +2,11 @@
 /// @file
 /// Whether the scans of a recording fit together by their poses, and what is wrong if they do not.
 ///
-/// Units: shares 0..1. Shapes: lists, the likeliest first. Ownership: values; the sequence is
-/// borrowed. Threads: thread-safe; uses parallel_for. Errors: InputError, if no scan can be read.
+/// - Units: shares 0..1.
+/// - Shapes: lists, the likeliest first.
+/// - Ownership: values; the sequence is borrowed.
+/// - Threads: thread-safe; uses parallel_for.
+/// - Errors: InputError, if no scan can be read.
 #pragma once
 
 #include <cstddef>

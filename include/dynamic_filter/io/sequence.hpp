@@ -2,11 +2,12 @@
 /// @file
 /// A recording: scans in order, a pose and a stamp for each, ground truth where there is any.
 ///
-/// Units: [m]; stamps [s]. Frames: points in the sensor's, poses T_world_sensor; what comes
-/// otherwise is converted. Shapes: arrays of a Sequence have an entry a scan, those of a Frame one
-/// a point. Ownership: values; a Sequence shares its open bag with its copies. Threads: a Sequence
-/// is not changed once open; functions that take one are thread-safe. Errors: InputError (which
-/// file, where in it) and ConfigError.
+/// - Units: [m]; stamps [s].
+/// - Frames: points in the sensor's, poses T_world_sensor; what comes otherwise is converted.
+/// - Shapes: arrays of a Sequence have an entry a scan, those of a Frame one a point.
+/// - Ownership: values; a Sequence shares its open bag with its copies.
+/// - Threads: a Sequence is not changed once open; functions that take one are thread-safe.
+/// - Errors: InputError (which file, where in it) and ConfigError.
 #pragma once
 
 #include <cstddef>

@@ -2,9 +2,12 @@
 /// @file
 /// Poses over time.
 ///
-/// Units: [m], [s]. Frames: poses T_world_sensor; points in the sensor's. Shapes: arrays are
-/// parallel. Ownership: values; undo_motion() changes what it is given. Threads: pure functions;
-/// thread-safe. Errors: none.
+/// - Units: [m], [s].
+/// - Frames: poses T_world_sensor; points in the sensor's.
+/// - Shapes: arrays are parallel.
+/// - Ownership: values; undo_motion() changes what it is given.
+/// - Threads: pure functions; thread-safe.
+/// - Errors: none.
 #pragma once
 
 #include <optional>

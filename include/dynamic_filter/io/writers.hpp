@@ -2,10 +2,12 @@
 /// @file
 /// Writers of what a run and a simulation leave behind. All are atomic.
 ///
-/// Units: as given, metres by custom; stamps [s]. Frames: as given; poses T_world_sensor.
-/// Shapes: a record a point, a line a pose. Ownership: what is written is borrowed for the call.
-/// Threads: a PcdWriter has a single caller; functions are thread-safe for files that differ.
-/// Errors: OutputError; write_cloud() ConfigError for an extension that it does not know.
+/// - Units: as given, metres by custom; stamps [s].
+/// - Frames: as given; poses T_world_sensor.
+/// - Shapes: a record a point, a line a pose.
+/// - Ownership: what is written is borrowed for the call.
+/// - Threads: a PcdWriter has a single caller; functions are thread-safe for files that differ.
+/// - Errors: OutputError; write_cloud() ConfigError for an extension that it does not know.
 #pragma once
 
 #include <cstddef>

@@ -2,11 +2,12 @@
 /// @file
 /// The whole pipeline, scan by scan (Fig. 2).
 ///
-/// Units: [m], [s], probabilities 0..1. Frames: points in the sensor's, poses T_world_sensor, maps
-/// in the world's. Shapes: verdicts are parallel to the points of their scan. Ownership: scans are
-/// moved in and not kept; results are the caller's. Threads: single caller; const members may run
-/// in several threads while no other runs. Errors: ConfigError from the constructor;
-/// std::bad_alloc.
+/// - Units: [m], [s], probabilities 0..1.
+/// - Frames: points in the sensor's, poses T_world_sensor, maps in the world's.
+/// - Shapes: verdicts are parallel to the points of their scan.
+/// - Ownership: scans are moved in and not kept; results are the caller's.
+/// - Threads: single caller; const members may run in several threads while no other runs.
+/// - Errors: ConfigError from the constructor; std::bad_alloc.
 #pragma once
 
 #include <cstddef>

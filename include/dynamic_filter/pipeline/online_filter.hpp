@@ -3,11 +3,14 @@
 /// The pipeline beside a running sensor: scans in at any time, verdicts out, never more behind than
 /// a short queue.
 ///
-/// Units: [m], [s], [bytes]. Frames: points in the sensor's, poses T_world_sensor, maps in the
-/// world's. Shapes: verdicts are parallel to the points of their scan. Ownership: scans are moved
-/// in and not kept; callbacks are copied, and what they are given is valid for the call. Threads:
-/// any may call, see OnlineFilter. Errors: ConfigError from the constructor; what a stage or a
-/// callback throws comes out of the next push(), ask(), flush() or finish().
+/// - Units: [m], [s], [bytes].
+/// - Frames: points in the sensor's, poses T_world_sensor, maps in the world's.
+/// - Shapes: verdicts are parallel to the points of their scan.
+/// - Ownership: scans are moved in and not kept; callbacks are copied, and what they are given is
+///   valid for the call.
+/// - Threads: any may call, see OnlineFilter.
+/// - Errors: ConfigError from the constructor; what a stage or a callback throws comes out of the
+///   next push(), ask(), flush() or finish().
 #pragma once
 
 #include <cstdint>

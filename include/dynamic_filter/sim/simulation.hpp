@@ -2,9 +2,12 @@
 /// @file
 /// Scenes with exact labels: a crowd (Sec. IV-A), a street, a square, a hall; rays cast by Embree.
 ///
-/// Units: [m], [s], [deg]. Frames: points in the sensor's, poses T_world_sensor; world: z up.
-/// Shapes: arrays of a scan are parallel. Ownership: values. Threads: a Simulation has a single
-/// caller (it uses parallel_for inside). Errors: ConfigError.
+/// - Units: [m], [s], [deg].
+/// - Frames: points in the sensor's, poses T_world_sensor; world: z up.
+/// - Shapes: arrays of a scan are parallel.
+/// - Ownership: values.
+/// - Threads: a Simulation has a single caller (it uses parallel_for inside).
+/// - Errors: ConfigError.
 #pragma once
 
 #include <cstddef>
