@@ -41,9 +41,10 @@ struct OnlineOptions {
     /// farthest are forgotten until they need three quarters of it. To forget, the map is copied,
     /// so for a moment there is more. 0: no bound.
     std::size_t max_bytes = std::size_t{2} << 30;
-    std::size_t settle_after = 0;  ///< a scan is settled when so many came after it, where scans
-                                   ///< observe; 0: never
-    int threads = 0;               ///< for the work inside; 0: all cores
+    /// A scan is settled when so many came after it, or at a break of the trajectory or finish(),
+    /// where scans observe. It is kept until then. 0: never.
+    std::size_t settle_after = 0;
+    int threads = 0;  ///< for the work inside; 0: all cores
 };
 
 /// Something that a robot's log should hold. All but `jump` and `restart` cost the scan.
