@@ -10,7 +10,7 @@ Made by `script/docs` from `dynamicfilter config --json`; a test fails if it is 
 
 Change one with `--set back_end.voxel_size=0.1`, many with `--config FILE` (TOML, as `dynamicfilter config` prints it), and all of them to the paper's pipeline with
 `--preset paper`. A run writes what was in force into its `config.toml`; the same file gives the same run again. What is out of bounds or unknown ends the command with
-exit code 2 and names the nearest setting.
+exit code 2: the message names the bounds, or the setting whose name is nearest.
 
 ```sh
 dynamicfilter config > settings.toml
@@ -18,8 +18,9 @@ dynamicfilter config --preset paper --set submap.keyframes=10
 ```
 
 With the default preset few of them matter: `back_end.voxel_size` (finer costs time and memory, see [performance](performance.md)), `back_end.occupancy_threshold` (higher removes
-more), `back_end.max_scans` (memory), `submap.keyframe_interval` and `submap.keyframe_distance` (how often a scan observes). The others belong to submaps that observe. What
-decides beyond these is not set but written in the code, with its reasons: [algorithm](algorithm.md).
+more), `back_end.max_scans` (memory), `submap.keyframe_interval` and `submap.keyframe_distance` (how often a scan observes). Two say only what comes out: `back_end.search_radius` (of local
+maps) and `output.keep_unknown`. `submap.keyframes`, `front_end.*` and the rest of `back_end.*` belong to submaps that observe; `back_end.enabled=false` and `method=removert` make submaps of the
+scans, too. What decides beyond these is not set but written in the code, with its reasons: [algorithm](algorithm.md).
 
 Bold where the presets differ. *Paper*: symbol, section or table there. The code: [`Config`](../include/dynamic_filter/config.hpp).
 """

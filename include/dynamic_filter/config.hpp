@@ -162,7 +162,7 @@ Config preset(std::string_view name);
 /// the nearest one, a bad value says what was expected. Bounds are checked by violations().
 void set(Config& config, std::string_view key, std::string_view value);
 
-/// The value of a field as set() reads it.
+/// The value of a field as set() reads it. Throws ConfigError as set() does: an unknown key.
 std::string get(const Config& config, std::string_view key);
 
 /// One sentence per setting that is out of bounds; empty if all is well.

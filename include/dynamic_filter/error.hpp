@@ -3,8 +3,9 @@
 /// Errors thrown at the boundaries. The message is one sentence for the user: what was found and
 /// where, what was expected, what to do.
 ///
-/// - Errors: the core throws ConfigError only (and std::bad_alloc, as all do); readers InputError,
-///   writers OutputError.
+/// - Errors: the core throws ConfigError, and Error for a call out of order; readers throw
+///   InputError, writers OutputError. Besides these, all may throw std::bad_alloc, and what starts
+///   threads std::system_error.
 /// - Ownership: all texts are copied.
 /// - Threads: plain data.
 #pragma once
@@ -15,7 +16,7 @@
 
 namespace dynamic_filter {
 
-/// What all of them are.
+/// What all of them are; thrown itself where none of the others fits.
 struct Error : std::runtime_error {
     using std::runtime_error::runtime_error;
 };

@@ -26,7 +26,8 @@ enum class Label : std::uint8_t { unknown = 0, still = 9, dynamic = 251 };
 using Labels = std::vector<Label>;  ///< N of them, parallel to the points
 
 /// One sweep of the sensor. Points are in the sensor frame and may be non-finite or at the origin:
-/// such points are no evidence and end as `Label::unknown`.
+/// such points are no evidence and end as `Label::unknown`. Pose and stamp must be finite, the pose
+/// rigid: OnlineFilter and the readers refuse others, DynamicFilter does not look.
 struct Scan {
     Points points;                           ///< [m] sensor frame, unordered
     Pose T_world_sensor = Pose::Identity();  ///< where the sensor was at `stamp`

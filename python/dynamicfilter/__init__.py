@@ -31,9 +31,10 @@ def run(data, output=None, **options):
     rate; 0: as fast as it can), quiet (False: progress, notes and the closing table on stderr and
     stdout, as the command has them), and how to read the recording, as of open_recording().
     Returns {"output": folder, "metrics": as in metrics.json, "timing": as in timing.json [s, ms]};
-    labels are in its folder `labels`, N uint32 a scan.
-    Raises ConfigError, InputError, OutputError, and KeyboardInterrupt after what was filtered
-    until then is written.
+    labels are in its folder `labels`, N uint32 a scan. Scans that were rejected or dropped raise
+    nothing: they are in metrics["rejected"], ["dropped"] and ["lost"].
+    Raises ConfigError (also if the folder holds something, without overwrite or resume), InputError,
+    OutputError, and KeyboardInterrupt after what was filtered until then is written.
     """
     folder, metrics, timing = _dynamicfilter.run(data, output, options)
     return {"output": str(folder), "metrics": _json.loads(metrics), "timing": _json.loads(timing)}
@@ -45,6 +46,6 @@ def evaluate(truth, *, labels=None, map=None, voxel=0.2, **options):
     labels: folder of label files (N uint32 a scan), or of a run; or map: cloud file in the world's
     frame [m]. voxel: edge of a voxel [m]. Options: as of open_recording().
     Returns the scores as a dict of shares 0..1, and how many `scans` were scored and `left_out`.
-    Raises ConfigError and InputError.
+    Raises ConfigError, InputError, TypeError and ValueError.
     """
     return _json.loads(_dynamicfilter.evaluate(truth, labels, map, voxel, options))

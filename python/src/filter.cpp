@@ -111,13 +111,15 @@ config: None, a preset ("default", "paper"), the path of a TOML file, or a dict 
 {"back_end.voxel_size": 0.1} or {"preset": "paper", "submap": {"keyframes": 10}}; units and bounds:
 `dynamicfilter config`.
 threads: of each stage, 0: all cores.
-keep: True keeps every scan for labels() and corrections(), 13 bytes a point; a number keeps the
-newest so many, False none.
-horizon [m]: the map beyond it is forgotten, 0: none is.
+keep: True keeps every scan for labels() and corrections(), 13 bytes a point (14 with the preset
+"paper"); a number keeps the newest so many, False none.
+horizon [m]: the map beyond it is forgotten, and at a break of the trajectory all that was before;
+0: none is.
 max_bytes: of the map, 0: no bound. A voxel takes about 160 bytes.
 
-One filter serves one sensor. Scans are numbered from 0 as they come. Arrays given are copied, arrays
-returned are the caller's. Any thread may call; the GIL is free meanwhile. Raises ConfigError.)")
+One filter serves one sensor. Scans are numbered from 0 as they come; those refused have no number.
+Arrays given are copied, arrays returned are the caller's. Any thread may call; the GIL is free
+meanwhile. Raises ConfigError, TypeError and ValueError.)")
         .def(py::init(&make_filter), py::arg("config") = py::none(), py::kw_only(),
              py::arg("threads") = 0, py::arg("keep") = true, py::arg("horizon") = 0.0,
              py::arg("max_bytes") = 0)
@@ -126,22 +128,26 @@ returned are the caller's. Any thread may call; the GIL is free meanwhile. Raise
 
 points: N x 3 or more columns, float32 or float64, any strides: x y z [m] in the sensor's frame;
 further columns are not looked at. Points that are not finite, or at the origin, are no measurement.
-pose: 4 x 4, T_world_sensor: maps the sensor's coordinates into the world [m].
-stamp: [s], growing.
+Integers and structured arrays raise TypeError.
+pose: 4 x 4, T_world_sensor: maps the sensor's coordinates into the world [m]. A rotation that is
+off by up to 0.001 is made exact; more raises ValueError.
+stamp: [s], growing. What is up to a second before the last is late; more begins a new map, and
+notices() says so.
 Returns labels: N uint8: 0 unknown, 9 static, 251 dynamic. With the preset "paper" all are 0, and
 corrections() has them when a window of scans is full.
-Raises TypeError, ValueError, and Error if the scan comes late or again; it is not taken then.)")
+Raises TypeError, ValueError, and Error if the scan comes late or again (it is not taken then), or
+after finish(). Raises as flush() does.)")
         .def("corrections", &corrections, py::arg("newest") = py::none(),
              R"(Scans kept whose labels changed since they were told last.
 
 newest: asks only so many scans, the newest; each costs about what labels() does.
-Returns a list of (number of the scan, labels: N uint8, as push() returns them). Raises what went
-wrong in the filter's threads, as flush() does.)")
+Returns a list of (number of the scan, labels: N uint8, as push() returns them). Raises as flush()
+does.)")
         .def("labels", &labels, py::arg("scan"),
              R"(The labels of a scan from all evidence so far; after finish(), the final ones.
 
 scan: its number. Returns N uint8: 0 unknown, 9 static, 251 dynamic.
-Raises IndexError if it is not kept.)")
+Raises IndexError if it is not kept, and as flush() does.)")
         .def("static_map", &static_map, R"(The static voxels of the whole map.
 
 After finish(), of all there is, merged; before it, of what came since the last break of the
@@ -153,7 +159,8 @@ place is occupied). Raises as flush() does.)")
 
 pose: 4 x 4, T_world_query, anywhere; None: the last scan's.
 radius [m]: None: `back_end.search_radius`; with the preset "paper" always that.
-Returns (centers, probability), as static_map() does. Raises TypeError and ValueError.)")
+Returns (centers, probability), as static_map() does. Raises TypeError and ValueError, and as flush()
+does.)")
         .def("flush", &KeptFilter::flush, Release(),
              "Waits until every scan pushed is in the map. Raises what went wrong in the filter's "
              "threads (MemoryError); the filter is of no use then.")

@@ -143,8 +143,8 @@ scene: crowd, street, square or hall; sensor: see `dynamicfilter simulate --help
 pedestrians: -1: the scene's own number; seed: same seed, same bytes; frames: None: the whole scene;
 rate: scans per second, 0: the scene's own; pose_noise [m], pose_noise_deg [deg]: standard deviation
 of each axis; overwrite: replaces an earlier recording; quiet: False shows the progress on stderr.
-Returns the number of points. Raises ConfigError, OutputError, and KeyboardInterrupt,
-which leaves nothing.)");
+Returns the number of points. Raises ConfigError (also if there is an earlier recording), OutputError,
+and KeyboardInterrupt, which leaves nothing.)");
 }
 
 }  // namespace dynamic_filter::python

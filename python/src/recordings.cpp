@@ -50,7 +50,8 @@ auto view(View of) {
 void bind_frame(py::module_& module) {
     py::class_<io::Frame>(module, "Frame", R"(A scan of a recording.
 
-Arrays are views of its memory, which they keep alive; any thread may read.)")
+Arrays are views of its memory, which they keep alive: writing to them changes the frame. Any thread
+may read.)")
         .def_property_readonly("points", view([](const io::Frame& f, const py::object& self) {
                                    return points_array(f.points, self);
                                }),
@@ -83,7 +84,8 @@ Scans are read when asked for and not kept. Any thread may read; the GIL is free
         .def("__len__", &io::Sequence::size, "How many scans there are.")
         // By index until IndexError; so is iteration.
         .def("__getitem__", &frame_at, py::arg("i"),
-             "Reads scan i. Raises InputError if it cannot be used.")
+             "Reads scan i; -1 is the last. Raises InputError if it cannot be used, IndexError if "
+             "there is none.")
         .def_property_readonly(
             "format", [](const io::Sequence& s) { return io::to_string(s.format); },
             "kitti, benchmark, folder or bag")
@@ -103,8 +105,8 @@ pose_fix: none, inverse, camera, lidar, wxyz, xyzw or mm, as `dynamicfilter chec
 points_in_world: scans are in the poses' frame. time_unit: s, ms, us or ns, of the stamps.
 deskew: undoes the sensor's motion during each scan. first, last, stride: which scans.
 Returns a sequence of Frame: points N x 3 float32 [m] in the sensor's frame, pose 4 x 4
-T_world_sensor [m], stamp [s], truth N uint8 or None, fields N records. Raises InputError and
-ConfigError.)");
+T_world_sensor [m], stamp [s], truth N uint8 or None, fields N records. Raises InputError, ConfigError
+and TypeError.)");
 }
 
 }  // namespace dynamic_filter::python

@@ -38,10 +38,12 @@ PointScore point_score(const CoverCount& count);
 
 /// Points of the dynamic class: said to be, and being so.
 struct Confusion {
-    std::size_t true_positive = 0;         ///< said, and are
-    std::size_t false_positive = 0;        ///< said, and are not
-    std::size_t false_negative = 0;        ///< not said, and are
-    void add(Label truth, Label verdict);  ///< one point more; unknown truth is left out
+    std::size_t true_positive = 0;   ///< said, and are
+    std::size_t false_positive = 0;  ///< said, and are not
+    std::size_t false_negative = 0;  ///< not said, and are
+    /// One point more. Points of unknown truth must be left out by the caller: unknown counts as
+    /// not dynamic.
+    void add(Label truth, Label verdict);
     /// TP / (TP + FP + FN), 0..1; empty if nothing is or was said to be dynamic.
     [[nodiscard]] std::optional<double> iou() const;
 };

@@ -34,7 +34,8 @@ struct ImageGrid {
 };
 
 /// A grid that covers [elevation_min, elevation_max] with steps of at least the ones asked for
-/// [rad]; the azimuth step is rounded up so that whole columns fill the circle.
+/// [rad], which are greater than 0; the azimuth step is rounded up so that whole columns fill the
+/// circle.
 ImageGrid make_grid(float azimuth_step, float elevation_step, float elevation_min,
                     float elevation_max);
 

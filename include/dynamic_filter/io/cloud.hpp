@@ -51,7 +51,7 @@ struct Cloud {
     [[nodiscard]] const Field* find(const std::string& name) const;  ///< nullptr if absent
 };
 
-/// Adds a field behind the others; existing records must not exist yet (call on an empty cloud).
+/// Adds a field behind the others. Only while the cloud has no records.
 void add_field(Cloud& cloud, const std::string& name, FieldType type, std::uint32_t count = 1);
 
 /// The first value of `field` in each record, in the file's unit, converted to double. Thread-safe.

@@ -3,10 +3,10 @@
 /// Whether the scans of a recording fit together by their poses, and what is wrong if they do not.
 ///
 /// - Units: shares 0..1.
-/// - Shapes: lists, the likeliest first.
+/// - Shapes: lists; findings on stamps come first, then on points, then on poses.
 /// - Ownership: values; the sequence is borrowed.
 /// - Threads: thread-safe; uses parallel_for.
-/// - Errors: InputError, if no scan can be read.
+/// - Errors: none of its own; scans that cannot be read are in `unusable`.
 #pragma once
 
 #include <cstddef>

@@ -33,15 +33,17 @@ void put_in_order(Trajectory& trajectory);
 std::optional<Pose> pose_at(const Trajectory& trajectory, double stamp, double gap = 1.0,
                             double beyond = 0.0);
 
-/// When each point was measured, [s] from the scan's stamp [s], from the field that says so ("t",
-/// "time", "timestamp", "offset_time", "time_offset"); seconds, milliseconds, microseconds or
-/// nanoseconds, from the stamp or absolute. Empty if there is none that spans up to a second, or if
-/// all are equal.
+/// When each point was measured, [s] from the scan's stamp [s], from the first field there is of
+/// "t", "time", "timestamp", "offset_time", "time_offset", "timeOffset", "time_stamp" and "ts";
+/// seconds, milliseconds, microseconds or nanoseconds, from the stamp or absolute. Empty if there
+/// is none, if the times span less than 1 ms in any unit that makes them span up to a second, or if
+/// they are absolute and more than 10 s from the stamp.
 std::vector<float> point_times(const Cloud& cloud, double stamp);
 
 /// The points as if all had been measured at the scan's stamp [s]: each is moved by what the sensor
-/// moved since or until then. Points whose time lies beyond the trajectory stay where they are.
-/// Sensor frame in, sensor frame out.
+/// moved since or until then. Points whose time lies more than 0.2 s beyond the trajectory, or in a
+/// gap of it of more than 1 s, stay where they are; all do if the stamp itself does. Sensor frame
+/// in, sensor frame out.
 void undo_motion(Points& points, const std::vector<float>& times, double stamp,
                  const Trajectory& T_world_sensor);
 

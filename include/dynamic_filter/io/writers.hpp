@@ -7,7 +7,8 @@
 /// - Shapes: a record a point, a line a pose.
 /// - Ownership: what is written is borrowed for the call.
 /// - Threads: a PcdWriter has a single caller; functions are thread-safe for files that differ.
-/// - Errors: OutputError; write_cloud() ConfigError for an extension that it does not know.
+/// - Errors: OutputError (also for an extension that write_cloud() does not know, a missing field,
+///   arrays of unequal length); Error from PcdWriter::append() for a part of a record.
 #pragma once
 
 #include <cstddef>

@@ -5,9 +5,11 @@
 /// - Units: [m], [s], probabilities 0..1.
 /// - Frames: points in the sensor's, poses T_world_sensor, maps in the world's.
 /// - Shapes: verdicts are parallel to the points of their scan.
-/// - Ownership: scans are moved in and not kept; results are the caller's.
+/// - Ownership: scans are moved in, and not kept (where submaps observe: until their window is
+///   processed); results are the caller's.
 /// - Threads: single caller; const members may run in several threads while no other runs.
-/// - Errors: ConfigError from the constructor; std::bad_alloc.
+/// - Errors: ConfigError from the constructor; std::bad_alloc, after which the filter can only be
+///   destroyed or assigned to. A call out of order is not noticed: its effect is undefined.
 #pragma once
 
 #include <cstddef>
@@ -68,7 +70,8 @@ class DynamicFilter {
 public:
     /// Throws ConfigError.
     explicit DynamicFilter(const Config& config);
-    DynamicFilter(DynamicFilter&&) noexcept;             ///< the other one can only be destroyed
+    /// The other one can only be destroyed or assigned to.
+    DynamicFilter(DynamicFilter&&) noexcept;
     DynamicFilter& operator=(DynamicFilter&&) noexcept;  ///< as above
     ~DynamicFilter();
 
@@ -93,8 +96,8 @@ public:
     /// said: not measured, or beyond the reach of a voxel's key.
     [[nodiscard]] Verdict verdict(const Scan& scan) const;
 
-    /// The verdict on a scan from the evidence so far, where scans observe; what stands on a static
-    /// surface is told from it by the final verdict only.
+    /// The verdict on a scan from the evidence so far; what stands on a static surface is told from
+    /// it by the final verdict only. Only where scans observe (`front_end_waits()`).
     [[nodiscard]] Verdict settled(const Scan& scan) const;
 
     /// The voxel of each point of a scan; UINT32_MAX: none.
@@ -106,8 +109,9 @@ public:
     [[nodiscard]] std::vector<std::size_t> keyframes() const;
     [[nodiscard]] std::size_t keyframes_total() const;  ///< with those that are known no more
 
-    /// Forgets the map beyond `radius` [m] of a pose, and the farthest of it until its size() is at
-    /// most `most`. What is forgotten is unknown.
+    /// Forgets the map beyond `radius` [m] of a pose, and the farthest of it until its size() is
+    /// about `most`: voxels go in blocks of 4 x 4 x 4, submaps as a whole, of which `most` spares
+    /// one. What is forgotten is unknown.
     void keep_within(const Pose& T_world_center, double radius, std::size_t most);
     /// Voxels of the map, or points of its submaps.
     [[nodiscard]] std::size_t size() const;

@@ -6,11 +6,12 @@
 /// - Units: [m], [s], [bytes].
 /// - Frames: points in the sensor's, poses T_world_sensor, maps in the world's.
 /// - Shapes: verdicts are parallel to the points of their scan.
-/// - Ownership: scans are moved in and not kept; callbacks are copied, and what they are given is
-///   valid for the call.
+/// - Ownership: scans are moved in, and kept while they wait, and until they are settled; callbacks
+///   are copied, and what they are given is valid for the call.
 /// - Threads: any may call, see OnlineFilter.
-/// - Errors: ConfigError from the constructor; what a stage or a callback throws comes out of the
-///   next push(), ask(), flush() or finish().
+/// - Errors: ConfigError from the constructor (std::system_error if no thread can be started); what
+///   a stage or a callback throws comes out of every later push(), ask(), flush() and finish(); the
+///   filter judges no more then. Error from push() and ask() after finish().
 #pragma once
 
 #include <cstdint>
@@ -36,20 +37,22 @@ struct OnlineOptions {
     std::size_t queue = 2;  ///< scans that may wait, besides the one being judged; at least 1
     Overload overload = Overload::drop_oldest;  ///< what a full queue does
     double horizon = 200.0;                     ///< [m] the map is forgotten beyond it; 0: no bound
-    /// The farthest of the map is forgotten where its voxels (submaps: their points) need more; to
-    /// forget, the map is copied, so for a moment there is more. 0: no bound.
+    /// [bytes] Where the map's voxels (submaps: their points) need more, at 160 bytes each, the
+    /// farthest are forgotten until they need three quarters of it. To forget, the map is copied,
+    /// so for a moment there is more. 0: no bound.
     std::size_t max_bytes = std::size_t{2} << 30;
-    std::size_t settle_after = 0;  ///< a scan is settled when so many came after it, where scans
-                                   ///< observe; 0: never
-    int threads = 0;               ///< for the work inside; 0: all cores
+    /// A scan is settled when so many came after it, or at a break of the trajectory or finish(),
+    /// where scans observe. It is kept until then. 0: never.
+    std::size_t settle_after = 0;
+    int threads = 0;  ///< for the work inside; 0: all cores
 };
 
 /// Something that a robot's log should hold. All but `jump` and `restart` cost the scan.
 enum class NoticeKind {
     dropped,    ///< overload
     late,       ///< its stamp is before that of a scan already judged
-    duplicate,  ///< stamp and pose of the scan before
-    invalid,    ///< stamp or pose is not a number, or the rotation is none
+    duplicate,  ///< stamp and pose of the scan before, or of one that waits
+    invalid,    ///< stamp or pose is not finite, or the pose not rigid (to 1e-3)
     jump,       ///< the pose jumped: a new map begins, which knows nothing of the one before
     restart     ///< stamps went back by more than a second: a new map begins
 };
@@ -63,30 +66,36 @@ struct Notice {
 
 /// Verdicts come from the filter's threads (the last ones from the caller of finish()), notices
 /// also from the caller of push(); one call of each kind at a time. They should be quick, because
-/// the next scan waits for them, and must call nothing of the filter but counters(). What the first
-/// two throw stops the filter.
+/// the next scan waits for them, and must call nothing of the filter but counters(). What they
+/// throw stops the filter; but what `notice` throws on a scan that is dropped or refused comes out
+/// of the push() that told it, and the filter goes on.
 struct OnlineCallbacks {
     std::function<void(const Verdict&)> instant;  ///< of every scan judged, in order
     std::function<void(const Verdict&)> settled;  ///< corrections, see `settle_after`
     std::function<void(const Notice&)> notice;    ///< for the robot's log
 };
 
-/// in = processed + dropped + rejected + queued, whenever asked. A scan in work is still queued.
+/// in = processed + dropped + rejected + queued, whenever asked. Until its verdict is delivered, a
+/// scan is queued. One that could not be judged because a stage failed counts as rejected.
 struct Counters {
     std::uint64_t in = 0;         ///< pushed
-    std::uint64_t processed = 0;  ///< judged and integrated
+    std::uint64_t processed = 0;  ///< judged; its integration may still be under way, see flush()
     std::uint64_t dropped = 0;    ///< by overload
     std::uint64_t rejected = 0;   ///< late, duplicate or invalid
-    std::uint64_t queued = 0;     ///< waiting, or in work
+    std::uint64_t queued = 0;     ///< waiting, or being judged
 };
 
 /// Two threads of its own, and those of the work inside: the front-end judges scan after scan, the
 /// back-end integrates beside the caller, and beside the front-end where submaps observe. Scans
 /// that wait are put in the order of their stamps. One filter serves one vehicle; indices of scans
 /// must grow. push(), ask(), flush(), finish(), counters(), settled() and local_static_map() may
-/// be called from any thread, the others after flush(). An exception in a stage is thrown to the
-/// next caller of push(), ask(), flush() or finish(). The destructor drops what waits, and does not
-/// finish().
+/// be called from any thread at any time; the others while nothing is pushed, after flush() or, if
+/// they say so, after finish(). The destructor drops what waits, lets what was judged be
+/// integrated, and does not finish().
+///
+/// A break of the trajectory (jump, restart) begins a new map. With a horizon, the maps before it
+/// are forgotten as a whole: of their scans all is unknown, also after finish(). With a horizon of
+/// 0 they are kept.
 ///
 /// Where stamps are in order, the trajectory has no break, and nothing is dropped or forgotten,
 /// verdicts are those of DynamicFilter on the same scans, to the byte. Points more than 105 km (at
@@ -107,18 +116,18 @@ public:
     /// observe: a window's verdicts come to the callback when it closes.
     std::optional<Verdict> ask(Scan scan);
 
-    /// Waits until all that was pushed is judged and integrated.
+    /// Waits until all that was pushed is judged and integrated, by this thread or another.
     void flush();
 
     /// flush(), settles what is not, and decides every voxel. Nothing can be pushed after it.
     void finish();
 
     /// After finish(): the final verdict on a scan that was pushed, with the index it had. Where
-    /// the horizon forgot what it saw: unknown.
+    /// the horizon or a break of the trajectory made forget what it saw: unknown.
     [[nodiscard]] Verdict verdict(const Scan& scan) const;
 
-    /// The verdict on a scan that was pushed from the evidence so far, where scans observe. Waits
-    /// for the stage in work, and the next one waits for it.
+    /// The verdict on a scan that was pushed from the evidence so far. Only where scans observe.
+    /// Waits for the stage in work, and the next one waits for it.
     [[nodiscard]] Verdict settled(const Scan& scan) const;
 
     /// After finish(), to explain verdicts: a number for the voxel of each point of a scan that was
@@ -129,13 +138,14 @@ public:
     [[nodiscard]] std::vector<VoxelHistory> histories(std::span<const std::uint64_t> places) const;
 
     [[nodiscard]] Counters counters() const;  ///< consistent, whenever asked
-    /// The static voxels within `radius` [m] of a pose (DynamicFilter::local_static_map), as of
-    /// now. Waits for the stage in work, and the next one waits for it.
+    /// The static voxels of the newest map within `radius` [m] of a pose
+    /// (DynamicFilter::local_static_map), as of now. Waits for the stage in work, and the next one
+    /// waits for it.
     [[nodiscard]] std::vector<StaticVoxel> local_static_map(const Pose& T_world_query,
                                                             std::optional<double> radius = {});
 
-    /// The merged map, after finish() (Sec. III-D): the static voxels of all maps; where maps
-    /// overlap, a place comes once from each.
+    /// The merged map, after finish() (Sec. III-D): the static voxels of all maps that are kept;
+    /// where maps overlap, a place comes once from each.
     [[nodiscard]] std::vector<StaticVoxel> static_map() const;
 
     /// How the stages did, once flush() has returned; `latency`: from push() to the end of judging.
