@@ -94,7 +94,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     visit(config, [&](const Setting& s, const auto&) {
         // A user who leaves out the section means the same key.
         const auto name = s.key.substr(s.key.find('.') + 1);
-        const std::size_t d = std::min(edit_distance(key, s.key), edit_distance(key, name) + 1);
+        std::size_t d = std::min(edit_distance(key, s.key), edit_distance(key, name) + 1);
+        if (name.starts_with(key)) d = std::min<std::size_t>(d, 2);
         if (d < best) {
             best = d;
             nearest = s.key;
@@ -153,6 +154,11 @@ std::vector<std::string> violations(const Config& config) {
             "front_end.enabled and back_end.enabled are both false: nothing would be done");
     }
     return found;
+}
+
+bool scans_observe(const Config& config) {
+    return config.method == Method::dynamic_filter && config.back_end.enabled &&
+           config.back_end.observers == Observers::scans;
 }
 
 void validate(const Config& config) {

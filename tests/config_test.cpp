@@ -232,5 +232,16 @@ TEST(Config, PresetsAreValidAndUnknownOnesNameTheChoices) {
     }
 }
 
+TEST(Config, ScansObserveUnlessSomethingElseDecides) {
+    Config config;
+    EXPECT_TRUE(scans_observe(config));
+    config.method = Method::removert;
+    EXPECT_FALSE(scans_observe(config));
+    config = {};
+    config.back_end.enabled = false;
+    EXPECT_FALSE(scans_observe(config));
+    EXPECT_FALSE(scans_observe(preset("paper")));
+}
+
 }  // namespace
 }  // namespace dynamic_filter

@@ -107,10 +107,8 @@ void write_report(Pass& pass, const nlohmann::ordered_json& metrics,
         return;
     }
     const auto start = std::chrono::steady_clock::now();
-    const bool has_evidence =
-        pass.config.back_end.enabled && pass.config.back_end.observers == Observers::scans;
     PageRun run = view_of({pass.sequence, pass.filter, pass.scan_notes, pass.instant,
-                           pass.output.path() / "labels", has_evidence});
+                           pass.output.path() / "labels", scans_observe(pass.config)});
     describe(run, pass);
     run.info["scores"] = metrics;
     run.info["timing"] = timing;

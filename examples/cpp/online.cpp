@@ -36,12 +36,13 @@ void replay(const df::io::Sequence& sequence) {
     };
 
     df::OnlineFilter filter(df::Config{}, options, callbacks);
+    df::Pose last;
     for (std::size_t i = 0; i < sequence.size(); ++i) {
         df::io::Frame frame = df::io::read_frame(sequence, i);
+        last = frame.T_world_sensor;
         filter.push({std::move(frame.points), frame.T_world_sensor, frame.stamp, i});
     }
     filter.finish();
-    const df::Pose& last = sequence.T_world_sensor.back();
     std::printf("%zu scans, %zu verdicts corrected, %zu static voxels around\n",
                 filter.counters().processed, changed, filter.local_static_map(last).size());
 }

@@ -168,6 +168,9 @@ std::string get(const Config& config, std::string_view key);
 /// One sentence per setting that is out of bounds; empty if all is well.
 std::vector<std::string> violations(const Config& config);
 
+/// Whether scans look at voxels (the default); otherwise submaps do, or nobody (no back-end).
+bool scans_observe(const Config& config);
+
 /// Throws ConfigError listing all violations.
 void validate(const Config& config);
 

@@ -9,7 +9,7 @@
 namespace dynamic_filter::python {
 
 KeptFilter::KeptFilter(const Config& config, OnlineOptions options, std::size_t keep)
-    : scans_observe_(config.back_end.observers == Observers::scans),
+    : scans_observe_(scans_observe(config)),
       most_kept_(keep),
       filter_(config, options, callbacks()) {}
 

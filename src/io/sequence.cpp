@@ -167,8 +167,16 @@ void apply_fixes(Sequence& sequence, const OpenOptions& options) {
         for (Pose& pose : *poses) pose = fixed(sequence.pose_fix, pose);
     }
     if (!sequence.measured_stamps) return;
+    std::vector<double>& of_poses = sequence.pose_stamps;
+    const auto span = [](const std::vector<double>& s) { return s.back() - s.front(); };
+    const double unit = options.time_unit;
+    // Matched by order, they may be in seconds although the scans' are not.
+    if (!of_poses.empty() && std::abs(span(of_poses) - span(sequence.stamps)) <
+                                 std::abs(span(of_poses) - unit * span(sequence.stamps))) {
+        for (double& stamp : of_poses) stamp *= unit;
+    }
     for (auto* stamps : {&sequence.stamps, &sequence.trajectory.stamps}) {
-        for (double& stamp : *stamps) stamp *= options.time_unit;
+        for (double& stamp : *stamps) stamp *= unit;
     }
 }
 

@@ -113,9 +113,7 @@ DynamicFilter::Impl::Impl(const Config& config)
       back_end_(config_),
       evidence_(config_) {}
 
-bool DynamicFilter::Impl::scans_observe() const {
-    return config_.back_end.enabled && config_.back_end.observers == Observers::scans;
-}
+bool DynamicFilter::Impl::scans_observe() const { return dynamic_filter::scans_observe(config_); }
 
 Pose DynamicFilter::Impl::to_map_frame(const Pose& T_world_sensor) const {
     Pose shifted = T_world_sensor;
@@ -397,6 +395,7 @@ std::vector<VoxelHistory> DynamicFilter::Impl::histories(
 
 Verdict DynamicFilter::Impl::settled(const Scan& scan) const {
     auto [in_map, voxels, verdict] = locate(scan);
+    if (!scans_observe()) return std::move(verdict);
     PointVoxels own = voxels;
     std::sort(own.begin(), own.end());
     own.erase(std::unique(own.begin(), own.end()), own.end());

@@ -145,7 +145,7 @@ void OnlineFilter::Engine::push(Waiting waiting) {
             changed.wait(hold, [&] { return failure || queue.size() < options.queue; });
         }
         rethrow();
-        if (finished) throw Error("push() after finish(): make another OnlineFilter");
+        if (finished) throw Error("push() after finish(): make another filter");
         ++counters.in;
         refused = queue.refusal(waiting.scan);
         if (refused) {

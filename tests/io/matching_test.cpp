@@ -55,6 +55,21 @@ TEST_F(MatchingTest, StampsOfBothSidesAreKeptWhereOrderDecides) {
     EXPECT_DOUBLE_EQ(sequence.pose_stamps[0], 100.2);
 }
 
+TEST_F(MatchingTest, AUnitOfTimeIsThatOfThePosesTooUnlessTheyAreInSeconds) {
+    put_bins("scans", 3);
+    data.put("times.txt", "200\n600\n1000\n");
+    OpenOptions milliseconds;
+    milliseconds.time_unit = 1e-3;
+    for (const char* poses : {"200 0 0 0 0 0 0 1\n600 1 0 0 0 0 0 1\n1000 2 0 0 0 0 0 1\n",
+                              "0.2 0 0 0 0 0 0 1\n0.6 1 0 0 0 0 0 1\n1 2 0 0 0 0 0 1\n"}) {
+        data.put("traj.txt", poses);
+        const Sequence sequence = open(milliseconds);
+        ASSERT_EQ(sequence.pose_stamps.size(), 3U);
+        EXPECT_DOUBLE_EQ(sequence.stamps[2], 1.0);
+        EXPECT_DOUBLE_EQ(sequence.pose_stamps[2], 1.0) << poses;
+    }
+}
+
 TEST_F(MatchingTest, TimesFile) {
     put_bins("scans", 2);
     data.put("times.txt", "0.2\n0.8\n");

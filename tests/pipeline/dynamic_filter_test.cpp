@@ -315,6 +315,18 @@ TEST_P(StaticLocalMap, HoldsTheVoxelsAroundAnyPose) {
     EXPECT_EQ(filter.local_static_map(query, 1e6).empty(), !scans_observe);
 }
 
+TEST(DynamicFilter, NothingIsSettledWhereScansDoNotObserve) {
+    Config no_back_end;
+    no_back_end.back_end.enabled = false;
+    for (const Config& config : {small_windows(), no_back_end}) {
+        DynamicFilter filter(config);
+        auto scans = drive(6, false);
+        for (auto& s : scans) filter.push(s.scan);
+        const Labels labels = filter.settled(scans[0].scan).labels;
+        EXPECT_EQ(labels, Labels(scans[0].scan.points.size(), Label::unknown));
+    }
+}
+
 TEST_P(StaticLocalMap, MergedHoldsTheStaticPointsOfAllScans) {
     auto scans = drive(6, true);
     DynamicFilter filter(GetParam());

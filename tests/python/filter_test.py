@@ -120,6 +120,16 @@ class Course(unittest.TestCase):
         self.assertRaises(ValueError, filter.local_map, radius=-1.0)
         self.assertRaises(ValueError, filter.local_map, np.eye(3))
 
+    def test_what_never_gets_evidence_is_asked_all_the_same(self):
+        for config in ({"back_end.enabled": False}, {"method": "removert"}, "paper"):
+            filter = df.DynamicFilter(config)
+            push_all(filter)
+            filter.flush()
+            filter.corrections()
+            self.assertEqual(len(filter.labels(0)), len(frames()[0].points))
+            filter.finish()
+            self.assertGreater((filter.labels(0) == df.STATIC).sum(), 1000)
+
     def test_merged_map(self):
         for config in ("default", {"preset": "paper", "submap.keyframes": 5}):
             filter = df.DynamicFilter(config)

@@ -2,7 +2,7 @@
 // The page with what the command fills in: a report, a comparison, and a run watched live.
 import assert from "node:assert/strict";
 import { execFileSync, spawn } from "node:child_process";
-import { mkdtempSync, rmSync } from "node:fs";
+import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { after, before, describe, test } from "node:test";
@@ -61,10 +61,14 @@ describe("what the command shows", { skip: command ? false : "DF_COMMAND is not 
     const address = await until(() => said.match(/http:\/\/127\.0\.0\.1:\d+\//)?.[0], "an address");
     const { page, complaints } = await open(address);
     const live = () => page.evaluate(() => window.viewer.live());
-    await until(async () => (await live()).scans === FRAMES, "every scan arrives", 30_000);
-    await until(async () => (await live()).corrections >= FRAMES, "every scan is corrected", 30_000);
+    // On a busy machine the run drops scans, as it should.
+    const judged = await until(() => existsSync(at("live/metrics.json")) && JSON.parse(readFileSync(at("live/metrics.json"))).scans,
+      "the run is done", 60_000);
+    assert.ok(judged > FRAMES / 2, `${judged} scans`);
+    await until(async () => (await live()).scans === judged, "every scan arrives", 30_000);
+    await until(async () => (await live()).corrections >= judged, "every scan is corrected", 30_000);
     await shot(page, "command-live");
-    assert.equal(await ended, 0, said);
+    assert.equal(await ended, judged === FRAMES ? 0 : 4, said);
     assert.deepEqual(complaints.filter((text) => !/Failed to load|ERR_CONNECTION/.test(text)), []);
     await page.close();
   });

@@ -117,7 +117,7 @@ Camera camera_for(const Eigen::AlignedBox3f& box, int width, int height, const R
 }
 
 void animate_cleaning(const io::Sequence& sequence, const Config& config, const RenderOptions& o) {
-    if (config.back_end.observers != Observers::scans) {
+    if (!scans_observe(config)) {
         throw ConfigError(
             "render: only where scans observe (--preset default) is there a map to "
             "show after every scan");

@@ -136,7 +136,7 @@ void judge_poses(Preflight& result, const Sequence& sequence, const Samples& sam
         if (stands_still(samples, pairs)) return;
         result.findings.push_back(
             {"all poses are equal, but what the scans show moves",
-             "give the trajectory with --poses; if the scans are in the world's frame, too"});
+             "--poses FILE with the trajectory; scans in the world's frame need it as well"});
         return;
     }
     const bool files_in_world = sequence.format == Format::benchmark;
