@@ -129,6 +129,7 @@ TEST(Config, AnUnknownKeyNamesTheNearestOne) {
     says("front_end.tua", "'front_end.tau'");
     says("revert_radius", "'front_end.revert_radius'");
     says("Method", "'method'");
+    says("voxel", "'back_end.voxel_size'");  // its beginning
     says("submap.keyframe_distanc", "'submap.keyframe_distance'");
     // One letter wrong or missing anywhere still finds the key.
     for (const Setting& s : settings()) {
