@@ -1,7 +1,7 @@
 # Debian packages and a tarball that runs from wherever it is unpacked; script/package makes them.
 set(DF_DEBIAN ${PROJECT_SOURCE_DIR}/packaging/debian)
 set(DF_PREPARED ${PROJECT_BINARY_DIR}/packaging)
-foreach(plain ${DF_DEBIAN}/changelog ${PROJECT_SOURCE_DIR}/packaging/dynamicfilter.1)
+foreach(plain ${DF_DEBIAN}/changelog ${PROJECT_SOURCE_DIR}/packaging/dynamicfilter.1 ${PROJECT_SOURCE_DIR}/CHANGELOG.md)
   cmake_path(GET plain FILENAME name)
   file(MAKE_DIRECTORY ${DF_PREPARED})
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${plain})
@@ -11,6 +11,8 @@ install(FILES ${DF_PREPARED}/dynamicfilter.1.gz DESTINATION ${CMAKE_INSTALL_MAND
 install(FILES packaging/dynamicfilter.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
         RENAME dynamicfilter COMPONENT command)
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libdynamicfilter-dev COMPONENT dev)
+install(DIRECTORY examples/python/ DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-dynamicfilter/examples COMPONENT python)
+install(FILES README.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/dynamicfilter COMPONENT command)
 
 # The rest is for shared libraries: preset `package`.
 if(NOT BUILD_SHARED_LIBS)
@@ -24,6 +26,7 @@ foreach(component package section IN ZIP_LISTS CPACK_COMPONENTS_ALL packages sec
   set(doc ${CMAKE_INSTALL_DATADIR}/doc/${package})
   install(FILES ${DF_DEBIAN}/copyright DESTINATION ${doc} COMPONENT ${component})
   install(FILES ${DF_PREPARED}/changelog.gz DESTINATION ${doc} RENAME changelog.Debian.gz COMPONENT ${component})
+  install(FILES ${DF_PREPARED}/CHANGELOG.md.gz DESTINATION ${doc} RENAME changelog.gz COMPONENT ${component})
   string(TOUPPER ${component} upper)
   set(CPACK_DEBIAN_${upper}_PACKAGE_NAME ${package})
   set(CPACK_DEBIAN_${upper}_PACKAGE_SECTION ${section})

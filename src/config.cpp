@@ -89,9 +89,11 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 [[noreturn]] void unknown_key(std::string_view key) {
     std::string_view nearest;
-    std::size_t best = std::string_view::npos;
+    std::size_t best = std::max<std::size_t>(3, key.size() / 2);  // beyond it nothing is near
+    bool is_section = false;
     Config config;
     visit(config, [&](const Setting& s, const auto&) {
+        is_section |= s.key.starts_with(std::string(key) + ".");
         // A user who leaves out the section means the same key.
         const auto name = s.key.substr(s.key.find('.') + 1);
         std::size_t d = std::min(edit_distance(key, s.key), edit_distance(key, name) + 1);
@@ -101,6 +103,9 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
             nearest = s.key;
         }
     });
+    if (is_section) throw ConfigError(quoted(key) + " is a section: name a setting in it");
+    if (nearest.empty())
+        throw ConfigError("unknown setting " + quoted(key) + "; see `dynamicfilter config`");
     throw ConfigError("unknown setting " + quoted(key) + "; did you mean " + quoted(nearest) + "?");
 }
 

@@ -26,6 +26,7 @@ struct ConfigOptions {
     std::string preset = "default";
     std::optional<std::filesystem::path> file;
     std::vector<std::string> assignments;  ///< "a.b=v"
+    std::string assigned_by = "--set ";    ///< what errors call them
 };
 
 /// A recording, and how to read it.
@@ -47,6 +48,7 @@ struct RunOptions {
     bool view = false;
     std::uint16_t port = 0;  ///< of the view; 0: any
     bool quiet = false;      ///< says only what is wrong
+    bool catches = true;     ///< interrupts; otherwise the caller does
 };
 
 struct EvalOptions {

@@ -75,7 +75,8 @@ Config load_config(const ConfigOptions& options) {
             if (equals == std::string::npos) throw ConfigError("expected section.key=value");
             set(config, assignment.substr(0, equals), assignment.substr(equals + 1));
         } catch (const ConfigError& error) {
-            errors.push_back(fmt::format("--set {}: {}", assignment, error.what()));
+            errors.push_back(
+                fmt::format("{}{}: {}", options.assigned_by, assignment, error.what()));
         }
     }
     if (!errors.empty()) throw ConfigError(fmt::format("{}", fmt::join(errors, "\n  ")));

@@ -237,7 +237,7 @@ void add_others(CLI::App& app, std::function<int()>& chosen) {
     i.callback([=, &chosen] { chosen = [=] { return info(*file); }; });
 
     auto config_options = std::make_shared<ConfigOptions>();
-    CLI::App& c = *app.add_subcommand("config", "Print all settings as TOML");
+    CLI::App& c = *app.add_subcommand("config", "Print all settings as TOML or JSON");
     add_config_options(c, *config_options);
     auto json = std::make_shared<bool>(false);
     c.add_flag("--json", *json, "as JSON, with bounds");

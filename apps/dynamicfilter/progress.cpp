@@ -13,7 +13,7 @@ namespace dynamic_filter::app {
 
 namespace {
 
-volatile std::sig_atomic_t signal_seen = 0;
+volatile std::sig_atomic_t signal_seen = 0, later_one_kills = 1;
 timespec first_signal{};
 
 /// `timeout`, supervisors and terminals signal a process and then its whole group: what comes
@@ -30,7 +30,7 @@ extern "C" void note_signal(int number) {
     }
     const double since = static_cast<double>(now.tv_sec - first_signal.tv_sec) +
                          1e-9 * static_cast<double>(now.tv_nsec - first_signal.tv_nsec);
-    if (since < kOneWish) return;
+    if (since < kOneWish || later_one_kills == 0) return;
     std::signal(number, SIG_DFL);
     raise(number);  // delivered when this handler returns
 }
@@ -73,8 +73,9 @@ void Progress::print(double seconds) const {
     std::fflush(stderr);
 }
 
-void catch_interrupts() {
+void catch_interrupts(bool a_later_one_kills) {
     signal_seen = 0;
+    later_one_kills = a_later_one_kills ? 1 : 0;
     std::signal(SIGINT, note_signal);
     std::signal(SIGTERM, note_signal);
     std::signal(SIGHUP, note_signal);

@@ -27,8 +27,8 @@ private:
 };
 
 /// True once SIGINT, SIGTERM or SIGHUP has come since the last catch_interrupts(); another one half
-/// a second later kills as usual.
-void catch_interrupts();
+/// a second later kills as usual, if that is wanted.
+void catch_interrupts(bool a_later_one_kills = true);
 bool interrupted();
 
 }  // namespace dynamic_filter::app

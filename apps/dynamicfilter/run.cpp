@@ -99,7 +99,7 @@ int run(const RunOptions& o) {
                    finding.advice.starts_with("--") ? "try " : "", finding.advice);
     }
 
-    catch_interrupts();
+    if (o.catches) catch_interrupts();
     const Pace pace{.threads = o.threads,
                     .online = o.online ? std::optional(o.speed) : std::nullopt};
     const RunSummary summary = run_sequence(sequence, config, pace, output,
@@ -122,7 +122,7 @@ int run(const RunOptions& o) {
         fmt::print(stderr,
                    "note: most points are unknown; are the first poses of another place?\n");
     }
-    if (summary.interrupted) return kInterrupted;
+    if (interrupted()) return kInterrupted;  // also while it scored and reported: all is there
     if (live) live->linger();
     const bool all = summary.rejected.empty() && summary.dropped.empty() && sequence.losses.empty();
     return all ? kDone : kRejected;

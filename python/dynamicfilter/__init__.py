@@ -19,7 +19,7 @@ from ._dynamicfilter import (ConfigError, DynamicFilter, Error, Frame, InputErro
 UNKNOWN, STATIC, DYNAMIC = 0, 9, 251
 
 __all__ = ["ConfigError", "DYNAMIC", "DynamicFilter", "Error", "Frame", "InputError",
-           "OutputError", "Recording", "STATIC", "UNKNOWN", "evaluate", "open_recording",
+           "OutputError", "Recording", "STATIC", "UNKNOWN", "check", "evaluate", "open_recording",
            "read_cloud", "run", "simulate"]
 
 
@@ -49,3 +49,16 @@ def evaluate(truth, *, labels=None, map=None, voxel=0.2, **options):
     Raises ConfigError, InputError, TypeError and ValueError.
     """
     return _json.loads(_dynamicfilter.evaluate(truth, labels, map, voxel, options))
+
+
+def check(data, **options):
+    """Looks whether poses and scans of a recording fit together, as `dynamicfilter check` does.
+
+    DynamicFilter cannot see that poses are inverse, or in other units: look here first.
+    data: bag or folder. Options: as of open_recording().
+    Returns {"findings": [{"what", "advice"}], "overlays": {reading: share 0..1}, "unusable", "lost"}:
+    findings and the sentences of the last two are empty if all is well. Advice is worded for the
+    command: --pose-fix inverse is pose_fix="inverse" here.
+    Raises TypeError, ConfigError and InputError.
+    """
+    return _json.loads(_dynamicfilter.check(data, options))

@@ -95,6 +95,11 @@ Points points_from(const py::object& given) {
         throw py::value_error("points: expected an array N x 3 or more columns, got shape " +
                               shape_of(array));
     }
+    constexpr py::ssize_t kManyColumns = 32;
+    if (array.shape(0) <= 4 && array.shape(1) > kManyColumns) {
+        throw py::value_error("points: expected an array N x 3 or more columns, got shape " +
+                              shape_of(array) + ": is it transposed?");
+    }
     return single ? read<float>(array) : read<double>(array);
 }
 

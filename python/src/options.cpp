@@ -14,8 +14,10 @@ namespace py = pybind11;
 namespace {
 
 std::string value_text(const py::handle& value) {
-    if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
-    return py::str(value);
+    const std::string text = py::str(value);
+    if (text == "True" || text == "False")
+        return text == "True" ? "true" : "false";  // numpy's, too
+    return text;
 }
 
 void add_settings(const py::dict& settings, const std::string& section, app::ConfigOptions& to) {
@@ -41,6 +43,7 @@ void refuse_other(const char* name, const std::string& value,
 
 app::ConfigOptions config_options(const py::object& given) {
     app::ConfigOptions options;
+    options.assigned_by = "config: ";
     if (given.is_none()) return options;
     if (py::isinstance<py::dict>(given)) {
         add_settings(given, "", options);

@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "dynamic_filter/io/file.hpp"
+#include "dynamic_filter/io/preflight.hpp"
+#include "frames.hpp"
 #include "module.hpp"
 #include "output_folder.hpp"
 #include "progress.hpp"
@@ -27,7 +29,7 @@ class Interruptible {
 public:
     Interruptible() {
         for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], nullptr, &old_[i]);
-        app::catch_interrupts();
+        app::catch_interrupts(false);  // nobody's interpreter is killed
     }
     Interruptible(const Interruptible&) = delete;
     Interruptible& operator=(const Interruptible&) = delete;
@@ -54,11 +56,14 @@ app::RunOptions run_options(const fs::path& data, const std::optional<fs::path>&
     take(options, "threads", o.threads);
     take(options, "overwrite", o.overwrite);
     take(options, "resume", o.resume);
+    o.catches = false;
     o.quiet = true;
     take(options, "quiet", o.quiet);
     std::optional<double> online;
     take(options, "online", online);
-    if (o.threads < 0) throw py::value_error("threads: expected 0 (all cores) or more");
+    if (o.threads < 0 || o.threads > 1024) {
+        throw py::value_error("threads: expected 0 (all cores) to 1024");
+    }
     if (!(online.value_or(0.0) >= 0.0)) {
         throw py::value_error("online: expected times the sensor's rate, 0 or more");
     }
@@ -103,6 +108,25 @@ std::string evaluate(const fs::path& truth, const std::optional<fs::path>& label
     return app::text_of(json);
 }
 
+std::string check(const fs::path& data, py::dict options) {
+    const app::DataOptions o = data_options(data, options);
+    refuse_unknown("check", options);
+    const py::gil_scoped_release others_go_on;
+    const io::Sequence sequence = app::open(o);
+    const io::Preflight preflight = io::check_recording(sequence, io::Depth::thorough);
+    nlohmann::ordered_json json{{"findings", nlohmann::json::array()},
+                                {"overlays", nlohmann::json::object()},
+                                {"unusable", preflight.unusable},
+                                {"lost", sequence.losses}};
+    for (const io::Finding& finding : preflight.findings) {
+        json["findings"].push_back({{"what", finding.what}, {"advice", finding.advice}});
+    }
+    for (const io::Overlay& overlay : preflight.overlays) {
+        json["overlays"][overlay.reading] = overlay.share;
+    }
+    return app::text_of(json);
+}
+
 std::size_t simulate(const sim::SimulationOptions& options, const fs::path& folder, bool overwrite,
                      bool quiet) {
     std::size_t points = 0;
@@ -124,6 +148,7 @@ std::size_t simulate(const sim::SimulationOptions& options, const fs::path& fold
 void bind_programs(py::module_& module) {
     module.def("run", &run);
     module.def("evaluate", &evaluate);
+    module.def("check", &check);
     module.def(
         "simulate",
         [](const std::string& scene, const fs::path& output, const std::string& sensor,

@@ -4,8 +4,10 @@
 #include <tsl/robin_set.h>
 
 #include <algorithm>
+#include <string>
 #include <vector>
 
+#include "dynamic_filter/error.hpp"
 #include "dynamic_filter/geometry/neighbor_grid.hpp"
 #include "dynamic_filter/parallel.hpp"
 
@@ -14,6 +16,14 @@ namespace dynamic_filter::eval {
 namespace {
 
 constexpr auto kDistance = static_cast<float>(kCoverDistance);
+
+void refuse_unparallel(const LabelledScan& scan, std::size_t i) {
+    const std::size_t n = scan.points.size();
+    if (scan.truth.size() == n && (scan.verdict.empty() || scan.verdict.size() == n)) return;
+    throw Error("scan " + std::to_string(i) + " to be scored has " + std::to_string(n) +
+                " points, " + std::to_string(scan.truth.size()) + " truths and " +
+                std::to_string(scan.verdict.size()) + " verdicts; expected one per point");
+}
 
 /// Calls `use` with every scan in order; a few are read ahead in parallel.
 template <class F>
@@ -24,8 +34,10 @@ void for_each_scan(std::size_t scans, const ScanSource& source, F&& use) {
         parallel_for(batch.size(), 1, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) batch[i] = source(first + i);
         });
-        for (const auto& scan : batch) {
-            if (scan) use(*scan);
+        for (std::size_t i = 0; i < batch.size(); ++i) {
+            if (!batch[i]) continue;
+            refuse_unparallel(*batch[i], first + i);
+            use(*batch[i]);
         }
     }
 }

@@ -117,6 +117,11 @@ void refuse_unusable(const Sequence& sequence, std::size_t i) {
 }
 
 Frame read_frame(const Sequence& sequence, std::size_t i) {
+    if (i >= sequence.size()) {
+        throw InputError(sequence.root, "",
+                         "has " + std::to_string(sequence.size()) + " scans; there is no scan " +
+                             std::to_string(i));
+    }
     refuse_unusable(sequence, i);
     const std::filesystem::path& file = sequence.scan_files[i];
     Frame frame;

@@ -10,6 +10,7 @@
 #include "dynamic_filter/back_end/back_end.hpp"
 #include "dynamic_filter/back_end/contact.hpp"
 #include "dynamic_filter/back_end/evidence_map.hpp"
+#include "dynamic_filter/error.hpp"
 #include "dynamic_filter/front_end/front_end.hpp"
 #include "dynamic_filter/geometry/map_points.hpp"
 #include "dynamic_filter/geometry/pose.hpp"
@@ -98,6 +99,7 @@ struct DynamicFilter::Impl {
     };
     std::vector<Decision> decided_;  // by voxel, when scans observe
     MergedMap merged_;
+    bool finished_ = false;
     struct Kept {
         Point center;
         float radius;  // [m]
@@ -132,6 +134,7 @@ std::size_t DynamicFilter::Impl::submaps() const {
 }
 
 Judged DynamicFilter::Impl::judge(Scan scan) {
+    if (finished_) throw Error("push() after finish(): make another filter");
     if (!origin_) origin_ = nearby_origin(scan.T_world_sensor, config_.back_end.voxel_size);
     scan.T_world_sensor = to_map_frame(scan.T_world_sensor);
     if (!scans_observe()) {
@@ -169,6 +172,7 @@ void DynamicFilter::Impl::integrate(const std::shared_ptr<BackEndWork>& work) {
 }
 
 std::vector<Verdict> DynamicFilter::Impl::finish() {
+    if (std::exchange(finished_, true)) return {};
     if (scans_observe()) {
         timed(back_times_, "back_end",
               [&] { timed(back_times_, "merging", [&] { decide_voxels(); }); });

@@ -7,6 +7,7 @@
 #include <deque>
 #include <exception>
 #include <mutex>
+#include <string>
 #include <thread>
 #include <utility>
 
@@ -27,6 +28,11 @@ OnlineOptions checked(OnlineOptions options) {
     if (options.queue == 0) throw ConfigError("OnlineOptions::queue is 0; expected 1 or more");
     if (!(options.horizon >= 0.0)) {
         throw ConfigError("OnlineOptions::horizon is not a length; expected 0 (none) or more");
+    }
+    constexpr int kMost = 1024;  // oneTBB counts in 16 bits
+    if (options.threads < 0 || options.threads > kMost) {
+        throw ConfigError("OnlineOptions::threads is " + std::to_string(options.threads) +
+                          "; expected 0 (all cores) to " + std::to_string(kMost));
     }
     return options;
 }

@@ -72,6 +72,7 @@ std::size_t scan_count(const SimulationOptions& options, double duration, double
                           "\" has " + std::to_string(full) +
                           " scans; ask for fewer, or for more per second (rate_hz)");
     }
+    if (scans == 0) throw ConfigError("frames is 0; ask for 1 or more");
     return scans;
 }
 

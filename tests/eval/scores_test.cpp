@@ -7,6 +7,8 @@
 #include <random>
 #include <vector>
 
+#include "dynamic_filter/error.hpp"
+
 namespace dynamic_filter::eval {
 namespace {
 
@@ -81,6 +83,16 @@ TEST(ScoreMap, OfTheKeptPointsAgreesWithScoreLabels) {
     EXPECT_FALSE(by_map.point.iou);
     for (const char* reading : {"excluded", "static_wins", "majority"}) {
         EXPECT_EQ(by_map.voxel.at(reading).f1, by_labels.voxel.at(reading).f1) << reading;
+    }
+}
+
+TEST(ScoreLabels, RefusesArraysThatAreNotParallel) {
+    const Points points(3, Point(1, 2, 3));
+    const Labels two(2, Label::still), three(3, Label::still);
+    for (const LabelledScan& scan : {LabelledScan{points, two, three}, {points, three, two}}) {
+        const auto source = [&](std::size_t) { return std::optional(scan); };
+        EXPECT_THROW(score_labels(1, source, 0.2), Error);
+        EXPECT_THROW(score_map(1, source, points, 0.2), Error);
     }
 }
 

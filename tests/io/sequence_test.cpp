@@ -137,6 +137,7 @@ TEST_F(SequenceTest, FolderWithTum) {
     EXPECT_DOUBLE_EQ(sequence.stamps[2], 0.4);
     EXPECT_TRUE(has_note(sequence, "by order"));
     EXPECT_EQ(read_frame(sequence, 2).points, (Points{{1, 2, 3}, {4, 5, 6}}));
+    EXPECT_THROW(read_frame(sequence, sequence.size()), InputError);
 }
 
 }  // namespace

@@ -315,6 +315,17 @@ TEST_P(StaticLocalMap, HoldsTheVoxelsAroundAnyPose) {
     EXPECT_EQ(filter.local_static_map(query, 1e6).empty(), !scans_observe);
 }
 
+TEST(DynamicFilter, NothingIsPushedAfterTheEnd) {
+    for (const Config& config : {small_windows(), Config{}}) {
+        DynamicFilter filter(config);
+        const auto scans = drive(2, false);
+        filter.push(scans[0].scan);
+        filter.finish();
+        EXPECT_TRUE(filter.finish().empty());
+        EXPECT_THROW(filter.push(scans[1].scan), Error);
+    }
+}
+
 TEST(DynamicFilter, NothingIsSettledWhereScansDoNotObserve) {
     Config no_back_end;
     no_back_end.back_end.enabled = false;

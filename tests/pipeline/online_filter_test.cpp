@@ -232,6 +232,9 @@ TEST(OnlineFilter, RefusesOptionsThatMakeNoSense) {
     OnlineOptions no_number;
     no_number.horizon = std::nan("");
     EXPECT_THROW(OnlineFilter(Config{}, no_number), ConfigError);
+    for (const int threads : {-1, 1025, 100000}) {
+        EXPECT_THROW(OnlineFilter(Config{}, {.threads = threads}), ConfigError);
+    }
 }
 
 TEST(OnlineFilter, ScansFromSeveralThreadsAreAllAccountedFor) {

@@ -53,6 +53,10 @@ class Layouts(unittest.TestCase):
         labels = df.DynamicFilter().push(np.zeros((0, 3)), np.eye(4), 0.0)
         self.assertEqual(labels.shape, (0,))
 
+    def test_transposed_points_are_refused(self):
+        with self.assertRaisesRegex(ValueError, "transposed"):
+            df.DynamicFilter().push(np.zeros((3, 1000)), np.eye(4), 0.0)
+
     def test_points_that_are_no_measurement_are_unknown(self):
         points = small_scan()
         points[0] = np.nan

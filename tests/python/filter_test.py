@@ -100,6 +100,9 @@ class Configuration(unittest.TestCase):
             with self.assertRaisesRegex(df.ConfigError, pattern):
                 df.DynamicFilter(config)
         self.assertRaises(TypeError, df.DynamicFilter, 5)
+        self.assertRaisesRegex(ValueError, "threads", df.DynamicFilter, threads=100000)
+        self.assertRaisesRegex(df.ConfigError, "a section", df.DynamicFilter, {"back_end": 3})
+        df.DynamicFilter({"back_end.visibility_check": np.bool_(True)})
 
 
 class Course(unittest.TestCase):

@@ -82,6 +82,21 @@ class Programs(unittest.TestCase):
                 (TypeError, lambda: df.open_recording(recording(), stride="two"))):
             self.assertRaises(error, call)
 
+    def test_check(self):
+        self.assertEqual(df.check(recording())["findings"], [])
+        found = df.check(recording(), pose_fix="inverse")
+        self.assertRegex(found["findings"][0]["what"], "inverse")
+        self.assertEqual(set(found), {"findings", "overlays", "unusable", "lost"})
+        self.assertRaises(TypeError, df.check, recording(), depth=1)
+
+    def test_an_interrupt_or_two_of_a_run_are_one_exception(self):
+        after = [threading.Timer(t, os.kill, (os.getpid(), signal.SIGINT)) for t in (0.2, 0.8)]
+        df.simulate("street", scratch("long"), sensor="os64", frames=60)
+        for timer in after: timer.start()
+        with self.assertRaises(KeyboardInterrupt):
+            df.run(scratch("long"), scratch("stopped"))
+        for timer in after: timer.cancel()
+
     def test_interrupts(self):
         stop = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
         stop.start()

@@ -8,8 +8,9 @@
 /// - Ownership: scans are moved in, and not kept (where submaps observe: until their window is
 ///   processed); results are the caller's.
 /// - Threads: single caller; const members may run in several threads while no other runs.
-/// - Errors: ConfigError from the constructor; std::bad_alloc, after which the filter can only be
-///   destroyed or assigned to. A call out of order is not noticed: its effect is undefined.
+/// - Errors: ConfigError from the constructor; Error from push() after finish(); std::bad_alloc,
+///   after which the filter can only be destroyed or assigned to. Poses are taken as they come: see
+///   OnlineFilter, which checks them. Before finish(), verdict() and static_map() know nothing.
 #pragma once
 
 #include <cstddef>
@@ -89,7 +90,7 @@ public:
     [[nodiscard]] bool front_end_waits() const;                ///< true where scans observe
 
     /// Decides every voxel. Submaps observe: processes the last window (its verdicts are returned)
-    /// and merges the local maps of all submap poses. No push() after it.
+    /// and merges the local maps of all submap poses. Again: does nothing.
     std::vector<Verdict> finish();
 
     /// The final verdict on a scan that was pushed, after finish(). Unknown where nothing can be
