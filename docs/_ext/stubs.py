@@ -16,10 +16,13 @@ def read_stub():
         out = ast.unparse(node) if node else ""
         for name, meaning in alias.items():
             out = re.sub(rf"\b{name}\b", meaning, out)
+        out = re.sub(r": Unpack\[\w+\]", "", out)
         return out.replace("NDArray[np.", "NDArray[")
 
     def visit(nodes, prefix):
         for n in nodes:
+            if isinstance(n, ast.ClassDef) and n.name.startswith("_"):
+                continue  # options by name: the docstrings list them
             if isinstance(n, ast.ClassDef):
                 found[prefix + n.name] = (None, "")
                 visit(n.body, f"{prefix}{n.name}.")

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
 from os import PathLike
-from typing import Any, Iterator, Mapping, Optional, Union
+from typing import Any, Iterator, Mapping, Optional, TypedDict, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from typing_extensions import Unpack
 
 _Path = Union[str, PathLike[str]]
 _Config = Union[None, str, PathLike[str], Mapping[str, Any]]
@@ -56,16 +57,32 @@ class Recording:
     def notes(self) -> list[str]: ...
 
 def read_cloud(file: _Path) -> NDArray[np.void]: ...
-def open_recording(data: _Path, *, format: str = ..., poses: Optional[_Path] = None,
-                   topic: str = ..., pose_topic: str = ..., pose_fix: str = ...,
-                   points_in_world: bool = False, time_unit: str = ..., deskew: bool = False,
-                   first: int = 0, last: Optional[int] = None, stride: int = 1) -> Recording: ...
-def run(data: _Path, output: Optional[_Path] = None, *, config: _Config = None, threads: int = 0,
-        overwrite: bool = False, resume: bool = False, online: Optional[float] = None, quiet: bool = True,
-        **options: Any) -> dict[str, Any]: ...
+class _Reading(TypedDict, total=False):
+    format: str
+    poses: Optional[_Path]
+    topic: str
+    pose_topic: str
+    pose_fix: str
+    points_in_world: bool
+    time_unit: str
+    deskew: bool
+    first: int
+    last: Optional[int]
+    stride: int
+
+class _Running(_Reading, total=False):
+    config: _Config
+    threads: int
+    overwrite: bool
+    resume: bool
+    online: Optional[float]
+    quiet: bool
+
+def open_recording(data: _Path, **options: Unpack[_Reading]) -> Recording: ...
+def run(data: _Path, output: Optional[_Path] = None, **options: Unpack[_Running]) -> dict[str, Any]: ...
 def evaluate(truth: _Path, *, labels: Optional[_Path] = None, map: Optional[_Path] = None,
-             voxel: float = 0.2, **options: Any) -> dict[str, Any]: ...
-def check(data: _Path, **options: Any) -> dict[str, Any]: ...
+             voxel: float = 0.2, **options: Unpack[_Reading]) -> dict[str, Any]: ...
+def check(data: _Path, **options: Unpack[_Reading]) -> dict[str, Any]: ...
 def simulate(scene: str, output: _Path, *, sensor: str = ..., pedestrians: int = -1, seed: int = 1,
              frames: Optional[int] = None, rate: float = 0.0, pose_noise: float = 0.0,
              pose_noise_deg: float = 0.0, overwrite: bool = False, quiet: bool = True) -> int: ...

@@ -34,7 +34,9 @@ std::unique_ptr<KeptFilter> make_filter(const py::object& config, int threads,
                                         number_kept(keep));
 }
 
-py::array push(KeptFilter& filter, const py::object& points, const py::object& pose, double stamp) {
+py::array push(KeptFilter& filter, const py::object& points, const py::object& pose,
+               const py::object& at) {
+    const auto stamp = taken<double>(at, "stamp", "seconds as a number");
     if (!std::isfinite(stamp)) {
         throw py::value_error(
             fmt::format("stamp: expected seconds as a finite number, got {}", stamp));
@@ -49,7 +51,9 @@ py::array push(KeptFilter& filter, const py::object& points, const py::object& p
     return labels_array(std::move(labels));
 }
 
-py::list corrections(KeptFilter& filter, std::optional<std::size_t> newest) {
+py::list corrections(KeptFilter& filter, const py::object& asked) {
+    const auto newest =
+        taken<std::optional<std::size_t>>(asked, "newest", "a number of scans, 0 or more");
     std::vector<KeptFilter::Correction> found;
     {
         const py::gil_scoped_release others_go_on;
@@ -62,11 +66,14 @@ py::list corrections(KeptFilter& filter, std::optional<std::size_t> newest) {
     return list;
 }
 
-py::array labels(KeptFilter& filter, std::size_t scan) {
+py::array labels(KeptFilter& filter, const py::object& asked) {
+    auto scan = taken<py::ssize_t>(asked, "scan", "the number of a scan");
+    if (scan < 0) scan += static_cast<py::ssize_t>(filter.size());
+    if (scan < 0) throw py::index_error("scan: there are not so many");
     Labels found;
     {
         const py::gil_scoped_release others_go_on;
-        found = filter.labels(scan);
+        found = filter.labels(static_cast<std::size_t>(scan));
     }
     return labels_array(std::move(found));
 }
@@ -92,7 +99,8 @@ py::tuple static_map(KeptFilter& filter) {
     return map_arrays(std::move(map));
 }
 
-py::tuple local_map(KeptFilter& filter, const py::object& pose, std::optional<double> radius) {
+py::tuple local_map(KeptFilter& filter, const py::object& pose, const py::object& reach) {
+    const auto radius = taken<std::optional<double>>(reach, "radius", "metres, or None");
     if (radius && !(*radius >= 0.0)) throw py::value_error("radius: expected metres, 0 or more");
     std::optional<Pose> T_world_query;
     if (!pose.is_none()) T_world_query = pose_from(pose);
@@ -131,7 +139,7 @@ meanwhile. Raises ConfigError, TypeError and ValueError.)")
 
 points: N x 3 or more columns, float32 or float64, any strides: x y z [m] in the sensor's frame;
 further columns are not looked at. Points that are not finite, or at the origin, are no measurement.
-Integers and structured arrays raise TypeError.
+Integers, another machine's order of bytes and structured arrays raise TypeError.
 pose: 4 x 4, T_world_sensor: maps the sensor's coordinates into the world [m]. A rotation that is
 off by up to 0.001 is made exact; more raises ValueError.
 stamp: [s], growing. What is up to a second before the last is late; more begins a new map, and
@@ -140,8 +148,9 @@ Returns labels: N uint8: 0 unknown, 9 static, 251 dynamic. With the preset "pape
 corrections() has them when a window of scans is full.
 Raises TypeError, ValueError, and Error if the scan comes late or again (it is not taken then), or
 after finish(). Raises as flush() does.)")
-        .def("corrections", &corrections, py::arg("newest") = py::none(),
-             R"(Scans kept whose labels changed since they were told last.
+        .def(
+            "corrections", &corrections, py::arg("newest") = py::none(),
+            R"(Scans kept whose labels changed since they were told last: by push(), labels() or here.
 
 newest: asks only so many scans, the newest; each costs about what labels() does.
 Returns a list of (number of the scan, labels: N uint8, as push() returns them). Raises as flush()
@@ -149,7 +158,7 @@ does.)")
         .def("labels", &labels, py::arg("scan"),
              R"(The labels of a scan from all evidence so far; after finish(), the final ones.
 
-scan: its number. Returns N uint8: 0 unknown, 9 static, 251 dynamic.
+scan: its number; negative ones count from the newest. Returns N uint8: 0 unknown, 9 static, 251 dynamic.
 Raises IndexError if it is not kept, and as flush() does.)")
         .def("static_map", &static_map, R"(The static voxels of the whole map.
 
@@ -172,8 +181,7 @@ does.)")
              "Raises as flush() does.")
         .def("notices", &KeptFilter::notices, Release(),
              "Returns what happened since the last call (the trajectory broke, and a new map "
-             "began): "
-             "a list of (number of the scan, sentence). Raises nothing.")
+             "began): a list of (number of the scan, sentence). Raises nothing.")
         .def("__len__", &KeptFilter::size, Release(), "How many scans were taken.");
 }
 

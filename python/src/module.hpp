@@ -33,6 +33,17 @@ void take(pybind11::dict& options, const char* name, T& to) {
     }
 }
 
+/// An argument as what it must be. Raises TypeError, which names it.
+template <class T>
+T taken(const pybind11::object& value, const char* name, const char* expected) {
+    try {
+        return value.cast<T>();
+    } catch (const pybind11::cast_error&) {
+        throw pybind11::type_error(fmt::format("{}: expected {}, got {}", name, expected,
+                                               std::string(pybind11::repr(value))));
+    }
+}
+
 /// Takes what says how to read a recording out of `options`. Raises TypeError, throws ConfigError.
 app::DataOptions data_options(const std::filesystem::path& data, pybind11::dict& options);
 

@@ -85,6 +85,13 @@ class Api(unittest.TestCase):
             stubbed = {m for m in named[name] if not m.startswith("_")}
             self.assertEqual(stubbed, members(getattr(df, name)))
 
+    def test_options_by_name_are_explained(self):
+        options = {node.name: [a.target.id for a in node.body] for node in stubs()
+                   if isinstance(node, ast.ClassDef) and node.name in ("_Reading", "_Running")}
+        for thing, names in ((df.open_recording, options["_Reading"]), (df.run, options["_Running"])):
+            for name in names:
+                self.assertRegex(inspect.getdoc(thing), rf"\b{name}\b")
+
     def test_stubs_have_the_arguments_of_the_functions(self):
         for node in stubs():
             if not isinstance(node, ast.FunctionDef): continue

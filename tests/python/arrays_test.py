@@ -98,7 +98,7 @@ class Refusals(unittest.TestCase):
 
     def test_stamp(self):
         self.refuses(ValueError, "stamp: .*nan", stamp=float("nan"))
-        self.refuses(TypeError, "", stamp="now")
+        self.refuses(TypeError, "stamp: expected seconds as a number, got 'now'", stamp="now")
 
     def test_poses_that_are_nearly_rigid_are_taken(self):
         pose = np.eye(4, dtype=np.float32)

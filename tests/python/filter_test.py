@@ -123,6 +123,17 @@ class Course(unittest.TestCase):
         self.assertRaises(ValueError, filter.local_map, radius=-1.0)
         self.assertRaises(ValueError, filter.local_map, np.eye(3))
 
+    def test_wrong_arguments_are_named(self):
+        filter = df.DynamicFilter()
+        filter.push(small_scan(), np.eye(4), 0.0)
+        np.testing.assert_array_equal(filter.labels(-1), filter.labels(0))
+        for error, pattern, call in (
+                (TypeError, "scan: .* got 'a'", lambda: filter.labels("a")),
+                (IndexError, "scan", lambda: filter.labels(-2)),
+                (TypeError, "newest: .* got -1", lambda: filter.corrections(newest=-1)),
+                (TypeError, "radius: .* got 'far'", lambda: filter.local_map(radius="far"))):
+            with self.assertRaisesRegex(error, pattern): call()
+
     def test_what_never_gets_evidence_is_asked_all_the_same(self):
         for config in ({"back_end.enabled": False}, {"method": "removert"}, "paper"):
             filter = df.DynamicFilter(config)
