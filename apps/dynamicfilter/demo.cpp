@@ -5,7 +5,7 @@
 #include "frames.hpp"
 #include "progress.hpp"
 #include "report.hpp"
-#include "run_sequence.hpp"
+#include "run_reports.hpp"
 #include "write_simulation.hpp"
 
 namespace dynamic_filter::app {

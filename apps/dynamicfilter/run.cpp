@@ -8,7 +8,7 @@
 #include "dynamic_filter/io/preflight.hpp"
 #include "frames.hpp"
 #include "progress.hpp"
-#include "run_sequence.hpp"
+#include "run_reports.hpp"
 
 namespace dynamic_filter::app {
 

@@ -45,7 +45,4 @@ struct Pace {
 RunSummary run_sequence(const io::Sequence& sequence, const Config& config, const Pace& pace,
                         const OutputFolder& output, const Watchers& watchers = {});
 
-/// The closing table.
-std::string to_text(const RunSummary& summary);
-
 }  // namespace dynamic_filter::app

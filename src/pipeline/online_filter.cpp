@@ -2,6 +2,7 @@
 #include "dynamic_filter/pipeline/online_filter.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <condition_variable>
 #include <deque>
@@ -83,6 +84,14 @@ struct OnlineFilter::Engine {
             stop();
             throw;
         }
+        own_threads = {front.get_id(), back.get_id()};
+    }
+
+    /// A callback that waits for the filter would wait for itself.
+    void refuse_own_threads() const {
+        const auto self = std::this_thread::get_id();
+        if (self != own_threads[0] && self != own_threads[1]) return;
+        throw Error("a callback must not wait for the filter that calls it");
     }
 
     // Called by users.
@@ -139,7 +148,8 @@ struct OnlineFilter::Engine {
     std::optional<StampedPose> before_last, last;
     Durations latency;
 
-    std::thread front, back;  // the last members: they use all others
+    std::array<std::thread::id, 2> own_threads;  // no scan comes before the constructor has set it
+    std::thread front, back;                     // the last members: they use all others
 };
 
 void OnlineFilter::Engine::push(Waiting waiting) {
@@ -174,6 +184,7 @@ void OnlineFilter::Engine::push(Waiting waiting) {
 
 /// Returns holding `lock`, with nothing in work.
 std::unique_lock<std::mutex> OnlineFilter::Engine::idle() {
+    refuse_own_threads();
     std::unique_lock hold(lock);
     changed.wait(hold, [&] {
         const bool busy = queue.size() > 0 || judging || !tasks.empty() || integrating;
@@ -401,6 +412,7 @@ OnlineFilter::~OnlineFilter() { engine_->stop(); }
 void OnlineFilter::push(Scan scan) { engine_->push({.scan = std::move(scan), .reply = nullptr}); }
 
 std::optional<Verdict> OnlineFilter::ask(Scan scan) {
+    engine_->refuse_own_threads();
     auto reply = std::make_shared<std::promise<std::optional<Verdict>>>();
     auto answer = reply->get_future();
     engine_->push({.scan = std::move(scan), .reply = std::move(reply)});

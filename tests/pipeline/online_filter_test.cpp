@@ -225,6 +225,18 @@ TEST(OnlineFilter, PushAfterFinishIsAnError) {
     EXPECT_THROW(filter.push(scans[1].scan), Error);
 }
 
+TEST(OnlineFilter, ACallbackThatWaitsForItIsAnError) {
+    const auto scans = drive(2, false);
+    OnlineFilter* own = nullptr;
+    OnlineCallbacks callbacks;
+    callbacks.instant = [&](const Verdict&) { own->flush(); };
+    OnlineFilter filter(every_scan(), nothing_lost(), callbacks);
+    own = &filter;
+    filter.push(scans[0].scan);
+    EXPECT_THROW(filter.flush(), Error);
+    EXPECT_THROW(filter.push(scans[1].scan), Error);  // it is of no use any more
+}
+
 TEST(OnlineFilter, RefusesOptionsThatMakeNoSense) {
     OnlineOptions no_queue;
     no_queue.queue = 0;

@@ -66,7 +66,8 @@ struct Notice {
 
 /// Verdicts come from the filter's threads (the last ones from the caller of finish()), notices
 /// also from the caller of push(); one call of each kind at a time. They should be quick, because
-/// the next scan waits for them, and must call nothing of the filter but counters(). What they
+/// the next scan waits for them, and must call nothing of the filter but counters();
+/// what would wait for the filter (flush(), ask(), finish()) throws Error. What they
 /// throw stops the filter; but what `notice` throws on a scan that is dropped or refused comes out
 /// of the push() that told it, and the filter goes on.
 struct OnlineCallbacks {
