@@ -26,9 +26,7 @@ std::unique_ptr<KeptFilter> make_filter(const py::object& config, int threads,
                                         std::size_t max_bytes) {
     const OnlineOptions options{
         .overload = Overload::wait, .horizon = horizon, .max_bytes = max_bytes, .threads = threads};
-    if (threads < 0 || threads > 1024) {
-        throw py::value_error("threads: expected 0 (all cores) to 1024");
-    }
+    refuse_threads(threads);
     if (!(horizon >= 0.0)) throw py::value_error("horizon: expected metres, 0 (none) or more");
     return std::make_unique<KeptFilter>(app::load_config(config_options(config)), options,
                                         number_kept(keep));

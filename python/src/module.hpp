@@ -47,6 +47,9 @@ T taken(const pybind11::object& value, const char* name, const char* expected) {
 /// Takes what says how to read a recording out of `options`. Raises TypeError, throws ConfigError.
 app::DataOptions data_options(const std::filesystem::path& data, pybind11::dict& options);
 
+/// Raises ValueError if there cannot be so many.
+void refuse_threads(int threads);
+
 /// Raises TypeError if anything is left.
 void refuse_unknown(const char* function, const pybind11::dict& options);
 

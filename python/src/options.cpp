@@ -87,6 +87,11 @@ app::DataOptions data_options(const std::filesystem::path& data, py::dict& optio
     return o;
 }
 
+void refuse_threads(int threads) {
+    if (threads >= 0 && threads <= 1024) return;
+    throw py::value_error("threads: expected 0 (all cores) to 1024");
+}
+
 void refuse_unknown(const char* function, const py::dict& options) {
     for (const auto& [name, value] : options) {
         throw py::type_error(fmt::format("{}() got an unexpected keyword argument '{}'", function,

@@ -61,9 +61,7 @@ app::RunOptions run_options(const fs::path& data, const std::optional<fs::path>&
     take(options, "quiet", o.quiet);
     std::optional<double> online;
     take(options, "online", online);
-    if (o.threads < 0 || o.threads > 1024) {
-        throw py::value_error("threads: expected 0 (all cores) to 1024");
-    }
+    refuse_threads(o.threads);
     if (!(online.value_or(0.0) >= 0.0)) {
         throw py::value_error("online: expected times the sensor's rate, 0 or more");
     }

@@ -9,6 +9,6 @@ cd "$work"
 ln -s "$1/examples" examples
 ln -s "$2" build/release
 export HOME="$work/home"
-awk '/^```sh$/ {on = 1; next} /^```$/ {on = 0} on' examples/README.md > lines
+"$1/script/lib/code_of" sh examples/README.md > lines
 [ "$(wc -l < lines)" -ge 5 ] || { echo "examples/README.md has too few commands"; exit 1; }
 sh -eux lines

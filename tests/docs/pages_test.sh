@@ -28,7 +28,7 @@ run() {  # LINE
     [ "$status" -eq "${expected:-0}" ] || { echo "$page: exit $status, not ${expected:-0}: $line"; exit 1; }
 }
 
-block() { awk -v begin="^\`\`\`$1\$" '$0 ~ begin {on = 1; next} /^```$/ {on = 0} on' "$source/$page"; }
+block() { "$source/script/lib/code_of" "$1" "$source/$page"; }
 
 for page; do
     : > "$work/said"

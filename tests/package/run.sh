@@ -68,7 +68,7 @@ for package in "$library" "$dev" "$command" "$python"; do
     dpkg-deb -x "$package" root
 done
 tar -xzf "$packages"/dynamicfilter-*.tar.gz -C anywhere --strip-components 1
-awk '/^```python$/ {on = 1; next} /^```$/ {on = 0} on' "$source/README.md" > lines.py
+"$source/script/lib/code_of" python "$source/README.md" > lines.py
 for prefix in "$work/root/usr" "$work/anywhere"; do
     "$prefix/bin/dynamicfilter" --version | grep -qF "$version"
     for program in "$prefix"/bin/dynamicfilter "$prefix/$modules"/dynamicfilter/_*.so; do

@@ -10,6 +10,6 @@ wheel=$("$source/script/wheel")
 "$folder/venv/bin/pip" install --quiet --no-index --no-deps "$source/$wheel"
 cd "$folder"
 venv/bin/dynamicfilter simulate crowd -o demo/recording --frames 20
-awk '/^```python$/ {on = 1; next} /^```$/ {on = 0} on' "$source/README.md" > lines.py
+"$source/script/lib/code_of" python "$source/README.md" > lines.py
 [ "$(wc -l < lines.py)" -ge 10 ] || { echo "README.md has too few lines of Python"; exit 1; }
 env -u PYTHONPATH venv/bin/python lines.py
