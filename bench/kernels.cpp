@@ -12,11 +12,12 @@
 #include <numbers>
 #include <random>
 
-#include "dynamic_filter/back_end/evidence_map.hpp"
-#include "dynamic_filter/back_end/line_of_sight.hpp"
 #include "dynamic_filter/geometry/map_points.hpp"
 #include "dynamic_filter/geometry/range_image.hpp"
 #include "dynamic_filter/parallel.hpp"
+#include "dynamic_filter/scans_observe/evidence_map.hpp"
+#include "dynamic_filter/scans_observe/line_of_sight.hpp"
+#include "dynamic_filter/scans_observe/vote.hpp"
 
 namespace {
 
@@ -172,7 +173,7 @@ void beam_image(benchmark::State& state) {
 BENCHMARK(beam_image);
 
 /// At places between 2 and 40 m, half of them on what the sensor sees.
-void look_at_places(benchmark::State& state) {
+void lines_of_sight(benchmark::State& state) {
     const BeamImage image(points(), pattern());
     Points places;
     for (std::size_t i = 0; i < points().size(); i += 2) {
@@ -182,18 +183,20 @@ void look_at_places(benchmark::State& state) {
     Directions seen;
     to_spherical(places, a_step_on(), seen);
     std::vector<Sight> sights;
+    const Config config;
+    const SightMargins margins = margins_of(config.scans.sight, config.map.voxel_size);
     for (auto _ : state) {
-        look(image, seen, SightMargins{}, sights);
+        check_lines_of_sight(image, seen, margins, sights);
         benchmark::DoNotOptimize(sights.data());
     }
     // The mean of this mixture, counted by hand: 30 % end with one beam, the rest look at nine or
     // more.
     report(state, places.size(), {12 + 1 + 4, 60 + 0.7 * (9 * 45 + 120)});
 }
-BENCHMARK(look_at_places);
+BENCHMARK(lines_of_sight);
 
 /// The votes on all voxels of a map of ten scans, with what gathers the voters.
-void probabilities_of_a_map(benchmark::State& state) {
+void occupancy_of_a_map(benchmark::State& state) {
     with_threads(1, [&] {
         Config config;
         EvidenceMap map(config);
@@ -201,16 +204,17 @@ void probabilities_of_a_map(benchmark::State& state) {
         for (int i = 0; i < 10; ++i) {
             Scan s{points(), Pose::Identity(), 0.3 * i, static_cast<std::size_t>(i)};
             map.insert(s, times);
-            map.look_at_rest(times);
+            map.observe_elsewhere(times);
         }
-        std::vector<std::uint32_t> all(map.voxels().size());
+        std::vector<std::uint32_t> all(map.grid().size());
         for (std::uint32_t v = 0; v < all.size(); ++v) all[v] = v;
-        for (auto _ : state) benchmark::DoNotOptimize(map.probabilities(all).data());
+        for (auto _ : state)
+            benchmark::DoNotOptimize(occupancy_of(map.grid(), all, config.scans.vote).data());
         // About 100 voters are weighed per voxel, 20 operations each.
         report(state, all.size(), {36, 100 * 20});
     });
 }
-BENCHMARK(probabilities_of_a_map)->Unit(benchmark::kMillisecond);
+BENCHMARK(occupancy_of_a_map)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 

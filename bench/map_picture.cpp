@@ -13,10 +13,10 @@
 
 #include "dynamic_filter/config.hpp"
 #include "dynamic_filter/error.hpp"
-#include "dynamic_filter/front_end/window.hpp"
 #include "dynamic_filter/geometry/pose.hpp"
 #include "dynamic_filter/geometry/voxel.hpp"
 #include "dynamic_filter/io/png.hpp"
+#include "dynamic_filter/submaps_observe/window.hpp"
 #include "frames.hpp"
 
 namespace {
@@ -59,7 +59,8 @@ io::Color paler(io::Color color) {
 
 std::vector<Point> submap_positions(const io::Sequence& sequence) {
     std::vector<Point> positions;
-    WindowCutter cutter(preset("paper").submap);
+    const Config paper = preset("paper");
+    WindowCutter cutter(paper.keyframe, paper.submap.keyframes);
     const auto add = [&](const std::optional<Window>& window) {
         if (!window) return;
         std::vector<Pose> poses;

@@ -65,7 +65,7 @@ Labels labels_of(const octomap::OcTree& tree, const io::Frame& frame,
         const auto* const node =
             is_measured(frame.points[i]) ? tree.search(to_octomap(world[i])) : nullptr;
         labels.push_back(node == nullptr             ? Label::unknown
-                         : tree.isNodeOccupied(node) ? Label::still
+                         : tree.isNodeOccupied(node) ? Label::static_
                                                      : Label::dynamic);
     }
     return labels;

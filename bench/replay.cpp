@@ -80,7 +80,7 @@ ordered_json hours(const io::Sequence& sequence, double hours) {
         rows.push_back({{"hours", static_cast<double>(i) * drive.period() / 3600.0},
                         {"ms_per_scan", 1e3 * seconds_since(start) / static_cast<double>(step)},
                         {"resident_mib", resident_mib()},
-                        {"voxels", filter.extent().voxels}});
+                        {"voxels", filter.contents().voxels}});
         fmt::print(stderr, "{}\n", rows.back().dump());
         start = Clock::now();
     }

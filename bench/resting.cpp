@@ -147,7 +147,7 @@ void ask(DynamicFilter& filter, const Seen& seen, int second, Delays& delays) {
 
 Delays watch(const sim::Sensor& sensor, bool walking) {
     Config config = preset("default");
-    config.back_end.search_radius = 2.0;  // of the map asked for: one person
+    config.map.search_radius = 2.0;  // of the map asked for: one person
     DynamicFilter filter(config);
     sim::Caster rays = caster();
     Seen seen;

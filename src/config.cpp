@@ -15,25 +15,24 @@ namespace dynamic_filter {
 
 namespace {
 
-constexpr std::array<std::string_view, 2> kMethods{"dynamic_filter", "removert"};
+constexpr std::array<std::string_view, 3> kMethods{"scans", "submaps", "removert"};
 constexpr std::array<std::string_view, 3> kRevertings{"map", "visibility", "none"};
-constexpr std::array<std::string_view, 2> kObservers{"scans", "submaps"};
 constexpr std::array<std::string_view, 2> kSwitch{"false", "true"};
 
 /// The words for a choice, in the order of its enumerators.
 constexpr const auto& words(Method) { return kMethods; }
 constexpr const auto& words(Reverting) { return kRevertings; }
-constexpr const auto& words(Observers) { return kObservers; }
 constexpr const auto& words(bool) { return kSwitch; }
 
 template <class T>
 constexpr bool is_number = std::is_same_v<T, int> || std::is_same_v<T, double>;
 
-std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
+std::string in_quotes(std::string_view text) { return "'" + std::string(text) + "'"; }
 
 [[noreturn]] void reject(std::string_view key, std::string_view value,
                          const std::string& expected) {
-    throw ConfigError("setting " + quoted(key) + ": " + quoted(value) + " is not " + expected);
+    throw ConfigError("setting " + in_quotes(key) + ": " + in_quotes(value) + " is not " +
+                      expected);
 }
 
 template <class T>
@@ -96,17 +95,37 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
         is_section |= s.key.starts_with(std::string(key) + ".");
         // A user who leaves out the section means the same key.
         const auto name = s.key.substr(s.key.find('.') + 1);
+        const auto own_name = key.substr(key.rfind('.') + 1);  // in another section, perhaps
         std::size_t d = std::min(edit_distance(key, s.key), edit_distance(key, name) + 1);
         if (name.starts_with(key)) d = std::min<std::size_t>(d, 2);
+        if (name == own_name) d = std::min<std::size_t>(d, 1);
         if (d < best) {
             best = d;
             nearest = s.key;
         }
     });
-    if (is_section) throw ConfigError(quoted(key) + " is a section: name a setting in it");
+    if (is_section) throw ConfigError(in_quotes(key) + " is a section: name a setting in it");
     if (nearest.empty())
-        throw ConfigError("unknown setting " + quoted(key) + "; see `dynamicfilter config`");
-    throw ConfigError("unknown setting " + quoted(key) + "; did you mean " + quoted(nearest) + "?");
+        throw ConfigError("unknown setting " + in_quotes(key) + "; see `dynamicfilter config`");
+    throw ConfigError("unknown setting " + in_quotes(key) + "; did you mean " + in_quotes(nearest) +
+                      "?");
+}
+
+std::string methods_in_words(unsigned methods) {
+    std::string list;
+    for (std::size_t m = 0; m < kMethods.size(); ++m) {
+        if ((methods & methods_of(static_cast<Method>(m))) == 0) continue;
+        list += (list.empty() ? "" : " and ") + in_quotes(kMethods[m]);
+    }
+    return list;
+}
+
+std::string has_no_effect(const Config& config, const Setting& setting) {
+    const bool several = (setting.methods & (setting.methods - 1)) != 0;
+    return "setting " + in_quotes(setting.key) + " belongs to the " +
+           (several ? "methods " : "method ") + methods_in_words(setting.methods) +
+           "; it has no effect with the method " + in_quotes(print(config.method)) +
+           ": leave it out, or set `method` (preset \"paper\" is the method 'submaps')";
 }
 
 }  // namespace
@@ -115,13 +134,12 @@ Config preset(std::string_view name) {
     if (name == "default") return Config{};
     if (name == "paper") {
         Config config;
-        config.submap.keyframe_interval = 0.75;
-        config.submap.keyframe_distance = 1.0;
-        config.back_end.observers = Observers::submaps;
-        config.back_end.occupancy_threshold = 0.35;
+        config.method = Method::submaps;
+        config.keyframe = {.interval = 0.75, .distance = 1.0};
+        config.map.occupancy_threshold = 0.35;
         return config;
     }
-    throw ConfigError("unknown preset " + quoted(name) + "; choose default or paper");
+    throw ConfigError("unknown preset " + in_quotes(name) + "; choose default or paper");
 }
 
 void set(Config& config, std::string_view key, std::string_view value) {
@@ -143,7 +161,22 @@ std::string get(const Config& config, std::string_view key) {
     return *text;
 }
 
+bool in_force(const Config& config, const Setting& setting) {
+    return (setting.methods & methods_of(config.method)) != 0;
+}
+
+void require_in_force(const Config& config, std::string_view key) {
+    bool found = false;
+    visit(config, [&](const Setting& s, const auto&) {
+        if (s.key != key) return;
+        found = true;
+        if (!in_force(config, s)) throw ConfigError(has_no_effect(config, s));
+    });
+    if (!found) unknown_key(key);
+}
+
 std::vector<std::string> violations(const Config& config) {
+    const Config defaults;
     std::vector<std::string> found;
     visit(config, [&](const Setting& s, const auto& member) {
         if constexpr (is_number<std::decay_t<decltype(member)>>) {
@@ -153,17 +186,15 @@ std::vector<std::string> violations(const Config& config) {
                                 print(s.min) + " .. " + print(s.max));
             }
         }
+        if (!in_force(config, s) && print(member) != get(defaults, s.key)) {
+            found.push_back(has_no_effect(config, s));
+        }
     });
-    if (!config.front_end.enabled && !config.back_end.enabled) {
+    if (config.method == Method::submaps && !config.front_end.enabled && !config.back_end.enabled) {
         found.push_back(
             "front_end.enabled and back_end.enabled are both false: nothing would be done");
     }
     return found;
-}
-
-bool scans_observe(const Config& config) {
-    return config.method == Method::dynamic_filter && config.back_end.enabled &&
-           config.back_end.observers == Observers::scans;
 }
 
 void validate(const Config& config) {

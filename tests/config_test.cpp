@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include <limits>
 #include <set>
 #include <type_traits>
@@ -124,13 +126,13 @@ TEST(Config, AnUnknownKeyNamesTheNearestOne) {
         EXPECT_TRUE(contains(by_set, key) && contains(by_set, nearest)) << by_set;
         EXPECT_EQ(by_set, message_of([&] { get(config, key); }));
     };
-    says("back_end.voxelsize", "'back_end.voxel_size'");
-    says("voxel_size", "'back_end.voxel_size'");
+    says("back_end.voxel_size", "'map.voxel_size'");  // where it stood once
+    says("voxel_size", "'map.voxel_size'");
     says("front_end.tua", "'front_end.tau'");
     says("revert_radius", "'front_end.revert_radius'");
     says("Method", "'method'");
-    says("voxel", "'back_end.voxel_size'");  // its beginning
-    says("submap.keyframe_distanc", "'submap.keyframe_distance'");
+    says("voxel", "'map.voxel_size'");  // its beginning
+    says("keyframe.distanc", "'keyframe.distance'");
     // One letter wrong or missing anywhere still finds the key.
     for (const Setting& s : settings()) {
         std::string typo(s.key);
@@ -149,7 +151,7 @@ TEST(Config, ABadValueSaysWhatWasExpected) {
         EXPECT_TRUE(contains(message, "'" + std::string(value) + "'")) << message;
     };
     for (const auto* bad : {"", "x", "1x", " 1", "1 ", "--1", "1,5", "1e999"}) {
-        says("back_end.voxel_size", bad, "a number");
+        says("map.voxel_size", bad, "a number");
     }
     for (const auto* bad : {"", "1.5", "1e3", "99999999999", "0x10"}) {
         says("submap.keyframes", bad, "a whole number");
@@ -158,7 +160,7 @@ TEST(Config, ABadValueSaysWhatWasExpected) {
         says("back_end.enabled", bad, "one of false, true");
     }
     says("front_end.reverting", "maps", "one of map, visibility, none");
-    says("method", "", "one of dynamic_filter, removert");
+    says("method", "", "one of scans, submaps, removert");
 }
 
 TEST(Config, ABadValueChangesNothing) {
@@ -170,31 +172,47 @@ TEST(Config, ABadValueChangesNothing) {
     }
 }
 
+/// Calls f(setting, number) for those of a method.
+template <class F>
+void visit_numbers(Config& config, const F& f) {
+    visit(config, [&](const Setting& s, auto& member) {
+        if constexpr (is_number<std::decay_t<decltype(member)>>) {
+            if (in_force(config, s)) f(s, member);
+        }
+    });
+}
+
+constexpr std::array kMethods{Method::scans, Method::submaps, Method::removert};
+
 TEST(Config, BoundsAreInclusive) {
-    Config low, high;
-    visit(low, [](const Setting& s, auto& m) {
-        using T = std::decay_t<decltype(m)>;
-        if constexpr (is_number<T>) m = static_cast<T>(s.min);
-    });
-    visit(high, [](const Setting& s, auto& m) {
-        using T = std::decay_t<decltype(m)>;
-        if constexpr (is_number<T>) m = static_cast<T>(s.max);
-    });
-    EXPECT_TRUE(violations(low).empty());
-    EXPECT_TRUE(violations(high).empty());
-    EXPECT_NO_THROW(validate(low));
+    for (const Method method : kMethods) {
+        Config low, high;
+        low.method = high.method = method;
+        visit_numbers(low, [](const Setting& s, auto& m) {
+            m = static_cast<std::decay_t<decltype(m)>>(s.min);
+        });
+        visit_numbers(high, [](const Setting& s, auto& m) {
+            m = static_cast<std::decay_t<decltype(m)>>(s.max);
+        });
+        EXPECT_TRUE(violations(low).empty());
+        EXPECT_TRUE(violations(high).empty());
+        EXPECT_NO_THROW(validate(low));
+    }
 }
 
 TEST(Config, AllViolationsAreReportedAtOnce) {
-    for (const int direction : {-1, +1}) {
+    for (const auto& [method, direction] : {std::pair{Method::scans, -1},
+                                            {Method::scans, 1},
+                                            {Method::submaps, -1},
+                                            {Method::submaps, 1}}) {
         Config config;
+        config.method = method;
         std::vector<std::string_view> keys;
-        visit(config, [&](const Setting& s, auto& member) {
-            using T = std::decay_t<decltype(member)>;
-            if constexpr (is_number<T>) {
-                member = static_cast<T>(direction < 0 ? s.min - 1.0 : s.max + 1.0);
-                keys.push_back(s.key);
-            }
+        const double beyond = direction;
+        visit_numbers(config, [&](const Setting& s, auto& member) {
+            member =
+                static_cast<std::decay_t<decltype(member)>>((beyond < 0 ? s.min : s.max) + beyond);
+            keys.push_back(s.key);
         });
         const auto found = violations(config);
         ASSERT_EQ(found.size(), keys.size());
@@ -207,7 +225,7 @@ TEST(Config, AllViolationsAreReportedAtOnce) {
 }
 
 TEST(Config, NotANumberIsOutOfEveryBound) {
-    Config config;
+    Config config = preset("paper");
     config.front_end.tau = std::numeric_limits<double>::quiet_NaN();
     EXPECT_EQ(violations(config).size(), 1U);
     config.front_end.tau = std::numeric_limits<double>::infinity();
@@ -215,7 +233,7 @@ TEST(Config, NotANumberIsOutOfEveryBound) {
 }
 
 TEST(Config, SwitchingBothEndsOffIsAViolation) {
-    Config config;
+    Config config = preset("paper");
     config.front_end.enabled = false;
     EXPECT_TRUE(violations(config).empty());
     config.back_end.enabled = false;
@@ -233,15 +251,34 @@ TEST(Config, PresetsAreValidAndUnknownOnesNameTheChoices) {
     }
 }
 
-TEST(Config, ScansObserveUnlessSomethingElseDecides) {
+TEST(Config, AChangedSettingOfAnotherMethodIsAViolationThatNamesTheMethod) {
     Config config;
-    EXPECT_TRUE(scans_observe(config));
-    config.method = Method::removert;
-    EXPECT_FALSE(scans_observe(config));
-    config = {};
-    config.back_end.enabled = false;
-    EXPECT_FALSE(scans_observe(config));
-    EXPECT_FALSE(scans_observe(preset("paper")));
+    config.back_end.max_submaps = 5;
+    ASSERT_EQ(violations(config).size(), 1U);
+    EXPECT_TRUE(contains(violations(config)[0], "'back_end.max_submaps'"));
+    EXPECT_TRUE(contains(violations(config)[0], "'submaps'"));
+    config.method = Method::submaps;
+    EXPECT_TRUE(violations(config).empty());
+    config.scans.max_keyframes = 5;
+    EXPECT_EQ(violations(config).size(), 1U);
+    EXPECT_TRUE(contains(violations(config)[0], "'scans'"));
+}
+
+TEST(Config, EverySettingBelongsToAMethodAndIsRefusedInTheOthers) {
+    for (const Method method : kMethods) {
+        Config config;
+        config.method = method;
+        int in = 0, out = 0;
+        visit(config, [&](const Setting& s, const auto&) {
+            EXPECT_NE(s.methods, 0U) << s.key;
+            EXPECT_NE(s.help, "") << s.key;
+            const std::string refusal = message_of([&] { require_in_force(config, s.key); });
+            EXPECT_EQ(refusal.empty(), in_force(config, s)) << s.key;
+            ++(in_force(config, s) ? in : out);
+        });
+        EXPECT_GT(in, 5);
+        EXPECT_GT(out, 5);
+    }
 }
 
 }  // namespace

@@ -1,18 +1,23 @@
-foreach(unit config parallel stage_times
+foreach(unit config keyframe map_contents parallel stage_times
              geometry/beam_image geometry/map_points geometry/neighbor_grid geometry/pose geometry/principal_axes geometry/project_kernel
              geometry/range_image geometry/voxel geometry/voxel_index geometry/voxel_neighbors
-             front_end/front_end front_end/removert front_end/reverting front_end/submap front_end/visibility_removal
-             front_end/window
-             back_end/back_end back_end/contact back_end/evidence back_end/evidence_map
-             back_end/line_of_sight back_end/sight_kernel back_end/normals back_end/occupancy back_end/submap_buffer
-             back_end/visibility_check
-             pipeline/dynamic_filter pipeline/merge pipeline/odd_scans pipeline/online_filter pipeline/pose_jump pipeline/scan_queue)
+             scans_observe/contact scans_observe/evidence scans_observe/evidence_grid scans_observe/evidence_map
+             scans_observe/instant scans_observe/line_of_sight scans_observe/observers scans_observe/sight_kernel
+             scans_observe/vote scans_observe/vote_kernel
+             submaps_observe/back_end submaps_observe/front_end submaps_observe/merge submaps_observe/normals
+             submaps_observe/occupancy submaps_observe/removert submaps_observe/reverting submaps_observe/submap
+             submaps_observe/submap_buffer submaps_observe/visibility_check submaps_observe/visibility_removal
+             submaps_observe/window
+             pipeline/dynamic_filter pipeline/map_segments pipeline/odd_scans pipeline/online_filter pipeline/pose_jump
+             pipeline/scan_queue pipeline/two_stages)
   df_test(${unit} dynamic_filter)
 endforeach()
 
-# Private to the library: the queue, the kernels, and the word on which of these exist.
-target_include_directories(pipeline_scan_queue_test PRIVATE ${PROJECT_SOURCE_DIR}/src)
-foreach(kernel geometry_map_points_test geometry_project_kernel_test back_end_sight_kernel_test)
+# Private to the library: the stages of the online filter, the kernels, and the word on which of these exist.
+foreach(unit map_segments scan_queue two_stages)
+  target_include_directories(pipeline_${unit}_test PRIVATE ${PROJECT_SOURCE_DIR}/src)
+endforeach()
+foreach(kernel geometry_map_points_test geometry_project_kernel_test scans_observe_sight_kernel_test scans_observe_vote_kernel_test)
   target_include_directories(${kernel} PRIVATE ${PROJECT_SOURCE_DIR}/src)
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     target_compile_definitions(${kernel} PRIVATE DYNAMIC_FILTER_X86_LEVELS)

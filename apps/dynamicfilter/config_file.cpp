@@ -24,19 +24,26 @@ std::string text_of(const toml::node& node) {
     return out.str();
 }
 
+void set_noting(Config& config, const Assigned& setting, const std::string& value,
+                std::vector<Assigned>& assigned, std::vector<std::string>& errors) {
+    try {
+        set(config, setting.key, value);
+        assigned.push_back(setting);
+    } catch (const ConfigError& error) {
+        errors.push_back(fmt::format("{}: {}", setting.where, error.what()));
+    }
+}
+
 void apply_table(Config& config, const toml::table& table, const std::string& prefix,
-                 std::vector<std::string>& errors) {
+                 std::vector<Assigned>& assigned, std::vector<std::string>& errors) {
     for (const auto& [key, node] : table) {
         const std::string name = prefix + std::string(key.str());
         if (const auto* section = node.as_table()) {
-            apply_table(config, *section, name + ".", errors);
+            apply_table(config, *section, name + ".", assigned, errors);
             continue;
         }
-        try {
-            set(config, name, text_of(node));
-        } catch (const ConfigError& error) {
-            errors.push_back(fmt::format("line {}: {}", node.source().begin.line, error.what()));
-        }
+        const std::string where = fmt::format("line {}", node.source().begin.line);
+        set_noting(config, {name, where}, text_of(node), assigned, errors);
     }
 }
 
@@ -51,32 +58,45 @@ std::string read_shallow(const std::filesystem::path& file) {
 
 }  // namespace
 
-void apply_toml(Config& config, const std::filesystem::path& file) {
+std::vector<Assigned> apply_toml(Config& config, const std::filesystem::path& file) {
     std::vector<std::string> errors;
+    std::vector<Assigned> assigned;
     try {
-        apply_table(config, toml::parse(read_shallow(file)), "", errors);
+        apply_table(config, toml::parse(read_shallow(file)), "", assigned, errors);
     } catch (const toml::parse_error& error) {
         throw ConfigError(fmt::format("{} (line {}): not TOML: {}", file.string(),
                                       error.source().begin.line, error.description()));
     } catch (const InputError& error) {
         throw ConfigError(error.what());  // a missing configuration is a usage error
     }
-    if (errors.empty()) return;
-    throw ConfigError(fmt::format("{}: {}", file.string(), fmt::join(errors, "\n  ")));
+    if (!errors.empty()) {
+        throw ConfigError(fmt::format("{}: {}", file.string(), fmt::join(errors, "\n  ")));
+    }
+    for (Assigned& a : assigned) a.where = fmt::format("{}: {}", file.string(), a.where);
+    return assigned;
 }
 
+/// The method is known only when all is read: then what was set without an effect can be named.
 Config load_config(const ConfigOptions& options) {
     Config config = preset(options.preset);
-    if (options.file) apply_toml(config, *options.file);
+    std::vector<Assigned> assigned;
+    if (options.file) assigned = apply_toml(config, *options.file);
     std::vector<std::string> errors;
     for (const std::string& assignment : options.assignments) {
+        const std::string where = options.assigned_by + assignment;
+        const auto equals = assignment.find('=');
+        if (equals == std::string::npos) {
+            errors.push_back(where + ": expected section.key=value");
+            continue;
+        }
+        set_noting(config, {assignment.substr(0, equals), where}, assignment.substr(equals + 1),
+                   assigned, errors);
+    }
+    for (const Assigned& a : assigned) {
         try {
-            const auto equals = assignment.find('=');
-            if (equals == std::string::npos) throw ConfigError("expected section.key=value");
-            set(config, assignment.substr(0, equals), assignment.substr(equals + 1));
+            require_in_force(config, a.key);
         } catch (const ConfigError& error) {
-            errors.push_back(
-                fmt::format("{}{}: {}", options.assigned_by, assignment, error.what()));
+            errors.push_back(fmt::format("{}: {}", a.where, error.what()));
         }
     }
     if (!errors.empty()) throw ConfigError(fmt::format("{}", fmt::join(errors, "\n  ")));
@@ -87,6 +107,7 @@ Config load_config(const ConfigOptions& options) {
 std::string to_toml(const Config& config) {
     std::string text, section;
     visit(config, [&](const Setting& setting, const auto& member) {
+        if (!in_force(config, setting)) return;
         const auto dot = setting.key.find('.');
         const auto own =
             dot == std::string_view::npos ? std::string_view{} : setting.key.substr(0, dot);
@@ -112,6 +133,7 @@ std::string to_toml(const Config& config) {
 std::string to_json(const Config& config) {
     auto list = nlohmann::ordered_json::array();
     visit(config, [&](const Setting& setting, const auto& member) {
+        if (!in_force(config, setting)) return;
         nlohmann::ordered_json entry{{"key", setting.key}};
         using Value = std::decay_t<decltype(member)>;
         if constexpr (std::is_arithmetic_v<Value>) {

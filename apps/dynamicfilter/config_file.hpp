@@ -3,19 +3,27 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "commands.hpp"
 #include "dynamic_filter/config.hpp"
 
 namespace dynamic_filter::app {
 
-/// Preset, then file, then --set; checked. Throws ConfigError.
+/// Preset, then file, then --set; checked. Throws ConfigError, also for a setting that has no
+/// effect with the method in force.
 Config load_config(const ConfigOptions& options);
 
-/// Applies a TOML file. Errors name the file, the line and, for unknown keys, the nearest one.
-void apply_toml(Config& config, const std::filesystem::path& file);
+/// A setting, and where the user wrote it.
+struct Assigned {
+    std::string key, where;
+};
 
-/// Every setting with its unit, symbol and meaning as a comment; apply_toml reads it back.
+/// Applies a TOML file; returns what it sets. Errors name the file, the line and, for unknown keys,
+/// the nearest one.
+std::vector<Assigned> apply_toml(Config& config, const std::filesystem::path& file);
+
+/// Every setting in force with its unit, symbol and meaning as a comment; apply_toml reads it back.
 std::string to_toml(const Config& config);
 
 /// The same as data: an array of {key, value, min, max, unit, symbol, help}, inclusive bounds for

@@ -30,7 +30,7 @@ CLI::Validator whole_from(std::size_t least) {
 void add_config_options(CLI::App& command, ConfigOptions& o) {
     command.add_option("--preset", o.preset, "default or paper")->capture_default_str();
     command.add_option("--config", o.file, "TOML file with settings (see `dynamicfilter config`)");
-    command.add_option("--set", o.assignments, "one setting, e.g. back_end.voxel_size=0.1")
+    command.add_option("--set", o.assignments, "one setting, e.g. map.voxel_size=0.1")
         ->take_all()
         ->expected(1);
 }

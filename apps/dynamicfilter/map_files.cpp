@@ -66,7 +66,7 @@ void MapFiles::append(const io::Frame& frame, const Labels& labels) {
         const auto* const record = records.data() + i * bytes;
         if (labels[i] == Label::dynamic) {
             dynamic.insert(dynamic.end(), record, record + bytes);
-        } else if (labels[i] == Label::still || keep_unknown_) {
+        } else if (labels[i] == Label::static_ || keep_unknown_) {
             still.insert(still.end(), record, record + bytes);
         }
     }

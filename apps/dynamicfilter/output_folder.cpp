@@ -140,7 +140,7 @@ OutputFolder::OutputFolder(fs::path path, Contents contents, Existing existing)
         made_ = fs::create_directories(path_);
         lock_.emplace(path_);
         remove_stale(path_, contents_);
-        if (existing == Existing::go_on) {
+        if (existing == Existing::resume) {
             if (!fs::exists(path_ / kBeside)) return;
             beside_ = path_ / kBeside;
             remove_stale(beside_, contents_);

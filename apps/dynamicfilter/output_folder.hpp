@@ -13,7 +13,7 @@ enum class Contents { result, recording, benchmark, tiles, demo };
 enum class Existing {
     refuse,   ///< ConfigError
     replace,  ///< it stays until commit(), and then goes: what such a command leaves, nothing else
-    go_on,    ///< it is written over, file by file; or, where a killed process was replacing it,
+    resume,   ///< it is written over, file by file; or, where a killed process was replacing it,
               ///< what that one left beside it
 };
 

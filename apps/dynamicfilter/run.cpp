@@ -85,7 +85,7 @@ int run(const RunOptions& o) {
         fmt::print(stderr, "view     {}\n", live->url());
     }
     OutputFolder output(folder, Contents::result,
-                        o.resume ? Existing::go_on : replaced_if(o.overwrite));
+                        o.resume ? Existing::resume : replaced_if(o.overwrite));
     const std::string state = begun_with(sequence, config);
     if (o.resume && is_complete(output, state)) {
         output.commit();

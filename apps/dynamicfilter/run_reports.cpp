@@ -20,22 +20,23 @@ double total(const StageTimes& times, const std::string& stage) {
     return it == times.end() ? 0.0 : it->second.total();
 }
 
-double rate(std::size_t items, double seconds) {
+double per_second(std::size_t items, double seconds) {
     return seconds > 0 ? static_cast<double>(items) / seconds : 0.0;
 }
 
 nlohmann::ordered_json timing(const Pass& pass, double cpu_seconds, long peak_rss) {
     const RunSummary& s = pass.summary;
     const int threads = pass.pace.threads;
-    nlohmann::ordered_json json{
-        {"scans_per_second", rate(s.scans, s.seconds)},
-        {"cpu_seconds", cpu_seconds},
-        {"front_end", {{"scans_per_second", s.front_end_scans_per_second}}},
-        {"back_end", {{"submaps_per_second", s.back_end_submaps_per_second}}},
-        {"stages", to_json(pass.filter.times())},
-        {"voxels", s.voxels},
-        {"peak_rss_bytes", peak_rss},
-        {"threads", threads > 0 ? threads : available_threads()}};
+    nlohmann::ordered_json json{{"scans_per_second", per_second(s.scans, s.seconds)},
+                                {"cpu_seconds", cpu_seconds}};
+    for (const RunSummary::Rate& rate : s.rates) {
+        json[rate.stage] = {{rate.item + "_per_second", rate.per_second}};
+    }
+    json["stages"] = to_json(pass.filter.times());
+    json[s.contents.observer] = s.contents.observers;
+    json["voxels"] = s.contents.voxels;
+    json["peak_rss_bytes"] = peak_rss;
+    json["threads"] = threads > 0 ? threads : available_threads();
     if (pass.pace.online) {
         const Counters c = pass.filter.counters();
         json["online"] = {{"speed", *pass.pace.online}, {"in", c.in},
@@ -67,7 +68,7 @@ void write_log(const Pass& pass) {
     for (const std::string& line : pass.sequence.losses) log += "lost     " + line + "\n";
     for (const std::string& line : pass.summary.rejected) log += "rejected " + line + "\n";
     for (const std::string& line : pass.summary.dropped) log += "dropped  " + line + "\n";
-    if (const auto beams = pass.filter.extent().beams) {
+    if (const auto beams = pass.summary.contents.beams) {
         log += fmt::format("beams    {:.2f} deg along azimuth, {:.2f} deg along elevation\n",
                            beams->azimuth_spacing * 180.0 / M_PI,
                            beams->elevation_spacing * 180.0 / M_PI);
@@ -86,9 +87,9 @@ void describe(PageRun& run, const Pass& pass) {
     for (const char* name : {"default", "paper"}) {
         if (to_toml(pass.config) == to_toml(preset(name))) run.info["preset"] = name;
     }
-    run.info["voxel_size"] = pass.config.back_end.voxel_size;
-    run.info["occupancy_threshold"] = pass.config.back_end.occupancy_threshold;
-    run.info["keyframes_total"] = pass.filter.extent().keyframes_total;
+    run.info["voxel_size"] = pass.config.map.voxel_size;
+    run.info["occupancy_threshold"] = pass.config.map.occupancy_threshold;
+    run.info["keyframes_total"] = pass.summary.contents.observers;
     run.info["config"] = to_toml(pass.config);
     const RunSummary& s = pass.summary;
     run.info["counts"] = {{"static", s.still}, {"dynamic", s.dynamic}, {"unknown", s.unknown}};
@@ -108,7 +109,7 @@ void write_report(Pass& pass, const nlohmann::ordered_json& metrics,
     }
     const auto start = std::chrono::steady_clock::now();
     PageRun run = view_of({pass.sequence, pass.filter, pass.scan_notes, pass.instant,
-                           pass.output.path() / "labels", scans_observe(pass.config)});
+                           pass.output.path() / "labels", pass.filter.judges_each_scan()});
     describe(run, pass);
     run.info["scores"] = metrics;
     run.info["timing"] = timing;
@@ -127,12 +128,11 @@ nlohmann::ordered_json measure(Pass& pass, double wall_seconds) {
     const auto seconds = [](const timeval& t) {
         return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
     };
-    const OnlineFilter::Extent extent = pass.filter.extent();
+    s.contents = pass.filter.contents();
     const StageTimes times = pass.filter.times();
-    s.submaps = extent.submaps;
-    s.voxels = extent.voxels;
-    s.front_end_scans_per_second = rate(s.scans, total(times, "front_end"));
-    s.back_end_submaps_per_second = rate(s.submaps, total(times, "back_end"));
+    for (const Throughput& t : s.contents.throughput) {
+        s.rates.push_back({t.stage, t.item, per_second(t.count, total(times, t.stage))});
+    }
     return timing(pass, seconds(usage.ru_utime) + seconds(usage.ru_stime), 1024 * usage.ru_maxrss);
 }
 
@@ -149,14 +149,15 @@ std::string to_text(const RunSummary& s) {
         return s.points == 0 ? 0.0 : 100.0 * static_cast<double>(n) / static_cast<double>(s.points);
     };
     std::string text =
-        fmt::format("scans    {} ({} rejected) in {} submaps, {} voxels\n", s.scans,
-                    s.rejected.size(), s.submaps, s.voxels) +
+        fmt::format("scans    {} ({} rejected), {} {}, {} voxels\n", s.scans, s.rejected.size(),
+                    s.contents.observers, s.contents.observer, s.contents.voxels) +
         fmt::format("points   {}: {:.1f} % static, {:.1f} % dynamic, {:.1f} % unknown\n", s.points,
                     share(s.still), share(s.dynamic), share(s.unknown)) +
-        fmt::format(
-            "speed    {:.1f} scans/s over all; front-end {:.1f} scans/s, back-end {:.1f} "
-            "submaps/s\n",
-            rate(s.scans, s.seconds), s.front_end_scans_per_second, s.back_end_submaps_per_second);
+        fmt::format("speed    {:.1f} scans/s over all", per_second(s.scans, s.seconds));
+    for (const RunSummary::Rate& rate : s.rates) {
+        text += fmt::format("; {} {:.1f} {}/s", rate.stage, rate.per_second, rate.item);
+    }
+    text += '\n';
     if (s.scores) text += "scores against the ground truth of the recording\n" + table(*s.scores);
     return text;
 }

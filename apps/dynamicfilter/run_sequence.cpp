@@ -126,7 +126,7 @@ void note(Pass& pass, std::size_t i, const io::Frame& frame, const Labels& label
 /// Second pass: final verdicts, label files, maps.
 void write_results(Pass& pass) {
     const auto folder = pass.output.subfolder("labels");
-    MapFiles maps(pass.output.path(), pass.config.output.keep_unknown,
+    MapFiles maps(pass.output.path(), pass.config.map.keep_unknown,
                   pass.sequence.format == io::Format::benchmark);
     const std::vector<std::size_t> scans = accepted_scans(pass);
     Progress progress("write", scans.size(), pass.watchers.quiet);

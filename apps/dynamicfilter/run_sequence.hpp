@@ -10,6 +10,7 @@
 #include "dynamic_filter/config.hpp"
 #include "dynamic_filter/eval/scores.hpp"
 #include "dynamic_filter/io/sequence.hpp"
+#include "dynamic_filter/map_contents.hpp"
 #include "output_folder.hpp"
 #include "top_view.hpp"
 #include "view/live_view.hpp"
@@ -22,8 +23,14 @@ struct RunSummary {
     std::vector<std::string> dropped;  ///< online: what it could not keep up with
     std::vector<std::string> notes;
     std::size_t points = 0, still = 0, dynamic = 0, unknown = 0;
-    std::size_t submaps = 0, voxels = 0;
-    double seconds = 0.0, front_end_scans_per_second = 0.0, back_end_submaps_per_second = 0.0;
+    MapContents contents;  ///< of the filter's maps
+    double seconds = 0.0;
+    /// Of each main stage: items per second of its busy wall time, in their order.
+    struct Rate {
+        std::string stage, item;
+        double per_second = 0.0;
+    };
+    std::vector<Rate> rates;
     std::optional<eval::Scores> scores, instant_scores;
     bool interrupted = false;
 };

@@ -145,7 +145,7 @@ public:
         };
         write_points("/points", cloud);
         if (labels.empty()) return;
-        write_points("/points_static", part(cloud, labels, Label::still));
+        write_points("/points_static", part(cloud, labels, Label::static_));
         write_points("/points_dynamic", part(cloud, labels, Label::dynamic));
     }
     std::string commit() override {

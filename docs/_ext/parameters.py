@@ -8,7 +8,7 @@ HEAD = """# Parameters
 
 Made by `script/docs` from `dynamicfilter config --json`; a test fails if it is not up to date.
 
-Change one with `--set back_end.voxel_size=0.1`, many with `--config FILE` (TOML, as `dynamicfilter config` prints it), and all of them to the paper's pipeline with
+Change one with `--set map.voxel_size=0.1`, many with `--config FILE` (TOML, as `dynamicfilter config` prints it), and all of them to the paper's pipeline with
 `--preset paper`. A run writes what was in force into its `config.toml`; the same file gives the same run again. What is out of bounds or unknown ends the command with
 exit code 2: the message names the bounds, or the setting whose name is nearest.
 
@@ -17,15 +17,23 @@ dynamicfilter config > settings.toml
 dynamicfilter config --preset paper --set submap.keyframes=10
 ```
 
-With the default preset few of them matter: `back_end.voxel_size` (finer costs time and memory, see [performance](performance.md)), `back_end.occupancy_threshold` (higher removes
-more), `back_end.max_scans` (memory), `submap.keyframe_interval` and `submap.keyframe_distance` (how often a scan observes). Two say only what comes out: `back_end.search_radius` (of local
-maps) and `output.keep_unknown`. `submap.keyframes`, `front_end.*` and the rest of `back_end.*` belong to submaps that observe; `back_end.enabled=false` and `method=removert` make submaps of the
-scans, too. What decides beyond these is not set but written in the code, with its reasons: [algorithm](algorithm.md).
+Each method has its own settings, and `dynamicfilter config` prints those of the method in force. A setting of another method would have no effect, so it is an error that
+names the method it belongs to. There are three methods: `scans` (preset `default`), `submaps` (preset `paper`) and `removert`, the paper's opponent.
 
-Bold where the presets differ. *Paper*: symbol, section or table there. The code: [`Config`](../include/dynamic_filter/config.hpp).
+With the default preset few settings matter to a user: `map.voxel_size` (finer costs time and memory, see [performance](performance.md)), `map.occupancy_threshold` (higher
+removes more), `scans.max_keyframes` (memory), `keyframe.interval` and `keyframe.distance` (how often a scan observes). Two say only what comes out: `map.search_radius` (of
+local maps) and `map.keep_unknown`. All others of `scans.*` are the constants of the method. They are settings so that an ablation can change them (`script/ablate`) and a run
+can tell what was in force; there is no need to tune them.
+
+*Paper*: symbol, section or table there. The code: [`Config`](../include/dynamic_filter/config.hpp).
 """
 
-TITLES = {"": "The method", "submap": "Keyframes and submaps", "front_end": "Front-end", "back_end": "Back-end", "output": "Output"}
+PARTS = {
+    "method": "The method", "map": "The map", "keyframe": "Keyframes",
+    "scans": "Method `scans`", "scans.observers": "Method `scans`: which keyframes are asked", "scans.sight": "Method `scans`: lines of sight",
+    "scans.evidence": "Method `scans`: evidence of a voxel", "scans.vote": "Method `scans`: neighbours", "scans.contact": "Method `scans`: feet on the ground",
+    "submap": "Method `submaps`: submaps", "front_end": "Method `submaps`: front-end", "back_end": "Method `submaps`: back-end",
+}
 
 
 def settings(command, preset):
@@ -36,19 +44,26 @@ def shown(value):
     return str(value).lower() if isinstance(value, bool) else f"{value:g}" if isinstance(value, (int, float)) else value
 
 
+def section(key):
+    return key.rpartition(".")[0] or key
+
+
 def page(command):
-    text, section = HEAD, None
-    for setting, other in zip(settings(command, "default"), settings(command, "paper")):
-        own, _, name = setting["key"].rpartition(".")
-        if own != section:
-            section = own
-            text += f"\n## {TITLES[own]}\n\n| setting | default | paper | unit | bounds | meaning | paper's |\n|---|---|---|---|---|---|---|\n"
-        value, paper = shown(setting["value"]), shown(other["value"])
-        if value != paper:
-            paper = f"**{paper}**"
-        bounds = f"{shown(setting['min'])} .. {shown(setting['max'])}" if "min" in setting else ""
-        unit = setting["unit"] if setting["unit"] != "1" else ""
-        text += f"| `{setting['key']}` | {value} | {paper} | {unit} | {bounds} | {setting['help']} | {setting['symbol']} |\n"
+    """Settings of all methods stand once, with the value of each preset in which they have an effect."""
+    default, paper = ({s["key"]: s for s in settings(command, name)} for name in ("default", "paper"))
+    text = HEAD
+    for part, title in PARTS.items():
+        text += f"\n## {title}\n\n| setting | default | paper | unit | bounds | meaning | paper's |\n|---|---|---|---|---|---|---|\n"
+        for key, setting in {**default, **paper}.items():
+            if section(key) != part:
+                continue
+            values = [shown(of[key]["value"]) if key in of else "" for of in (default, paper)]
+            bounds = f"{shown(setting['min'])} .. {shown(setting['max'])}" if "min" in setting else ""
+            unit = setting["unit"] if setting["unit"] != "1" else ""
+            text += f"| `{key}` | {values[0]} | {values[1]} | {unit} | {bounds} | {setting['help']} | {setting['symbol']} |\n"
+    known = {section(key) for key in {**default, **paper}}
+    if known != set(PARTS):
+        sys.exit(f"parameters.py: these parts have no title, or no settings: {known ^ set(PARTS)}")
     return text
 
 

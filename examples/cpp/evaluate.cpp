@@ -17,7 +17,7 @@ df::Scan scan_of(const df::io::Frame& frame, std::size_t index) {
 void evaluate(const df::io::Sequence& sequence) {
     if (!sequence.has_truth()) throw df::Error("this recording has no ground truth");
     df::Config config;
-    config.back_end.voxel_size = 0.2;  // [m], as any setting: see config.hpp
+    config.map.voxel_size = 0.2;  // [m], as any setting: see config.hpp
     df::DynamicFilter filter(config);
     for (std::size_t i = 0; i < sequence.size(); ++i) {
         filter.push(scan_of(df::io::read_frame(sequence, i), i));

@@ -22,7 +22,7 @@ using Points = std::vector<Point>;  ///< N of them, in one frame
 using Pose = Eigen::Isometry3d;     ///< rigid; translation [m]
 
 /// Verdict on a point; the values are SemanticKITTI's and are what label files hold.
-enum class Label : std::uint8_t { unknown = 0, still = 9, dynamic = 251 };
+enum class Label : std::uint8_t { unknown = 0, static_ = 9, dynamic = 251 };
 using Labels = std::vector<Label>;  ///< N of them, parallel to the points
 
 /// One sweep of the sensor. Points are in the sensor frame and may be non-finite or at the origin:

@@ -117,7 +117,7 @@ void bind_filter(py::module_& module) {
     py::class_<KeptFilter>(module, "DynamicFilter", R"(Scans in, verdicts out.
 
 config: None, a preset ("default", "paper"), the path of a TOML file, or a dict of settings such as
-{"back_end.voxel_size": 0.1} or {"preset": "paper", "submap": {"keyframes": 10}}; units and bounds:
+{"map.voxel_size": 0.1} or {"preset": "paper", "submap": {"keyframes": 10}}; units and bounds:
 `dynamicfilter config`.
 threads: of each stage, 0: all cores.
 keep: True keeps every scan for labels() and corrections(), 13 bytes a point (14 with the preset
@@ -168,7 +168,7 @@ place is occupied). Raises as flush() does.)")
              R"(The static voxels around a place, from all evidence so far.
 
 pose: 4 x 4, T_world_query, anywhere; None: the last scan's.
-radius [m]: None: `back_end.search_radius`; with the preset "paper" always that.
+radius [m]: None: `map.search_radius`; with the preset "paper" always that.
 Returns (centers, probability), as static_map() does. Raises TypeError and ValueError, and as flush()
 does.)")
         .def("flush", &KeptFilter::flush, Release(),

@@ -9,14 +9,12 @@
 namespace dynamic_filter::python {
 
 KeptFilter::KeptFilter(const Config& config, OnlineOptions options, std::size_t keep)
-    : scans_observe_(scans_observe(config)),
-      most_kept_(keep),
-      filter_(config, options, callbacks()) {}
+    : most_kept_(keep), filter_(config, options, callbacks()) {}
 
 OnlineCallbacks KeptFilter::callbacks() {
     OnlineCallbacks callbacks;
     callbacks.notice = [this](const Notice& notice) { take(notice); };
-    if (scans_observe_) return callbacks;  // push() has the verdict itself
+    // Where each scan is judged at once, push() has the verdict before the scan is kept.
     callbacks.instant = [this](const Verdict& verdict) {
         const std::lock_guard hold(lock_);
         if (Kept* const kept = find(verdict.index)) kept->judged = verdict.labels;
@@ -52,7 +50,7 @@ Labels KeptFilter::push(Points points, const Pose& T_world_sensor, double stamp)
 }
 
 void KeptFilter::keep(Scan scan, const Labels& told) {
-    kept_.push_back({std::move(scan), told, scans_observe_ ? Labels() : told});
+    kept_.push_back({std::move(scan), told, filter_.judges_each_scan() ? Labels() : told});
     if (kept_.size() > most_kept_) kept_.pop_front();
 }
 
@@ -65,7 +63,7 @@ KeptFilter::Kept* KeptFilter::find(std::size_t scan) {
 
 Labels KeptFilter::current(const Kept& kept) const {
     if (finished_) return filter_.verdict(kept.scan).labels;
-    return scans_observe_ ? filter_.settled(kept.scan).labels : kept.judged;
+    return filter_.judges_each_scan() ? filter_.settled(kept.scan).labels : kept.judged;
 }
 
 std::vector<KeptFilter::Correction> KeptFilter::corrections(std::size_t newest) {

@@ -35,7 +35,7 @@ public:
 
     /// The merged map, after finish(); before it, all since the last break of the trajectory.
     std::vector<StaticVoxel> static_map();
-    /// Within `radius` [m] (empty: `back_end.search_radius`) of a pose (empty: the last scan's).
+    /// Within `radius` [m] (empty: `map.search_radius`) of a pose (empty: the last scan's).
     std::vector<StaticVoxel> local_map(const std::optional<Pose>& T_world_query,
                                        std::optional<double> radius);
 
@@ -58,7 +58,6 @@ private:
     Kept* find(std::size_t scan);
     Labels current(const Kept& kept) const;
 
-    bool scans_observe_;
     std::size_t most_kept_;
     std::mutex push_lock_;  // one scan after the other, as they are numbered
     std::optional<std::string> refused_;

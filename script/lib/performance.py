@@ -32,6 +32,12 @@ def kernels(_):
             table(["kernel", "million items/s", "of its roofline [%]"], rows))
 
 
+def stage_rates(preset, timing):
+    """Of the two main stages, with what they count."""
+    stages = {"default": (("judge", "scans"), ("integrate", "scans")), "paper": (("front_end", "scans"), ("back_end", "submaps"))}[preset]
+    return [f"{statistics.median(t[stage][f'{item}_per_second'] for t in timing):.0f} {item}" for stage, item in stages]
+
+
 def sequences(bench):
     """Whole runs beside OctoMap's insertion of the same scans."""
     rows = []
@@ -46,12 +52,11 @@ def sequences(bench):
             rate = statistics.median(t["scans_per_second"] for t in timing)
             rows.append([scene, sensor, preset, f"{rate:.1f}",
                          f"{1e3 * statistics.median(t['cpu_seconds'] for t in timing) / scans:.1f}",
-                         f"{statistics.median(t['front_end']['scans_per_second'] for t in timing):.0f}",
-                         f"{statistics.median(t['back_end']['submaps_per_second'] for t in timing):.1f}",
+                         *stage_rates(preset, timing),
                          f"{max(t['peak_rss_bytes'] for t in timing) / 1e6:.0f}", f"{octomap:.2f}", f"{rate / octomap:.0f}"])
     return ("\n## Whole sequences\n\n`script/bench --only sequences`: `dynamicfilter run`, reading, writing and labels included, median of three; OctoMap "
-            "is the insertion alone, of every tenth of the same scans at 0.2 m, one thread. Front-end and back-end: items per busy wall second.\n\n" +
-            table(["scene", "sensor", "preset", "scans/s", "CPU [ms/scan]", "front-end [scans/s]", "back-end [submaps/s]", "memory [MB]",
+            "is the insertion alone, of every tenth of the same scans at 0.2 m, one thread. Stages: items per busy wall second; the default preset judges and integrates scans, the paper's back-end integrates submaps.\n\n" +
+            table(["scene", "sensor", "preset", "scans/s", "CPU [ms/scan]", "judge / front-end [scans/s]", "integrate / back-end", "memory [MB]",
                    "OctoMap [scans/s]", "ratio"], rows))
 
 
@@ -95,7 +100,7 @@ def scaling(bench):
     for sensor in ("vlp16", "hdl32", "os64", "os128"):
         add(f"points: {sensor}", simulated(bench, "street", sensor, 1))
     for size in (0.4, 0.2, 0.1):
-        add(f"voxels of {size} m", street, settings=[f"back_end.voxel_size={size}"])
+        add(f"voxels of {size} m", street, settings=[f"map.voxel_size={size}"])
     return ("\n## Scaling\n\nThe street, default preset.\n\n" +
             table(["", "scans", "points a scan [10^3]", "voxels [10^3]", "CPU [ms/scan]", "memory [MB]"], rows))
 

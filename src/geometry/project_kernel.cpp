@@ -4,11 +4,13 @@
 // runs on older machines.
 #include "project_kernel.hpp"
 
+#include <numbers>
+
 namespace dynamic_filter::kernel::DYNAMIC_FILTER_LEVEL {
 
 namespace {
 
-constexpr float kPi = 3.14159265358979F;
+constexpr float kPi = std::numbers::pi_v<float>;
 
 /// atan2 by a polynomial on [0, 1]; error below 2e-5 rad, far under any pixel.
 /// (0, 0) gives 0. No branches, so that the loop vectorises.

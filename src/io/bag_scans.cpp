@@ -9,106 +9,13 @@
 
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/io/poses.hpp"
+#include "io/bag_contents.hpp"
 #include "io/byte_reader.hpp"
 #include "io/rigid.hpp"
-#include "io/ros/frame_tree.hpp"
 #include "io/ros/messages.hpp"
 
 namespace dynamic_filter::io {
 namespace {
-
-struct FoundScan {
-    double stamp = 0.0;
-    std::int64_t recorded_ns = 0;
-    MessageRef ref;
-};
-struct CloudTopic {
-    Topic topic;
-    std::string frame;  // of its first message
-    std::vector<FoundScan> scans;
-};
-struct PoseTopic {
-    std::string parent, child;
-    Trajectory trajectory;
-};
-
-/// What one pass over the bag finds.
-struct Contents {
-    std::map<std::string, CloudTopic> clouds;
-    std::map<std::string, PoseTopic> poses;
-    FrameTree frames;
-    std::vector<std::string> notes, losses;
-};
-
-void take(Contents& contents, const Message& message) {
-    switch (kind_of(message.topic.type)) {
-        case MessageKind::cloud:
-        case MessageKind::livox: {
-            const MessageHeader header = read_header(message);
-            CloudTopic& found = contents.clouds[message.topic.name];
-            if (found.scans.empty()) {
-                found.topic = message.topic;
-                found.frame = header.frame;
-            }
-            found.scans.push_back({header.stamp, message.recorded_ns, message.ref});
-            break;
-        }
-        case MessageKind::odometry:
-        case MessageKind::pose: {
-            const StampedPose pose = read_pose_message(message);
-            PoseTopic& found = contents.poses[message.topic.name];
-            found.parent = pose.parent;
-            found.child = pose.child;
-            if (!pose.T_parent_child.matrix().allFinite()) break;
-            found.trajectory.stamps.push_back(pose.stamp);
-            found.trajectory.poses.push_back(pose.T_parent_child);
-            break;
-        }
-        case MessageKind::transforms: {
-            const bool is_static = message.topic.name.ends_with("tf_static");
-            for (const StampedPose& transform : read_transforms(message)) {
-                if (transform.T_parent_child.matrix().allFinite()) {
-                    contents.frames.add(transform, is_static);
-                }
-            }
-            break;
-        }
-        case MessageKind::other:
-            break;
-    }
-}
-
-bool is_scan(const Topic& topic) {
-    const MessageKind kind = kind_of(topic.type);
-    return kind == MessageKind::cloud || kind == MessageKind::livox;
-}
-
-Contents contents_of(const Bag& bag) {
-    Contents contents;
-    std::size_t malformed = 0;
-    bool scans = false;  // among them
-    std::string first;
-    const auto defects = bag.for_each([&](const Message& message) {
-        try {
-            take(contents, message);
-        } catch (const Malformed& error) {
-            if (malformed++ == 0) first = message.topic.name + ": " + error.what();
-            scans = scans || is_scan(message.topic);
-        }
-    });
-    for (const Defect& defect : defects) {
-        (defect.lost ? contents.losses : contents.notes).push_back(defect.what);
-    }
-    if (malformed > 0) {
-        (scans ? contents.losses : contents.notes)
-            .push_back(
-                fmt::format("{} messages cannot be read and are left out; the first is of {}",
-                            malformed, first));
-    }
-    contents.frames.put_in_order();
-    for (auto& [name, topic] : contents.poses) put_in_order(topic.trajectory);
-    return contents;
-}
 
 template <class Topics>
 std::string names_of(const Topics& topics) {
@@ -128,7 +35,7 @@ bool is_part_of_another(const std::string& name, const std::map<std::string, Clo
     return false;
 }
 
-const CloudTopic& choose_clouds(const Contents& contents, const std::filesystem::path& data,
+const CloudTopic& choose_clouds(const BagContents& contents, const std::filesystem::path& data,
                                 const OpenOptions& options) {
     const auto& clouds = contents.clouds;
     if (!options.topic.empty()) {
@@ -220,7 +127,7 @@ PoseSource from_topic(const std::string& name, const PoseTopic& topic, const Fra
                                name, topic.child, sensor)};
 }
 
-PoseSource choose_poses(const Contents& contents, const CloudTopic& clouds,
+PoseSource choose_poses(const BagContents& contents, const CloudTopic& clouds,
                         const std::filesystem::path& data, const OpenOptions& options) {
     const FrameTree& frames = contents.frames;
     const bool by_frames = frames.moves(clouds.frame);
@@ -307,7 +214,7 @@ void refuse_if_all_lost(const Sequence& sequence, const std::filesystem::path& d
 
 Sequence open_bag(const std::filesystem::path& data, const OpenOptions& options) {
     auto scans = std::make_shared<BagScans>(BagScans{Bag(data), {}, {}});
-    const Contents contents = contents_of(scans->bag);
+    const BagContents contents = contents_of(scans->bag);
     const CloudTopic& clouds = choose_clouds(contents, data, options);
     Sequence sequence;
     sequence.format = Format::bag;

@@ -20,7 +20,7 @@ namespace {
 Label label_of(std::uint32_t raw) {
     const std::uint32_t kind = raw & 0xFFFFU;
     if (kind <= 1) return Label::unknown;
-    return kind >= 251 && kind <= 259 ? Label::dynamic : Label::still;
+    return kind >= 251 && kind <= 259 ? Label::dynamic : Label::static_;
 }
 
 Labels intensity_truth(const Cloud& cloud, const std::filesystem::path& file) {
@@ -30,7 +30,7 @@ Labels intensity_truth(const Cloud& cloud, const std::filesystem::path& file) {
     truth.reserve(cloud.size());
     for (const double value : values(cloud, *intensity)) {
         truth.push_back(value == 1.0   ? Label::dynamic
-                        : value == 0.0 ? Label::still
+                        : value == 0.0 ? Label::static_
                                        : Label::unknown);
     }
     return truth;

@@ -46,7 +46,7 @@ std::optional<Notice> ScanQueue::refusal(const Scan& scan) const {
     const auto repeats = [&](std::uint64_t run, double stamp, const Pose& pose) {
         return run == run_ && stamp == scan.stamp && is_same(pose, scan.T_world_sensor);
     };
-    const bool waits = std::any_of(waiting_.begin(), waiting_.end(), [&](const Waiting& w) {
+    const bool waits = std::any_of(waiting_.begin(), waiting_.end(), [&](const QueuedScan& w) {
         return repeats(w.run, w.scan.stamp, w.scan.T_world_sensor);
     });
     if (waits || (taken_ && repeats(taken_->run, taken_->stamp, taken_->T_world_sensor))) {
@@ -61,7 +61,7 @@ std::optional<Notice> ScanQueue::refusal(const Scan& scan) const {
     return std::nullopt;
 }
 
-void ScanQueue::add(Waiting waiting) {
+void ScanQueue::add(QueuedScan waiting) {
     const double stamp = waiting.scan.stamp;
     if (restarts(stamp)) {
         ++run_;
@@ -69,25 +69,25 @@ void ScanQueue::add(Waiting waiting) {
     }
     newest_ = std::max(stamp, newest_.value_or(stamp));
     waiting.run = run_;
-    const auto before = [](const Waiting& a, const Waiting& b) {
+    const auto before = [](const QueuedScan& a, const QueuedScan& b) {
         return std::pair(a.run, a.scan.stamp) < std::pair(b.run, b.scan.stamp);
     };
     const auto place = std::upper_bound(waiting_.begin(), waiting_.end(), waiting, before);
     waiting_.insert(place, std::move(waiting));
 }
 
-Waiting ScanQueue::pop() {
-    Waiting oldest = std::move(waiting_.front());
+QueuedScan ScanQueue::pop() {
+    QueuedScan oldest = std::move(waiting_.front());
     waiting_.pop_front();
     return oldest;
 }
 
-Waiting ScanQueue::take() {
-    Waiting oldest = pop();
+QueuedScan ScanQueue::take() {
+    QueuedScan oldest = pop();
     taken_ = {oldest.run, oldest.scan.stamp, oldest.scan.T_world_sensor};
     return oldest;
 }
 
-Waiting ScanQueue::drop() { return pop(); }
+QueuedScan ScanQueue::drop() { return pop(); }
 
 }  // namespace dynamic_filter

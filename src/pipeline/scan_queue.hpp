@@ -14,7 +14,7 @@
 
 namespace dynamic_filter {
 
-struct Waiting {
+struct QueuedScan {
     Scan scan;
     std::uint64_t run = 0;  ///< of growing stamps; a restart begins the next
     std::chrono::steady_clock::time_point since = std::chrono::steady_clock::now();
@@ -28,19 +28,19 @@ public:
 
     /// Puts a scan that is not refused into its place. Stamps that went back by more than a second
     /// begin a new run; a little, and the scan goes before those that still wait.
-    void add(Waiting waiting);
+    void add(QueuedScan waiting);
 
     /// The oldest.
-    Waiting take();  ///< to judge it: what is older is late from now on
-    Waiting drop();  ///< to make room
+    QueuedScan take();  ///< to judge it: what is older is late from now on
+    QueuedScan drop();  ///< to make room
 
     [[nodiscard]] std::size_t size() const { return waiting_.size(); }
 
 private:
     [[nodiscard]] bool restarts(double stamp) const;
-    Waiting pop();
+    QueuedScan pop();
 
-    std::deque<Waiting> waiting_;
+    std::deque<QueuedScan> waiting_;
     std::uint64_t run_ = 0;
     std::optional<double> newest_;  // stamp within the run
     struct Taken {

@@ -57,7 +57,7 @@ Returns sense(const Caster& caster, const Sensor& sensor, const Pose& T_world_se
         if (echoes[i].range == 0.0F) continue;
         out.points.emplace_back(directions[i] * echoes[i].range);
         out.intensity.push_back(echoes[i].intensity);
-        out.labels.push_back(is_dynamic(echoes[i].kind) ? Label::dynamic : Label::still);
+        out.labels.push_back(is_dynamic(echoes[i].kind) ? Label::dynamic : Label::static_);
         out.kinds.push_back(echoes[i].kind);
     }
     return out;

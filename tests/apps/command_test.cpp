@@ -94,9 +94,13 @@ TEST_F(Command, RunLeavesWhatTheContractSays) {
         EXPECT_GT(metrics["point"][score], 0.3);
     const auto timing = nlohmann::json::parse(slurp(folder_ / "out/timing.json"));
     EXPECT_GT(timing["scans_per_second"], 0);
-    EXPECT_GT(timing["front_end"]["scans_per_second"], 0);
-    EXPECT_GT(timing["back_end"]["submaps_per_second"], 0);
-    EXPECT_GT(timing["stages"]["front_end"]["p99"], 0);
+    EXPECT_GT(timing["judge"]["scans_per_second"], 0);
+    EXPECT_GT(timing["integrate"]["scans_per_second"], 0);
+    EXPECT_GT(timing["keyframes"], 0);
+    EXPECT_GT(timing["stages"]["judge"]["p99"], 0);
+    for (const char* of_submaps : {"front_end", "back_end", "submaps"}) {
+        EXPECT_FALSE(timing.contains(of_submaps)) << of_submaps;
+    }
     for (const char* key : {"cpu_seconds", "voxels", "peak_rss_bytes", "threads"})
         EXPECT_GT(timing[key], 0);
     EXPECT_TRUE(fs::exists(folder_ / "out/run.log"));
@@ -190,9 +194,13 @@ TEST_F(Command, UsageErrorsExitWithTwo) {
     EXPECT_EQ(run("fly"), 2);
     expect_said("unknown command 'fly'; there are: run, eval, simulate, convert");
     EXPECT_EQ(run("run"), 2);
-    EXPECT_EQ(run("run " + recording().string() + " --set back_end.voxle_size=1"), 2);
-    expect_said("back_end.voxel_size");
-    EXPECT_EQ(run("run " + recording().string() + " --set back_end.voxel_size=-1"), 2);
+    EXPECT_EQ(run("run " + recording().string() + " --set map.voxle_size=1"), 2);
+    expect_said("map.voxel_size");
+    EXPECT_EQ(run("run " + recording().string() + " --set map.voxel_size=-1"), 2);
+    EXPECT_EQ(run("run " + recording().string() + " --set back_end.max_submaps=20"), 2);
+    expect_said("belongs to the method 'submaps'");
+    EXPECT_EQ(run("config --preset paper --set scans.max_keyframes=9"), 2);
+    expect_said("belongs to the method 'scans'");
     EXPECT_EQ(run("run " + recording().string() + " --preset best"), 2);
     EXPECT_EQ(run("run " + recording().string() + " --format cloud"), 2);
     EXPECT_EQ(run("run " + recording().string() + " --first 99"), 2);
@@ -369,7 +377,7 @@ TEST_F(Command, ConfigPrintsWhatRunReads) {
     spill(folder_ / "paper.toml", said());
     EXPECT_EQ(run("config --config paper.toml"), 0);
     EXPECT_EQ(said(), slurp(folder_ / "paper.toml"));
-    EXPECT_EQ(run("config --json --set back_end.voxel_size=0.125"), 0);
+    EXPECT_EQ(run("config --json --set map.voxel_size=0.125"), 0);
     expect_said("0.125");
 }
 
@@ -421,7 +429,7 @@ TEST_F(Command, ResumeGoesOnWithTheSameOnly) {
     const auto expected = bytes_of("out");
     EXPECT_EQ(run("run " + data + " -o out --resume"), 0);
     expect_said("complete out");
-    EXPECT_EQ(run("run " + data + " -o out --resume --set back_end.voxel_size=0.3"), 2);
+    EXPECT_EQ(run("run " + data + " -o out --resume --set map.voxel_size=0.3"), 2);
     expect_said("other settings");
     const std::string state = slurp(folder_ / "out/.run");
     for (const std::size_t at : {std::size_t{9}, state.size() / 2, state.size() - 2}) {
@@ -448,7 +456,7 @@ TEST_F(Command, ResumeGoesOnWithTheSameOnly) {
 }
 
 TEST_F(Command, ResumeGoesOnWithAnOverwriteThatWasKilled) {
-    const std::string data = recording().string(), other = " --set back_end.voxel_size=0.3";
+    const std::string data = recording().string(), other = " --set map.voxel_size=0.3";
     ASSERT_EQ(run("run " + data + " -o out"), 0) << said();
     ASSERT_EQ(run("run " + data + " -o expected" + other), 0) << said();
     const std::string state = slurp(folder_ / "expected/.run");

@@ -98,7 +98,7 @@ TEST(OutputFolder, GoesOnBesideWhatAKilledProcessWasReplacing) {
     fs::create_directory(temporary / ".new");
     spill(temporary / ".new/run.log", "new");
     spill(temporary / ".new/.run.log.tmp.1.0", "half");
-    OutputFolder folder(temporary.path(), Contents::result, Existing::go_on);
+    OutputFolder folder(temporary.path(), Contents::result, Existing::resume);
     EXPECT_EQ(slurp(folder.path() / "run.log"), "new");
     EXPECT_FALSE(fs::exists(folder.path() / ".run.log.tmp.1.0"));
     EXPECT_EQ(slurp(temporary / "run.log"), "old");

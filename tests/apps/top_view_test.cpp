@@ -22,7 +22,7 @@ TEST(TopView, ShowsRemovedPointsInRedBeforeAndNotAfter) {
         for (int y = 0; y < 50; ++y) {
             points.emplace_back(0.1F * static_cast<float>(x) + 0.05F,
                                 0.1F * static_cast<float>(y) + 0.05F, 0.0F);
-            labels.push_back(x == 40 ? Label::dynamic : y == 0 ? Label::unknown : Label::still);
+            labels.push_back(x == 40 ? Label::dynamic : y == 0 ? Label::unknown : Label::static_);
         }
     }
     view.add(points, labels);
@@ -39,7 +39,7 @@ TEST(TopView, ShowsRemovedPointsInRedBeforeAndNotAfter) {
 TEST(TopView, DrawsNothingAsOnePixelAndLargeAreasWithinReason) {
     EXPECT_EQ(TopView().draw(true).pixels.size(), 1U);
     TopView view;
-    view.add({{-2e4F, 0, 0}, {2e4F, 5, 1}}, {Label::still, Label::still});
+    view.add({{-2e4F, 0, 0}, {2e4F, 5, 1}}, {Label::static_, Label::static_});
     EXPECT_LE(view.draw(true).width, 2500);
 }
 

@@ -32,13 +32,13 @@ TEST(PointScore, IsUndefinedWithoutPointsOfAKind) {
 TEST(Confusion, CountsTheDynamicClassOnly) {
     Confusion c;
     EXPECT_FALSE(c.iou());
-    c.add(Label::still, Label::still);
+    c.add(Label::static_, Label::static_);
     EXPECT_FALSE(c.iou());
     c.add(Label::dynamic, Label::dynamic);
     c.add(Label::dynamic, Label::dynamic);
-    c.add(Label::dynamic, Label::still);
+    c.add(Label::dynamic, Label::static_);
     c.add(Label::dynamic, Label::unknown);  // kept, so missed
-    c.add(Label::still, Label::dynamic);
+    c.add(Label::static_, Label::dynamic);
     EXPECT_DOUBLE_EQ(*c.iou(), 2.0 / 5.0);
 }
 

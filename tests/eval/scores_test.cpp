@@ -12,7 +12,7 @@
 namespace dynamic_filter::eval {
 namespace {
 
-constexpr Label kStill = Label::still, kDynamic = Label::dynamic, kUnknown = Label::unknown;
+constexpr Label kStill = Label::static_, kDynamic = Label::dynamic, kUnknown = Label::unknown;
 
 std::vector<LabelledScan> random_scans() {
     std::mt19937 random(11);
@@ -88,7 +88,7 @@ TEST(ScoreMap, OfTheKeptPointsAgreesWithScoreLabels) {
 
 TEST(ScoreLabels, RefusesArraysThatAreNotParallel) {
     const Points points(3, Point(1, 2, 3));
-    const Labels two(2, Label::still), three(3, Label::still);
+    const Labels two(2, Label::static_), three(3, Label::static_);
     for (const LabelledScan& scan : {LabelledScan{points, two, three}, {points, three, two}}) {
         const auto source = [&](std::size_t) { return std::optional(scan); };
         EXPECT_THROW(score_labels(1, source, 0.2), Error);

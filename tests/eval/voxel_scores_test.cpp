@@ -11,7 +11,7 @@
 namespace dynamic_filter::eval {
 namespace {
 
-constexpr Label kStill = Label::still, kDynamic = Label::dynamic;
+constexpr Label kStill = Label::static_, kDynamic = Label::dynamic;
 
 /// Middle of the n-th voxel of 0.2 m along x, and a little off it.
 Point in_voxel(int n, float off = 0.0F) {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <string>
 
-#include "dynamic_filter/front_end/submap.hpp"
+#include "dynamic_filter/submaps_observe/submap.hpp"
 #include "geometry/voxel_kernel.hpp"
 #include "support/random.hpp"
 

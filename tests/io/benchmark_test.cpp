@@ -19,7 +19,7 @@ TEST_F(BenchmarkTest, PosesAndTruthAreInTheFiles) {
     EXPECT_EQ(frame.T_world_sensor.translation().x(), 2.0);
     EXPECT_EQ(frame.points, (Points{{8, 0, 0}, {-2, 5, 0}}));
     EXPECT_EQ(positions(frame.cloud)[0].x(), 10.0F);
-    EXPECT_EQ(read_frame(sequence, 0).truth, (Labels{Label::dynamic, Label::still}));
+    EXPECT_EQ(read_frame(sequence, 0).truth, (Labels{Label::dynamic, Label::static_}));
 }
 
 TEST_F(BenchmarkTest, IntensityThatIsAMeasurement) {

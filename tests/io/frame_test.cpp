@@ -14,7 +14,7 @@ TEST_F(FrameTest, ScanPoseStampAndTruth) {
     EXPECT_EQ(frame.points, (Points{{1, 2, 3}, {4, 5, 6}}));
     EXPECT_EQ(frame.T_world_sensor.translation().x(), 1.0);
     EXPECT_DOUBLE_EQ(frame.stamp, 0.1);
-    EXPECT_EQ(frame.truth, (Labels{Label::dynamic, Label::still}));
+    EXPECT_EQ(frame.truth, (Labels{Label::dynamic, Label::static_}));
     EXPECT_EQ(column(frame.cloud, "intensity"), (std::vector<double>{0.5, 0.5}));
 }
 
@@ -81,7 +81,7 @@ TEST_F(FrameTest, LabelsAreSemanticKitti) {
         bytes += bytes_of(raw);
     }
     const Labels labels = read_labels(data.put("a.label", bytes));
-    const auto u = Label::unknown, s = Label::still, d = Label::dynamic;
+    const auto u = Label::unknown, s = Label::static_, d = Label::dynamic;
     EXPECT_EQ(labels, (Labels{u, u, s, s, s, d, d, s, d}));
     EXPECT_HAS(error_of([&] { read_labels(data.put("a.label", "12345")); }), "byte 4");
 }

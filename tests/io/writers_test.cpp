@@ -50,7 +50,7 @@ TEST(Writers, PcdWriterCountsItself) {
 
 TEST(Writers, LabelsRoundTrip) {
     const TemporaryFolder folder;
-    const Labels labels = {Label::unknown, Label::still, Label::dynamic};
+    const Labels labels = {Label::unknown, Label::static_, Label::dynamic};
     write_labels(folder / "a.label", labels);
     EXPECT_EQ(std::filesystem::file_size(folder / "a.label"), 12U);
     EXPECT_EQ(read_labels(folder / "a.label"), labels);

@@ -11,10 +11,10 @@
 #include <set>
 
 #include "dynamic_filter/error.hpp"
-#include "dynamic_filter/front_end/front_end.hpp"
-#include "dynamic_filter/front_end/submap.hpp"
-#include "dynamic_filter/front_end/window.hpp"
 #include "dynamic_filter/parallel.hpp"
+#include "dynamic_filter/submaps_observe/front_end.hpp"
+#include "dynamic_filter/submaps_observe/submap.hpp"
+#include "dynamic_filter/submaps_observe/window.hpp"
 #include "pipeline/outcome.hpp"
 
 namespace dynamic_filter {
@@ -35,9 +35,9 @@ TEST(DynamicFilter, WallsAreStillAndTheWalkerIsDynamic) {
     const auto scans = drive(24, true);
     const Outcome result = run(scans, small_windows());
     EXPECT_EQ(result.submaps, 3U);
-    EXPECT_GT(share(scans, result.final, Label::still, Label::still), 0.9);
+    EXPECT_GT(share(scans, result.final, Label::static_, Label::static_), 0.9);
     EXPECT_GT(share(scans, result.final, Label::dynamic, Label::dynamic), 0.9);
-    EXPECT_GT(share(scans, result.instant, Label::still, Label::still), 0.9);
+    EXPECT_GT(share(scans, result.instant, Label::static_, Label::static_), 0.9);
     EXPECT_GT(share(scans, result.instant, Label::dynamic, Label::dynamic), 0.8);
 }
 
@@ -50,13 +50,13 @@ TEST(DynamicFilter, AnEmptyRoomSeenFromOnePlaceIsAllStill) {
     }
     const Outcome result = run(scans, small_windows());
     EXPECT_EQ(result.submaps, 3U);
-    EXPECT_TRUE(all_are(result.final, Label::still));
-    EXPECT_TRUE(all_are(result.instant, Label::still));
+    EXPECT_TRUE(all_are(result.final, Label::static_));
+    EXPECT_TRUE(all_are(result.instant, Label::static_));
 }
 
 TEST(DynamicFilter, AnEmptyRoomIsStillAllButAFewPoints) {
     const auto scans = drive(20, false);
-    EXPECT_GT(share(scans, run(scans, small_windows()).final, Label::still, Label::still), 0.9);
+    EXPECT_GT(share(scans, run(scans, small_windows()).final, Label::static_, Label::static_), 0.9);
 }
 
 TEST(DynamicFilter, EveryScanGetsOneVerdictOfItsSizeInOrder) {
@@ -129,8 +129,8 @@ TEST(DynamicFilter, FarOriginsGiveTheSameVerdicts) {
 TEST(DynamicFilter, ASingleScanIsReturnedAsItIs) {
     const auto scans = drive(1, true);
     const Outcome result = run(scans, small_windows());
-    EXPECT_TRUE(all_are(result.final, Label::still));
-    EXPECT_TRUE(all_are(result.instant, Label::still));
+    EXPECT_TRUE(all_are(result.final, Label::static_));
+    EXPECT_TRUE(all_are(result.instant, Label::static_));
     EXPECT_EQ(result.submaps, 1U);
 }
 
@@ -150,10 +150,10 @@ TEST(DynamicFilter, FrontEndOnlyIsTheUnionOfTheStaticSubmaps) {
     config.back_end.enabled = false;
     const auto scans = drive(20, true);
     DynamicFilter filter(config);
-    WindowCutter cutter(config.submap);
+    WindowCutter cutter(config.keyframe, config.submap.keyframes);
     FrontEnd front_end(config);
     StageTimes times;
-    const auto size = static_cast<float>(config.back_end.voxel_size);
+    const auto size = static_cast<float>(config.map.voxel_size);
     std::set<VoxelKey> owned;
     const auto own = [&](const std::optional<Window>& window) {
         if (!window) return;
@@ -172,7 +172,7 @@ TEST(DynamicFilter, FrontEndOnlyIsTheUnionOfTheStaticSubmaps) {
         const Verdict verdict = filter.verdict(s.scan);
         for (std::size_t i = 0; i < points.size(); ++i) {
             const bool in_union = owned.count(*voxel_of(points[i], size)) > 0;
-            ASSERT_EQ(verdict.labels[i], in_union ? Label::still : Label::dynamic);
+            ASSERT_EQ(verdict.labels[i], in_union ? Label::static_ : Label::dynamic);
             ASSERT_EQ(verdict.probability[i], in_union ? 1.0F : 0.0F);
         }
     }
@@ -183,9 +183,9 @@ TEST(DynamicFilter, BackEndOnlyLeavesInstantVerdictsStillAndStillFindsTheWalker)
     config.front_end.enabled = false;
     const auto scans = drive(40, true);
     const Outcome result = run(scans, config);
-    EXPECT_TRUE(all_are(result.instant, Label::still));
+    EXPECT_TRUE(all_are(result.instant, Label::static_));
     EXPECT_GT(share(scans, result.final, Label::dynamic, Label::dynamic), 0.5);
-    EXPECT_GT(share(scans, result.final, Label::still, Label::still), 0.8);
+    EXPECT_GT(share(scans, result.final, Label::static_, Label::static_), 0.8);
 }
 
 TEST(DynamicFilter, MoreChecksNeverRaiseAProbability) {
@@ -213,27 +213,27 @@ TEST(DynamicFilter, TheThresholdIsInclusive) {
     const auto scans = drive(24, true);
     Config config = small_windows();
     for (const double threshold : {0.0, 0.5, 1.0}) {
-        config.back_end.occupancy_threshold = threshold;
+        config.map.occupancy_threshold = threshold;
         const Outcome result = run(scans, config);
         for (const Verdict& v : result.final) {
             for (std::size_t i = 0; i < v.labels.size(); ++i) {
                 const bool still = v.probability[i] >= static_cast<float>(threshold);
                 if (v.probability[i] == 0.0F) continue;  // no submap holds it
-                ASSERT_EQ(v.labels[i], still ? Label::still : Label::dynamic);
+                ASSERT_EQ(v.labels[i], still ? Label::static_ : Label::dynamic);
             }
         }
     }
 }
 
 TEST(DynamicFilter, RemovertTakesTheWholeSequenceAsOneWindow) {
-    Config config = small_windows();
+    Config config;
     config.method = Method::removert;
-    config.front_end.enabled = false;  // the baseline has its own idea
+    config.keyframe = small_windows().keyframe;
     const auto scans = drive(20, true);
     const Outcome result = run(scans, config);
     EXPECT_EQ(result.submaps, 1U);
     EXPECT_EQ(result.instant.size(), scans.size());
-    EXPECT_GT(share(scans, result.final, Label::still, Label::still), 0.8);
+    EXPECT_GT(share(scans, result.final, Label::static_, Label::static_), 0.8);
     EXPECT_GT(share(scans, result.final, Label::dynamic, Label::dynamic), 0.3);
 }
 
@@ -247,8 +247,8 @@ TEST(DynamicFilter, EveryRevertingKeepsAtLeastWhatNoneKeeps) {
         const Outcome other = run(scans, config);
         for (std::size_t s = 0; s < scans.size(); ++s) {
             for (std::size_t i = 0; i < none.instant[s].labels.size(); ++i) {
-                if (none.instant[s].labels[i] != Label::still) continue;
-                ASSERT_EQ(other.instant[s].labels[i], Label::still);
+                if (none.instant[s].labels[i] != Label::static_) continue;
+                ASSERT_EQ(other.instant[s].labels[i], Label::static_);
             }
         }
     }
@@ -256,7 +256,7 @@ TEST(DynamicFilter, EveryRevertingKeepsAtLeastWhatNoneKeeps) {
 
 TEST(DynamicFilter, RejectsAConfigOutOfBounds) {
     Config config;
-    config.back_end.voxel_size = -1.0;
+    config.map.voxel_size = -1.0;
     EXPECT_THROW(DynamicFilter{config}, ConfigError);
 }
 
@@ -285,7 +285,7 @@ TEST(DynamicFilter, ASensorThatStandsStillForLongKeepsTheWallsItSawLast) {
     scans[1].scan.index = 1;
     const Outcome result = run(scans, config);
     for (const float p : result.final[1].probability) ASSERT_GE(p, 0.0F);
-    EXPECT_TRUE(all_are(std::vector{result.final[1]}, Label::still));
+    EXPECT_TRUE(all_are(std::vector{result.final[1]}, Label::static_));
 }
 
 class StaticLocalMap : public testing::TestWithParam<Config> {};
@@ -311,8 +311,7 @@ TEST_P(StaticLocalMap, HoldsTheVoxelsAroundAnyPose) {
     }
     query.translation().x() += 1e4;
     EXPECT_TRUE(filter.local_static_map(query).empty());
-    const bool scans_observe = GetParam().back_end.observers == Observers::scans;
-    EXPECT_EQ(filter.local_static_map(query, 1e6).empty(), !scans_observe);
+    EXPECT_EQ(filter.local_static_map(query, 1e6).empty(), !filter.judges_each_scan());
 }
 
 TEST(DynamicFilter, NothingIsPushedAfterTheEnd) {
@@ -327,7 +326,7 @@ TEST(DynamicFilter, NothingIsPushedAfterTheEnd) {
 }
 
 TEST(DynamicFilter, NothingIsSettledWhereScansDoNotObserve) {
-    Config no_back_end;
+    Config no_back_end = small_windows();
     no_back_end.back_end.enabled = false;
     for (const Config& config : {small_windows(), no_back_end}) {
         DynamicFilter filter(config);
@@ -347,7 +346,7 @@ TEST_P(StaticLocalMap, MergedHoldsTheStaticPointsOfAllScans) {
     const auto map = filter.static_map();
     ASSERT_FALSE(map.empty());
     const auto cell = [&](const Eigen::Vector3d& at) {
-        const Eigen::Vector3d steps = (at - map[0].center) / GetParam().back_end.voxel_size;
+        const Eigen::Vector3d steps = (at - map[0].center) / GetParam().map.voxel_size;
         return std::array{std::lround(steps.x()), std::lround(steps.y()), std::lround(steps.z())};
     };
     std::set<std::array<long, 3>> cells;
@@ -357,7 +356,7 @@ TEST_P(StaticLocalMap, MergedHoldsTheStaticPointsOfAllScans) {
     for (auto& s : scans) {
         const Labels labels = filter.verdict(s.scan).labels;
         for (std::size_t i = 0; i < labels.size(); ++i) {
-            if (labels[i] != Label::still) continue;
+            if (labels[i] != Label::static_) continue;
             ++still;
             held += cells.count(cell(s.scan.T_world_sensor * s.scan.points[i].cast<double>()));
         }
@@ -374,23 +373,23 @@ INSTANTIATE_TEST_SUITE_P(Observers, StaticLocalMap, testing::Values(small_window
 TEST(ScansObserve, WallsAreStillAndTheWalkerIsDynamic) {
     const auto scans = drive(24, true);
     const Outcome result = run(scans, Config{});
-    EXPECT_GT(share(scans, result.final, Label::still, Label::still), 0.99);
+    EXPECT_GT(share(scans, result.final, Label::static_, Label::static_), 0.99);
     EXPECT_GT(share(scans, result.final, Label::dynamic, Label::dynamic), 0.9);
     ASSERT_EQ(result.instant.size(), scans.size());
     EXPECT_GT(share(scans, result.instant, Label::dynamic, Label::dynamic), 0.7);
-    EXPECT_LT(share(scans, result.instant, Label::still, Label::dynamic), 0.01);
+    EXPECT_LT(share(scans, result.instant, Label::static_, Label::dynamic), 0.01);
 }
 
 TEST(ScansObserve, NothingMovesInAnEmptyRoom) {
     const auto scans = drive(20, false);
-    EXPECT_LT(share(scans, run(scans, Config{}).final, Label::still, Label::dynamic), 0.001);
+    EXPECT_LT(share(scans, run(scans, Config{}).final, Label::static_, Label::dynamic), 0.001);
 }
 
 TEST(ScansObserve, TheFirstScanIsUnknownAtOnceAndKnownInTheEnd) {
     const auto scans = drive(12, false);
     const Outcome result = run(scans, Config{});
     EXPECT_TRUE(all_are(std::vector{result.instant[0]}, Label::unknown));
-    EXPECT_GT(share({scans[0]}, {result.final[0]}, Label::still, Label::still), 0.99);
+    EXPECT_GT(share({scans[0]}, {result.final[0]}, Label::static_, Label::static_), 0.99);
 }
 
 TEST(ScansObserve, GivesTheSameBitsForAnyNumberOfThreads) {
@@ -421,7 +420,7 @@ TEST(ScansObserve, PointsThatAreNoMeasurementsAndUnseenScansAreUnknown) {
     EXPECT_TRUE(all_are(std::vector{result.final[4], result.instant[4]}, Label::unknown));
     DynamicFilter never_fed{Config{}};
     never_fed.finish();
-    EXPECT_EQ(never_fed.voxels(), 0U);
+    EXPECT_EQ(never_fed.contents().voxels, 0U);
 }
 
 TEST(ScansObserve, AFootOnTheGroundIsDynamicAndTheGroundIsNot) {

@@ -83,9 +83,9 @@ std::vector<RoomScan> with_car(std::size_t count, std::size_t leaves) {
 TEST_P(OddScans, AParkedCarIsDynamicOnceItHasLeft) {
     const auto leaves = with_car(40, 16);
     EXPECT_GT(share(leaves, final_verdicts(leaves), Label::dynamic, Label::dynamic), 0.5);
-    EXPECT_GT(share(leaves, final_verdicts(leaves), Label::still, Label::still), 0.9);
+    EXPECT_GT(share(leaves, final_verdicts(leaves), Label::static_, Label::static_), 0.9);
     const auto stays = with_car(40, 40);
-    EXPECT_GT(share(stays, final_verdicts(stays), Label::dynamic, Label::still), 0.9);
+    EXPECT_GT(share(stays, final_verdicts(stays), Label::dynamic, Label::static_), 0.9);
 }
 
 double gaussian(test::Random& random) {
@@ -106,7 +106,7 @@ TEST_P(OddScans, NoiseOfThePosesCostsSomeOfItOnly) {
         }
     }
     const auto verdicts = final_verdicts(scans);
-    EXPECT_GT(share(scans, verdicts, Label::still, Label::still), 0.9);
+    EXPECT_GT(share(scans, verdicts, Label::static_, Label::static_), 0.9);
     EXPECT_GT(share(scans, verdicts, Label::dynamic, Label::dynamic), 0.7);
 }
 

@@ -22,7 +22,7 @@ using test::small_windows;
 
 Config every_scan() {
     Config config;
-    config.submap.keyframe_interval = 0.0;
+    config.keyframe.interval = 0.0;
     return config;
 }
 
@@ -275,7 +275,7 @@ TEST(OnlineFilter, ScansFromSeveralThreadsAreAllAccountedFor) {
 
 /// Notices of a run of scans, as kind and index.
 using Told = std::vector<std::pair<NoticeKind, std::size_t>>;
-Told notices_of(const std::vector<RoomScan>& scans, OnlineFilter::Extent& extent) {
+Told notices_of(const std::vector<RoomScan>& scans, std::size_t& maps) {
     Told told;
     OnlineFilter filter(every_scan(), nothing_lost(),
                         {.instant = {}, .settled = {}, .notice = [&](const Notice& n) {
@@ -283,7 +283,7 @@ Told notices_of(const std::vector<RoomScan>& scans, OnlineFilter::Extent& extent
                          }});
     for (const RoomScan& s : scans) filter.push(s.scan);
     filter.finish();
-    extent = filter.extent();
+    maps = filter.maps();
     return told;
 }
 
@@ -292,9 +292,9 @@ TEST(OnlineFilter, AfterAJumpOfThePoseNothingIsHeldAgainstWhatWasBefore) {
     for (std::size_t i = 10; i < scans.size(); ++i) {
         scans[i].scan.T_world_sensor.translation().y() += 1e3;
     }
-    OnlineFilter::Extent extent;
-    EXPECT_EQ(notices_of(scans, extent), (Told{{NoticeKind::jump, 10}}));
-    EXPECT_EQ(extent.maps, 2U);
+    std::size_t maps = 0;
+    EXPECT_EQ(notices_of(scans, maps), (Told{{NoticeKind::jump, 10}}));
+    EXPECT_EQ(maps, 2U);
     const auto half = scans.begin() + 10;
     auto expected = test::run({scans.begin(), half}, every_scan()).final;
     for (Verdict& v : test::run({half, scans.end()}, every_scan()).final) {
@@ -314,17 +314,17 @@ TEST(OnlineFilter, ARecordingThatLoopsBeginsANewMap) {
         scans.push_back(scans[i]);
         scans.back().scan.index = 8 + i;
     }
-    OnlineFilter::Extent extent;
-    EXPECT_EQ(notices_of(scans, extent), (Told{{NoticeKind::restart, 8}}));
-    EXPECT_EQ(extent.maps, 2U);
+    std::size_t maps = 0;
+    EXPECT_EQ(notices_of(scans, maps), (Told{{NoticeKind::restart, 8}}));
+    EXPECT_EQ(maps, 2U);
 }
 
 TEST(OnlineFilter, AGapInTimeIsNoBreak) {
     auto scans = drive(8, false);
     for (std::size_t i = 4; i < 8; ++i) scans[i].scan.stamp += 60.0;
-    OnlineFilter::Extent extent;
-    EXPECT_EQ(notices_of(scans, extent), Told{});
-    EXPECT_EQ(extent.maps, 1U);
+    std::size_t maps = 0;
+    EXPECT_EQ(notices_of(scans, maps), Told{});
+    EXPECT_EQ(maps, 1U);
 }
 
 TEST(OnlineFilter, SettlesScansAfterAsManyMoreAndTheRestAtTheEnd) {
@@ -371,11 +371,11 @@ TEST(OnlineFilter, BeyondTheHorizonTheMapIsForgottenAndOnlyThere) {
             all.push(s.scan);
             some.push(s.scan);
             some.flush();
-            voxels.push_back(some.extent().voxels);
+            voxels.push_back(some.contents().voxels);
         }
         all.finish();
         some.finish();
-        EXPECT_LT(some.extent().voxels, all.extent().voxels / 2);
+        EXPECT_LT(some.contents().voxels, all.contents().voxels / 2);
         EXPECT_LE(voxels.back(), *std::max_element(voxels.begin(), voxels.begin() + 40));
         const Verdict here = some.verdict(scans[78].scan);
         EXPECT_EQ(here.labels, all.verdict(scans[78].scan).labels);
@@ -392,13 +392,13 @@ TEST(OnlineFilter, BytesBoundTheMapToo) {
     for (const RoomScan& s : scans) {
         filter.push(s.scan);
         filter.flush();
-        EXPECT_LE(filter.extent().voxels, small.max_bytes / 160 + 500);  // and one scan's
+        EXPECT_LE(filter.contents().voxels, small.max_bytes / 160 + 500);  // and one scan's
     }
     filter.finish();
     OnlineFilter submaps(small_windows(), small);
     for (const RoomScan& s : scans) submaps.push(s.scan);
     submaps.flush();
-    EXPECT_LE(submaps.extent().submaps, 2U);
+    EXPECT_LE(submaps.contents().observers, 2U);
 }
 
 }  // namespace

@@ -16,10 +16,10 @@ inline Config small_windows() {
     config.front_end.tau_per_metre = 0.05;
     config.back_end.incident_threshold_deg = 75.0;
     config.back_end.depth_channel = 0.2;
-    config.back_end.occupancy_threshold = 0.35;
+    config.map.occupancy_threshold = 0.35;
     config.submap.keyframes = 8;
-    config.submap.keyframe_interval = 0.5;
-    config.submap.keyframe_distance = 100.0;
+    config.keyframe.interval = 0.5;
+    config.keyframe.distance = 100.0;
     return config;
 }
 
@@ -37,7 +37,7 @@ inline Outcome run(const std::vector<RoomScan>& scans, const Config& config) {
     for (const RoomScan& s : scans) take(filter.push(s.scan));
     take(filter.finish());
     for (const RoomScan& s : scans) result.final.push_back(filter.verdict(s.scan));
-    result.submaps = filter.submaps();
+    result.submaps = filter.contents().observers;
     return result;
 }
 

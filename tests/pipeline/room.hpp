@@ -50,7 +50,7 @@ inline RoomScan scan_room(const Pose& pose, const Box& room, const std::vector<B
                                        std::sin(elevation));
             const Eigen::Vector3d from = pose.translation(), ray = pose.linear() * beam;
             double range = cross(room, from, ray).second;
-            Label truth = Label::still;
+            Label truth = Label::static_;
             for (const Box& walker : walkers) {
                 const auto [enter, leave] = cross(walker, from, ray);
                 if (enter > 0.0 && enter < leave && enter < range) {

@@ -62,10 +62,10 @@ TEST(ScanQueue, StampsThatGoBackByMoreThanASecondBeginAnew) {
     add(queue, scan(100.1));
     add(queue, scan(3.0));
     add(queue, scan(3.1));
-    const Waiting first = queue.take();
+    const QueuedScan first = queue.take();
     EXPECT_EQ(first.scan.stamp, 100.0);
     EXPECT_EQ(queue.take().run, first.run);
-    const Waiting anew = queue.take();
+    const QueuedScan anew = queue.take();
     EXPECT_EQ(anew.scan.stamp, 3.0);
     EXPECT_EQ(anew.run, first.run + 1);
     EXPECT_EQ(queue.take().run, anew.run);

@@ -88,21 +88,21 @@ class Configuration(unittest.TestCase):
     def test_a_file(self):
         path = scratch("settings.toml")
         with open(path, "w") as file:
-            file.write("[back_end]\nvoxel_size = 0.3\n")
-        a, b = df.DynamicFilter(path), df.DynamicFilter({"back_end.voxel_size": 0.3})
+            file.write("[map]\nvoxel_size = 0.3\n")
+        a, b = df.DynamicFilter(path), df.DynamicFilter({"map.voxel_size": 0.3})
         for left, right in zip(push_all(a), push_all(b)):
             np.testing.assert_array_equal(left, right)
 
     def test_mistakes(self):
         for config, pattern in (({"back_end.voxel_siz": 1}, "voxel_size"),
-                                ({"back_end.voxel_size": -1}, "voxel_size"), ("papr", "paper"),
+                                ({"map.voxel_size": -1}, "voxel_size"), ("papr", "paper"),
                                 ("missing.toml", "missing.toml")):
             with self.assertRaisesRegex(df.ConfigError, pattern):
                 df.DynamicFilter(config)
         self.assertRaises(TypeError, df.DynamicFilter, 5)
         self.assertRaisesRegex(ValueError, "threads", df.DynamicFilter, threads=100000)
         self.assertRaisesRegex(df.ConfigError, "a section", df.DynamicFilter, {"back_end": 3})
-        df.DynamicFilter({"back_end.visibility_check": np.bool_(True)})
+        df.DynamicFilter({"map.keep_unknown": np.bool_(True)})
 
 
 class Course(unittest.TestCase):
@@ -135,7 +135,7 @@ class Course(unittest.TestCase):
             with self.assertRaisesRegex(error, pattern): call()
 
     def test_what_never_gets_evidence_is_asked_all_the_same(self):
-        for config in ({"back_end.enabled": False}, {"method": "removert"}, "paper"):
+        for config in ({"preset": "paper", "back_end.enabled": False}, {"method": "removert"}, "paper"):
             filter = df.DynamicFilter(config)
             push_all(filter)
             filter.flush()

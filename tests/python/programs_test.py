@@ -29,7 +29,7 @@ class Programs(unittest.TestCase):
 
     def test_settings_and_selection(self):
         result = df.run(recording(), scratch("few"), last=4, threads=1,
-                        config={"back_end.voxel_size": 0.4})
+                        config={"map.voxel_size": 0.4})
         self.assertEqual(result["metrics"]["scans"], 5)
         with open(os.path.join(result["output"], "config.toml")) as file:
             self.assertIn("voxel_size = 0.4", file.read())

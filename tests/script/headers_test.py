@@ -25,7 +25,7 @@ CONTRACT = {  # what a header's first comment must name, if its code has this
     "Threads": r"\)( const| noexcept|;)",
     "Errors": r"\)( const| noexcept|;)",
 }
-SETTING = re.compile(r"of struct dynamic_filter::Config")  # visit() says what it is, and a test that it does
+SETTING = re.compile(r"of struct dynamic_filter::\w*Config\b")  # visit() says what it is, and a test that it does
 PLAIN = "Plain data."  # a header of which there is no more to say
 
 
@@ -48,7 +48,7 @@ def without_units(roots):
         for member in root.iter("memberdef"):
             types = text(member, "type") + " " + " ".join(text(p, "type") for p in member.findall("param"))
             name = text(member, "qualifiedname") or text(member, "name")
-            if member.get("prot") != "public" or "::Config::" in name or not re.search(r"\b(double|float)\b", types):
+            if member.get("prot") != "public" or re.search(r"::\w*Config::", name) or not re.search(r"\b(double|float)\b", types):
                 continue
             if not re.search(UNIT, text(member, "briefdescription", "detaileddescription")):
                 yield f"{member.find('location').get('file')}: {name}: a number without a unit"

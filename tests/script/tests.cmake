@@ -5,6 +5,6 @@ add_test(NAME script/headers
          COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/headers_test.py)
 set_tests_properties(script/headers PROPERTIES SKIP_RETURN_CODE 77)
 add_test(NAME script/mechanisms
-         COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/mechanisms_test.py ${PROJECT_SOURCE_DIR})
+         COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/mechanisms_test.py ${PROJECT_SOURCE_DIR} $<TARGET_FILE:dynamicfilter>)
 add_test(NAME script/faults
          COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/faults_test.py ${PROJECT_SOURCE_DIR})

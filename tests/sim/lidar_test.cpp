@@ -61,7 +61,7 @@ TEST(Lidar, RangesAreQuantisedAndWithinLimits) {
             EXPECT_NEAR(steps, std::round(steps), 0.02);
             EXPECT_GE(returns.intensity[i], 0.0F);
             EXPECT_LE(returns.intensity[i], 1.0F);
-            EXPECT_EQ(returns.labels[i], Label::still);
+            EXPECT_EQ(returns.labels[i], Label::static_);
             EXPECT_EQ(returns.kinds[i], Kind::structure);
         }
     }

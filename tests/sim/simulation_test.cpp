@@ -59,7 +59,7 @@ TEST(Simulation, LabelsAreStillOrDynamic) {
         const SimulatedScan scan = simulation.scan(1);
         std::size_t still = 0, dynamic = 0;
         for (const Label label : scan.labels) {
-            still += label == Label::still;
+            still += label == Label::static_;
             dynamic += label == Label::dynamic;
         }
         EXPECT_EQ(still + dynamic, scan.points.size()) << scene;
@@ -76,7 +76,7 @@ TEST(Simulation, KindsAgreeWithLabels) {
         for (std::size_t i = 0; i < scan.kinds.size(); ++i) {
             const bool dynamic = scan.kinds[i] == Kind::walking ||
                                  scan.kinds[i] == Kind::standing || scan.kinds[i] == Kind::vehicle;
-            EXPECT_EQ(scan.labels[i], dynamic ? Label::dynamic : Label::still) << scene;
+            EXPECT_EQ(scan.labels[i], dynamic ? Label::dynamic : Label::static_) << scene;
         }
     }
 }

@@ -13,7 +13,7 @@ const FORGOTTEN = 5;  // of the key frames, the first are no longer known one by
 const quantised = (place) => place.map((p, c) => Math.max(0, Math.min(65535, Math.round((p - LOW[c]) / STEP))));
 const bits = (settled, truth, instant) => settled | (truth << 2) | (instant << 4);
 
-function transience({ occupied, free, owned, switches }) {
+function dynamicScore({ occupied, free, owned, switches }) {
   const f = free + 2, e = 0.45 * (1 + switches) ** 0.9 * (occupied * owned ** 2) ** 0.2 + 2;
   return (f * f - e * e) / (f * f + e * e);
 }
@@ -54,7 +54,7 @@ class Voxels {
 }
 
 const probabilityOf = (voxel) => {
-  const score = 3 * 3 * transience(voxel) * (voxel.moving ? 1 : 0.9);
+  const score = 3 * 3 * dynamicScore(voxel) * (voxel.moving ? 1 : 0.9);
   return Math.round(254 / (1 + Math.exp(score)));
 };
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The arithmetic of include/dynamic_filter/back_end/evidence.hpp, for the words about a point.
+// The arithmetic of include/dynamic_filter/scans_observe/evidence.hpp, for the words about a point.
 
 /** How often one expects a static voxel with these counts to be seen through. */
 export const expectedPasses = ({ occupied, owned, switches }) =>
   0.45 * (1 + switches) ** 0.9 * (occupied * owned ** 2) ** 0.2;
 
 /** -1..1: whether the voxel was empty most of the time; below 0: no. */
-export function transience(evidence) {
+export function dynamicScore(evidence) {
   const f = evidence.free + 2;
   const e = expectedPasses(evidence) + 2;
   return (f * f - e * e) / (f * f + e * e);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Why a point got its verdict, in words. No element is made here.
 import { DYNAMIC, finalOf, hasTruth, instantOf, isCorrected, NO_VOXEL, NOT_RECORDED, STATIC, truthOf } from "./data.js";
-import { expectedPasses, transience } from "./evidence.js";
+import { expectedPasses, dynamicScore } from "./evidence.js";
 import { count, fixed, plural, short } from "./format.js";
 
 const VERDICTS = ["unknown", "static", "removed"];
@@ -28,11 +28,11 @@ function reason(verdict, { probability, evidence }, threshold) {
   if (!evidence) return `In its voxel ${said}; from ${threshold} on a voxel is static.`;
   const seenThrough = evidence.free === 0 ? "No scan saw through this place" : `${plural(evidence.free, "scan")} saw through this place`;
   const expected = expectedPasses(evidence);
-  const opinion = transience(evidence);
+  const score = dynamicScore(evidence);
   const than = `something static with these counts would be seen through about ${plural(Number(fixed(expected, 1)), "time")}`;
   const own = `${seenThrough}; ${than}.`;
-  if (opinion > 0 === (verdict === DYNAMIC)) return own;
-  return `${own} Its own counts alone would say ${opinion > 0 ? "removed" : "static"}; the voxels around it outvoted them.`;
+  if (score > 0 === (verdict === DYNAMIC)) return own;
+  return `${own} Its own counts alone would say ${score > 0 ? "removed" : "static"}; the voxels around it outvoted them.`;
 }
 
 function corrected(verdict, meta) {
@@ -54,7 +54,7 @@ function judged(verdict, meta) {
     : { text: "Missed: the ground truth says it moves.", kind: "wrong" };
 }
 
-/** {title, verdict, reason, notes: [{text, kind}], counters: [[name, value, meaning]], opinion} */
+/** {title, verdict, reason, notes: [{text, kind}], counters: [[name, value, meaning]], score} */
 export function explain(point, facts, meta, words) {
   const verdict = finalOf(point.verdict);
   const result = {
@@ -74,14 +74,14 @@ export function explain(point, facts, meta, words) {
   }
   const { evidence, span } = facts;
   if (!evidence) return result;
-  result.opinion = transience(evidence);
+  result.score = dynamicScore(evidence);
   result.counters.push(
     ["seen through", count(evidence.free), "n_free: scans whose beams passed the place"],
     ["expected", short(expectedPasses(evidence)), "passes of a static voxel: 0.45 (1 + switches)^0.9 (n_occ owned²)^0.2"],
     ["seen occupied", count(evidence.occupied), "n_occ: scans that saw something there"],
     ["owned", count(evidence.owned), "scans with a point in the voxel"],
     ["switches", count(evidence.switches), "changes between occupied and free"],
-    ["own opinion", fixed(result.opinion, 2), "−1 stays … +1 came or went: (f² − e²) / (f² + e²) with f = n_free + 2, e = expected + 2"],
+    ["own score", fixed(result.score, 2), "−1 stays … +1 came or went: (f² − e²) / (f² + e²) with f = n_free + 2, e = expected + 2"],
   );
   if (span) result.counters.push(["occupied", `${words(span[0])} to ${words(span[1])}`, "first and last scan with a point in it"]);
   return result;

@@ -14,11 +14,11 @@ const empty = () => h("div", { class: "empty-state" },
   h("p", {}, "Click a point. Here it says what was decided, by which evidence, and which scans saw through its place."),
   h("p", { class: "muted" }, "Double click puts it in the middle of the view."));
 
-function opinionBar(opinion) {
-  const share = 50 * (1 + opinion);
-  return h("div", { class: "opinion", role: "img", "aria-label": `own opinion ${fixed(opinion, 2)} between −1, stays, and 1, came or went` },
-    h("div", { class: "opinion-track" }, h("i", { style: `left:${share}%` })),
-    h("div", { class: "opinion-ends" }, h("span", {}, "stays"), h("span", {}, "came or went")));
+function scoreBar(score) {
+  const share = 50 * (1 + score);
+  return h("div", { class: "score", role: "img", "aria-label": `own score ${fixed(score, 2)} between −1, stays, and 1, came or went` },
+    h("div", { class: "score-track" }, h("i", { style: `left:${share}%` })),
+    h("div", { class: "score-ends" }, h("span", {}, "stays"), h("span", {}, "came or went")));
 }
 
 function passList(session, point, passes, facts, select) {
@@ -71,7 +71,7 @@ function about(session, point) {
     session.views.length > 1 ? h("p", { class: "muted" }, run.meta.name) : null,
     h("div", { class: `verdict ${verdictWord(told.verdict)}` }, h("h2", {}, told.title)),
     h("p", { class: "reason" }, told.reason),
-    told.opinion === undefined ? null : opinionBar(told.opinion),
+    told.score === undefined ? null : scoreBar(told.score),
     ...told.notes.map(({ text, kind }) => h("p", { class: `note ${kind}` }, text)),
     point.row === undefined || run.meta.scans === 0 ? null
       : h("p", {}, "Seen in ", h("button", { type: "button", class: "link", onclick: () => goTo(point.row) }, scanWords(run, point.row)), `${range}.`),

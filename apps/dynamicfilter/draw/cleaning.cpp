@@ -11,7 +11,7 @@
 #include "dynamic_filter/pipeline/dynamic_filter.hpp"
 #include "frames.hpp"
 #include "progress.hpp"
-#include "view/lot.hpp"
+#include "view/sampling.hpp"
 
 namespace dynamic_filter::app {
 
@@ -19,7 +19,7 @@ namespace {
 
 constexpr io::Color kPaper{250, 250, 250}, kDim{222, 226, 230}, kKept{105, 115, 125};
 
-/// A scan thinned by lot, and where its points are in the picture's frame.
+/// A scan thinned at random, and where its points are in the picture's frame.
 struct Sample {
     Scan scan;
     Points in_world;
@@ -32,7 +32,7 @@ Sample sample_of(const io::Frame& frame, std::size_t index, const Eigen::Vector3
     Pose T_picture_sensor = frame.T_world_sensor;
     T_picture_sensor.translation() -= origin;
     for (std::size_t i = 0; i < frame.points.size(); ++i) {
-        if (!is_drawn(index, i, share) || !is_measured(frame.points[i])) continue;
+        if (!is_sampled(index, i, share) || !is_measured(frame.points[i])) continue;
         sample.scan.points.push_back(frame.points[i]);
         sample.in_world.push_back(
             (T_picture_sensor * frame.points[i].cast<double>()).cast<float>());
@@ -93,7 +93,7 @@ io::Image draw_scan(const Stage& stage, const Sample& sample, const Labels& labe
     };
     draw(Label::dynamic, 2.0F * stage.size, kRemovedColor);
     draw(Label::unknown, stage.size, kUnknownColor);
-    draw(Label::still, stage.size, kKept);
+    draw(Label::static_, stage.size, kKept);
     for (const Points& points : kept) {
         canvas.draw(points, stage.size, [&](std::size_t) { return kDim; });
     }
@@ -117,7 +117,8 @@ Camera camera_for(const Eigen::AlignedBox3f& box, int width, int height, const R
 }
 
 void animate_cleaning(const io::Sequence& sequence, const Config& config, const RenderOptions& o) {
-    if (!scans_observe(config)) {
+    DynamicFilter filter(config);
+    if (!filter.judges_each_scan()) {
         throw ConfigError(
             "render: only where scans observe (--preset default) is there a map to "
             "show after every scan");
@@ -139,7 +140,6 @@ void animate_cleaning(const io::Sequence& sequence, const Config& config, const 
     if (samples.empty()) throw InputError(sequence.root, "", "no scan is usable");
     const Stage stage = stage_for(samples, o);
 
-    DynamicFilter filter(config);
     constexpr int kMilliseconds = 100;
     Animation animation(kMilliseconds);
     const std::size_t stride = (samples.size() + static_cast<std::size_t>(o.pictures) - 1) /

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <utility>
 
-#include "lot.hpp"
+#include "sampling.hpp"
 #include "verdict_code.hpp"
 
 namespace dynamic_filter::app {
@@ -28,7 +28,7 @@ std::vector<std::uint32_t> chosen_of(const Points& points, std::size_t index) {
     const double share = kPoints / static_cast<double>(points.size());
     std::vector<std::uint32_t> chosen;
     for (std::size_t i = 0; i < points.size(); ++i) {
-        if (is_drawn(index, i, share) && is_measured(points[i])) {
+        if (is_sampled(index, i, share) && is_measured(points[i])) {
             chosen.push_back(static_cast<std::uint32_t>(i));
         }
     }

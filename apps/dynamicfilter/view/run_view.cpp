@@ -107,7 +107,7 @@ std::uint32_t row_of(const std::vector<ScanNote>& scans, std::size_t index) {
 }
 
 void add_voxels(const ViewInput& in, const std::vector<std::uint64_t>& places, PageRun& run) {
-    std::vector<std::size_t> keyframes = in.filter.extent().keyframes;
+    std::vector<std::size_t> keyframes = in.filter.contents().keyframes;
     constexpr std::size_t kMost = std::numeric_limits<std::uint16_t>::max();
     if (keyframes.size() > kMost) keyframes.erase(keyframes.begin(), keyframes.end() - kMost);
     std::vector<std::uint8_t> probability;
@@ -117,11 +117,12 @@ void add_voxels(const ViewInput& in, const std::vector<std::uint64_t>& places, P
         probability.push_back(h.probability
                                   ? static_cast<std::uint8_t>(std::lround(254.0F * *h.probability))
                                   : std::uint8_t{255});
-        const Evidence& e = h.evidence;
-        evidence.insert(evidence.end(), {e.seen, e.passed, e.owned, e.switches});
+        for (const std::uint32_t count : {h.n_occ, h.n_free, h.n_own, h.n_switch}) {
+            evidence.push_back(static_cast<std::uint16_t>(std::min<std::uint32_t>(count, kMost)));
+        }
         span.insert(span.end(), {row_of(in.scans, h.first), row_of(in.scans, h.last)});
         pass_begin.push_back(static_cast<std::uint32_t>(pass.size()));
-        for (const std::size_t index : h.seen_through) {
+        for (const std::size_t index : h.free_keyframes) {
             const auto it = std::lower_bound(keyframes.begin(), keyframes.end(), index);
             if (it == keyframes.end() || *it != index) continue;
             pass.push_back(static_cast<std::uint16_t>(it - keyframes.begin()));
@@ -197,7 +198,7 @@ ScanNote note_of(const Labels& labels, const Labels& instant, const Labels& trut
     ScanNote note;
     for (std::size_t i = 0; i < labels.size(); ++i) {
         const Label label = labels[i];
-        ++note.counts[label == Label::still ? 0U : label == Label::dynamic ? 1U : 2U];
+        ++note.counts[label == Label::static_ ? 0U : label == Label::dynamic ? 1U : 2U];
         if (!instant.empty() && instant[i] != label) ++note.corrected;
         if (truth.empty() || truth[i] == Label::unknown) continue;
         const std::size_t row = truth[i] == Label::dynamic ? 0 : 2;

@@ -5,7 +5,7 @@
 
 #include "dynamic_filter/io/writers.hpp"
 #include "frames.hpp"
-#include "lot.hpp"
+#include "sampling.hpp"
 #include "verdict_code.hpp"
 
 namespace dynamic_filter::app {
@@ -17,7 +17,7 @@ std::uint8_t code_at(const Labels& labels, std::size_t i) {
     return labels.empty() ? std::uint8_t{3} : verdict_code(labels[i]);
 }
 
-/// Of a scan's measured points, about `most` by lot: what moves fills up to half of it.
+/// Of a scan's measured points, about `most` at random: what moves fills up to half of it.
 std::vector<std::uint32_t> drawn(const io::Frame& frame, const Labels& labels, std::size_t scan,
                                  std::size_t most) {
     const auto moving =
@@ -30,7 +30,7 @@ std::vector<std::uint32_t> drawn(const io::Frame& frame, const Labels& labels, s
     std::vector<std::uint32_t> chosen;
     for (std::size_t i = 0; i < labels.size(); ++i) {
         const double share = labels[i] == Label::dynamic ? share_of_moving : share_of_others;
-        if (is_drawn(scan, i, share) && is_measured(frame.points[i])) {
+        if (is_sampled(scan, i, share) && is_measured(frame.points[i])) {
             chosen.push_back(static_cast<std::uint32_t>(i));
         }
     }

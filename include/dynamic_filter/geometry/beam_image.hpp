@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -82,7 +83,7 @@ public:
     static constexpr int kMargin = 3;
 
 private:
-    static constexpr float kPi = 3.14159265358979F;
+    static constexpr float kPi = std::numbers::pi_v<float>;
     /// Counted from the first column of the field of view.
     [[nodiscard]] int stored_column(int column) const {
         return column - first_column_ + (column < first_column_ ? grid_.columns : 0);

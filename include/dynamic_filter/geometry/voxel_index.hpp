@@ -14,6 +14,9 @@
 
 namespace dynamic_filter {
 
+/// The voxel of each point of a scan; kNoVoxel: none.
+using PointVoxels = std::vector<std::uint32_t>;
+
 /// The numbers of the blocks asked for last. A scan comes back to the same blocks with every ring
 /// or column of it.
 class BlockCache {

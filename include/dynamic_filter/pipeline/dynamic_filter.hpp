@@ -20,52 +20,18 @@
 #include <span>
 #include <vector>
 
-#include "dynamic_filter/back_end/evidence.hpp"
 #include "dynamic_filter/config.hpp"
-#include "dynamic_filter/geometry/range_image.hpp"
+#include "dynamic_filter/map_contents.hpp"
 #include "dynamic_filter/stage_times.hpp"
 #include "dynamic_filter/types.hpp"
+#include "dynamic_filter/verdict.hpp"
 
 namespace dynamic_filter {
-
-/// Verdict on one scan, point by point.
-struct Verdict {
-    std::size_t index = 0;  ///< Scan::index
-    Labels labels;          ///< one per point
-    std::vector<float>
-        probability;  ///< occupancy 0..1 of the point's voxel (what stands on a static surface may
-                      ///< be dynamic all the same); empty in instant verdicts
-};
-
-/// A submap on its way to the back-end.
-struct BackEndWork;
-
-/// What the front-end hands on.
-struct Judged {
-    std::vector<Verdict> verdicts;      ///< instant ones, see DynamicFilter::push()
-    std::shared_ptr<BackEndWork> work;  ///< where submaps observe and a window has closed
-};
-
-/// A voxel of the static local map.
-struct StaticVoxel {
-    Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< [m] world frame
-    float probability = 0.0F;                          ///< occupancy 0..1
-};
-
-/// What the scans said about a voxel, to explain the verdict on a point in it.
-struct VoxelHistory {
-    std::optional<float> probability;       ///< occupancy 0..1; empty: unknown
-    Evidence evidence;                      ///< all zero where submaps observe: nothing is kept
-    std::size_t first = 0;                  ///< Scan::index of the first with a point in it ...
-    std::size_t last = 0;                   ///< ... and of the last
-    std::vector<std::size_t> seen_through;  ///< Scan::index of keyframes that see through it, of
-                                            ///< the newest `back_end.max_scans`
-};
 
 /// Usage: push() every scan, finish(), then verdict() of any scan. Single caller, but see judge();
 /// const members may run in several threads while no other runs. Same scans and config give the
 /// same bits for any number of threads. Scans are not kept. Memory: scans observe: about 80 bytes a
-/// voxel, 28 more after finish(), and six a pixel of the newest `back_end.max_scans` keyframes;
+/// voxel, 28 more after finish(), and six a pixel of the newest `scans.max_keyframes` keyframes;
 /// submaps observe: one window of scans and the thinned submaps.
 class DynamicFilter {
 public:
@@ -81,13 +47,12 @@ public:
     /// processed and its scans' instant verdicts are returned; otherwise nothing.
     std::vector<Verdict> push(Scan scan);
 
-    /// push() in two steps: the front-end's, which gives the verdicts, and what can wait until they
-    /// are delivered. Each judge() must be followed by integrate() of its work, in order. Where
-    /// submaps observe, one thread may judge while another integrates earlier work; where scans
-    /// observe (`front_end_waits()`), the work must be integrated before the next scan is judged.
+    /// push() in two steps: the verdicts, and what can wait until they are delivered. What each
+    /// judge() leaves must be integrated, in order. Where judges_each_scan(), that must be done
+    /// before the next scan is judged; otherwise one thread may judge while another integrates.
     Judged judge(Scan scan);
-    void integrate(const std::shared_ptr<BackEndWork>& work);  ///< see judge()
-    [[nodiscard]] bool front_end_waits() const;                ///< true where scans observe
+    /// True where scans observe: every scan is judged at once, and settled() knows something.
+    [[nodiscard]] bool judges_each_scan() const;
 
     /// Decides every voxel. Submaps observe: processes the last window (its verdicts are returned)
     /// and merges the local maps of all submap poses. Again: does nothing.
@@ -98,7 +63,7 @@ public:
     [[nodiscard]] Verdict verdict(const Scan& scan) const;
 
     /// The verdict on a scan from the evidence so far; what stands on a static surface is told from
-    /// it by the final verdict only. Only where scans observe (`front_end_waits()`).
+    /// it by the final verdict only. Where submaps observe, all is unknown.
     [[nodiscard]] Verdict settled(const Scan& scan) const;
 
     /// The voxel of each point of a scan; UINT32_MAX: none.
@@ -106,9 +71,6 @@ public:
     /// After finish(): of each of the voxels. Costs as much as it cost to observe those of them
     /// that were ever seen through.
     [[nodiscard]] std::vector<VoxelHistory> histories(std::span<const std::uint32_t> voxels) const;
-    /// Scan::index of the keyframes that `VoxelHistory::seen_through` knows.
-    [[nodiscard]] std::vector<std::size_t> keyframes() const;
-    [[nodiscard]] std::size_t keyframes_total() const;  ///< with those that are known no more
 
     /// Forgets the map beyond `radius` [m] of a pose, and the farthest of it until its size() is
     /// about `most`: voxels go in blocks of 4 x 4 x 4, submaps as a whole, of which `most` spares
@@ -118,7 +80,7 @@ public:
     [[nodiscard]] std::size_t size() const;
 
     /// The static local map at any pose (Sec. III-C), from the scans or the closed submaps so far:
-    /// the static voxels within `back_end.search_radius`, or of the submaps within it. Where scans
+    /// the static voxels within `map.search_radius`, or of the submaps within it. Where scans
     /// observe, `radius` [m] may take its place.
     std::vector<StaticVoxel> local_static_map(const Pose& T_world_query,
                                               std::optional<double> radius = {});
@@ -126,13 +88,8 @@ public:
     /// The merged map, after finish() (Sec. III-D): every static voxel.
     [[nodiscard]] std::vector<StaticVoxel> static_map() const;
 
-    [[nodiscard]] StageTimes times() const;  ///< [s] of each stage so far
-    /// How densely the sensor looks. Empty before it is known.
-    [[nodiscard]] std::optional<BeamPattern> beams() const;
-    /// Submaps taken in; where scans observe, as many keyframes as make one count as one.
-    [[nodiscard]] std::size_t submaps() const;
-    /// How many there are of the voxels that voxels_of() names.
-    [[nodiscard]] std::size_t voxels() const;
+    [[nodiscard]] StageTimes times() const;      ///< [s] of each stage so far
+    [[nodiscard]] MapContents contents() const;  ///< what there is
 
 private:
     struct Impl;

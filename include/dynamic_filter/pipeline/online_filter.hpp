@@ -130,6 +130,8 @@ public:
     /// The verdict on a scan that was pushed from the evidence so far. Only where scans observe.
     /// Waits for the stage in work, and the next one waits for it.
     [[nodiscard]] Verdict settled(const Scan& scan) const;
+    /// See DynamicFilter::judges_each_scan().
+    [[nodiscard]] bool judges_each_scan() const;
 
     /// After finish(), to explain verdicts: a number for the voxel of each point of a scan that was
     /// pushed (kNoPlace: none), and what DynamicFilter knows of such voxels.
@@ -151,17 +153,10 @@ public:
 
     /// How the stages did, once flush() has returned; `latency`: from push() to the end of judging.
     [[nodiscard]] StageTimes times() const;
-    /// What there is.
-    struct Extent {
-        std::size_t maps = 0;                ///< one, and one per break of the trajectory
-        std::size_t submaps = 0;             ///< of all maps, see DynamicFilter::submaps()
-        std::size_t voxels = 0;              ///< of all maps
-        std::optional<BeamPattern> beams;    ///< see DynamicFilter::beams()
-        std::vector<std::size_t> keyframes;  ///< see DynamicFilter::keyframes()
-        std::size_t keyframes_total = 0;     ///< with those that are known no more
-    };
-    /// Once flush() has returned.
-    [[nodiscard]] Extent extent() const;
+    /// How many maps are kept: one, and one per break of the trajectory. Once flush() has returned.
+    [[nodiscard]] std::size_t maps() const;
+    /// What there is in all maps, once flush() has returned.
+    [[nodiscard]] MapContents contents() const;
 
 private:
     struct Engine;

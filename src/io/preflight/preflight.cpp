@@ -128,6 +128,18 @@ void judge_upside_down(Preflight& result, const Samples& samples) {
     }
 }
 
+/// In the sensor's frame, although the format, or else an option, says the world's.
+Finding in_sensor_finding(const std::vector<Overlay>& overlays, bool files_in_world) {
+    if (files_in_world) {
+        return {"the points are in the sensor's frame, but this format has them in the world's: " +
+                    fits_better(overlays, kInSensor),
+                "--format folder with a pose file"};
+    }
+    return {"the points are in the sensor's frame, not in the world's: " +
+                fits_better(overlays, kInSensor),
+            "leave out --points-in-world"};
+}
+
 void judge_poses(Preflight& result, const Sequence& sequence, const Samples& samples,
                  const std::vector<Pair>& pairs) {
     const auto& overlays = result.overlays;
@@ -154,26 +166,12 @@ void judge_poses(Preflight& result, const Sequence& sequence, const Samples& sam
         judge_upside_down(result, samples);
         return;
     }
-    if (best->reading == kInSensor && files_in_world) {
-        if (much) {
-            result.findings.push_back(
-                {"the points are in the sensor's frame, but this format has them in the world's: " +
-                     fits_better(overlays, kInSensor),
-                 "--format folder with a pose file"});
-        }
+    if (best->reading == kInSensor && (files_in_world || sequence.points_in_world)) {
+        if (much) result.findings.push_back(in_sensor_finding(overlays, files_in_world));
         return;
     }
     // A thousandth of any motion is as good as none.
     const bool as_if_still = best->share < 1.02 * share_of(overlays, kInWorld);
-    if (best->reading == kInSensor && sequence.points_in_world) {
-        if (much) {
-            result.findings.push_back(
-                {"the points are in the sensor's frame, not in the world's: " +
-                     fits_better(overlays, kInSensor),
-                 "leave out --points-in-world"});
-        }
-        return;
-    }
     if (as_if_still || best->reading == kInSensor) {
         if (much) {
             result.findings.push_back(

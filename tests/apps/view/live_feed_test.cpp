@@ -35,7 +35,7 @@ TEST(LiveFeed, ARecordHoldsTheScan) {
     LiveFeed feed;
     const Points points = {{1.0F, 0.0F, 0.0F}, {0.0F, 0.0F, 0.0F}, {0.0F, 2.0F, 0.5F}};
     feed.expect(points, at_x(100.0), 1.0, 3);
-    feed.judged(3, {Label::still, Label::unknown, Label::dynamic});
+    feed.judged(3, {Label::static_, Label::unknown, Label::dynamic});
     feed.expect(points, at_x(101.0), 1.5, 4);
     feed.judged(4, {Label::unknown, Label::unknown, Label::dynamic});
     const auto records = records_in(feed.after(0));
@@ -66,8 +66,8 @@ TEST(LiveFeed, ACorrectionIsOfTheSamePoints) {
     Points points;
     for (int i = 1; i <= 20000; ++i) points.emplace_back(static_cast<float>(i), 0.0F, 0.0F);
     feed.expect(points, at_x(0.0), 0.0, 9);
-    feed.judged(9, Labels(points.size(), Label::still));
-    Labels final(points.size(), Label::still);
+    feed.judged(9, Labels(points.size(), Label::static_));
+    Labels final(points.size(), Label::static_);
     for (std::size_t i = 10000; i < final.size(); ++i) final[i] = Label::dynamic;
     feed.corrected(9, points, final);
     const auto records = records_in(feed.after(0));
@@ -86,16 +86,16 @@ TEST(LiveFeed, WhatWasDroppedIsForgotten) {
     const Points points = {{1.0F, 0.0F, 0.0F}};
     feed.expect(points, at_x(0.0), 0.0, 1);
     feed.expect(points, at_x(0.0), 0.1, 2);
-    feed.judged(2, {Label::still});
-    feed.judged(1, {Label::still});
-    feed.judged(7, {Label::still});
+    feed.judged(2, {Label::static_});
+    feed.judged(1, {Label::static_});
+    feed.judged(7, {Label::static_});
     EXPECT_EQ(records_in(feed.after(0)).size(), 1U);
 }
 
 TEST(LiveFeed, MemoryIsBoundedAndAnswersAreSmall) {
     LiveFeed feed;
     const Points points(5000, Point::UnitX());
-    const Labels labels(points.size(), Label::still);
+    const Labels labels(points.size(), Label::static_);
     for (std::size_t i = 0; i < 2500; ++i) {  // some 65 KB each
         feed.expect(points, at_x(0.0), 0.0, i);
         feed.judged(i, labels);

@@ -12,7 +12,7 @@
 namespace dynamic_filter::app {
 namespace {
 
-constexpr Label kStill = Label::still, kDynamic = Label::dynamic, kUnknown = Label::unknown;
+constexpr Label kStill = Label::static_, kDynamic = Label::dynamic, kUnknown = Label::unknown;
 
 TEST(ScanNote, CountsVerdictsCorrectionsAndErrors) {
     const Labels final = {kStill, kDynamic, kUnknown, kDynamic, kStill},

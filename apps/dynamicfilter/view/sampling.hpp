@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace dynamic_filter::app {
+
+/// Whether a point of a scan is among that share of all: fair, and the same whenever asked.
+inline bool is_sampled(std::size_t scan, std::size_t point, double share) {
+    std::uint64_t x = (std::uint64_t{scan} << 32U | point) + 0x9E3779B97F4A7C15ULL;
+    x = (x ^ (x >> 30U)) * 0xBF58476D1CE4E5B9ULL;
+    x = (x ^ (x >> 27U)) * 0x94D049BB133111EBULL;
+    return static_cast<double>(x >> 32U) < share * 4294967296.0;
+}
+
+}  // namespace dynamic_filter::app

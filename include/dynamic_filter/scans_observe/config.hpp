@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Every number that decides in the method "scans": default, unit, bounds, meaning and reason.
+///
+/// The first one is a choice of the user. All others are constants of the method: they were found
+/// on simulated crowds and streets and on pieces of KITTI together (docs/results.md says which),
+/// and are settings so that an ablation can change them and a run can tell what was in force.
+///
+/// - Units: what visit_scans() says of each field.
+/// - Ownership: values.
+/// - Threads: plain data.
+/// - Errors: none.
+#pragma once
+
+#include "dynamic_filter/setting.hpp"
+
+namespace dynamic_filter {
+
+/// Settings of the method in which scans observe. What each means: visit_scans().
+struct ScansConfig {
+    int max_keyframes = 400;
+
+    /// Which keyframes are asked, and how far they look.
+    struct Observers {
+        double near_reach = 40.0;
+        int least_points = 1000;
+        double images_asked = 32.0;
+    } observers;
+
+    /// What one keyframe says about one place: see line_of_sight.hpp.
+    struct Sight {
+        double nearest = 0.3;
+        double farthest = 80.0;
+        double beside = 0.1;
+        double beyond = 0.2;
+        double beyond_voxels = 1.0;
+        double touch = 0.15;
+        double touch_voxels = 0.75;
+        double surface = 0.1;
+        double surface_voxels = 0.5;
+        double per_metre = 0.007;
+        double own_pixels = 0.55;
+        double close_pixels = 0.3;
+        double close_beside = 0.5;
+        double same_spot = 0.02;
+    } sight;
+
+    /// How the counters of a voxel become a score: see evidence.hpp.
+    struct Evidence {
+        double flicker = 0.45;
+        double switch_power = 0.9;
+        double return_power = 0.2;
+        double offset = 2.0;
+    } evidence;
+
+    /// How much neighbours count: see vote.hpp.
+    struct Vote {
+        double company = 1.0;
+        double neighborhood = 2.0;
+        double far = 0.3;
+        double alone = 0.25;
+        double steepness = 3.0;
+        double ask_again = 0.2;
+    } vote;
+
+    /// Points on a static surface, below something that moves: see contact.hpp.
+    struct Contact {
+        int fewest = 6;
+        double flat = 0.025;
+        double outlier = 0.05;
+        double lowest = 0.03;
+        double height = 0.08;
+    } contact;
+};
+
+/// Calls f(setting, member) for every field, in the order of the struct.
+template <class C, class F>
+void visit_scans(C& scans, F&& f) {
+    const auto field = [&](const char* key, const char* unit, const char* help, double min,
+                           double max, auto& member) {
+        f(Setting{key, unit, "", help, min, max, methods_of(Method::scans)}, member);
+    };
+    field("scans.max_keyframes", "1", "keyframes that a new voxel can ask: memory", 1, 100000,
+          scans.max_keyframes);
+
+    auto& o = scans.observers;
+    field(
+        "scans.observers.near_reach", "m",
+        "a keyframe that is one because the sensor moved sees what is far as the last one did, so "
+        "it looks no farther than this",
+        1, 1000, o.near_reach);
+    field("scans.observers.least_points", "1",
+          "a scan of fewer points does not tell how densely the sensor looks", 1, 1e6,
+          o.least_points);
+    field("scans.observers.images_asked", "1",
+          "full images that a new voxel asks one by one; of older ones it asks every second, every "
+          "fourth ..., as neighbours in time see the same",
+          1, 1e6, o.images_asked);
+
+    auto& s = scans.sight;
+    field("scans.sight.nearest", "m",
+          "no judgement on places nearer to the sensor: its own vehicle", 0, 100, s.nearest);
+    field("scans.sight.farthest", "m", "... or farther from it: beams lie too far apart", 1, 1000,
+          s.farthest);
+    field("scans.sight.beside", "m",
+          "beams this near the place must all go on before it counts as free: poses are not exact",
+          0, 10, s.beside);
+    field("scans.sight.beyond", "m", "... and one of them this much farther than the place", 0, 10,
+          s.beyond);
+    field("scans.sight.beyond_voxels", "1",
+          "... or this many voxels, if that is more: a point may lie anywhere in its voxel", 0, 10,
+          s.beyond_voxels);
+    field("scans.sight.touch", "m",
+          "a return this near the place occupies it: range noise and poses", 0, 10, s.touch);
+    field("scans.sight.touch_voxels", "1", "... or this many voxels, if that is more", 0, 10,
+          s.touch_voxels);
+    field("scans.sight.surface", "m",
+          "and so does a surface between neighbouring returns that runs this near", 0, 10,
+          s.surface);
+    field("scans.sight.surface_voxels", "1", "... or this many voxels, if that is more", 0, 10,
+          s.surface_voxels);
+    field("scans.sight.per_metre", "1",
+          "growth of touch and surface with range: 0.4 deg of error in the pose's rotation", 0, 1,
+          s.per_metre);
+    field("scans.sight.own_pixels", "1",
+          "a return within this many pixels of the place is the place's own: half a pixel, and a "
+          "little for rounding",
+          0.5, 2, s.own_pixels);
+    field("scans.sight.close_pixels", "1",
+          "where beams exist only above or only below the place, one must pass within this many "
+          "pixels of it",
+          0, 1, s.close_pixels);
+    field("scans.sight.close_beside", "1", "... or this share of `beside`, if that is more", 0, 1,
+          s.close_beside);
+    field("scans.sight.same_spot", "m", "two returns nearer than this to each other make no line",
+          0, 1, s.same_spot);
+
+    auto& e = scans.evidence;
+    field("scans.evidence.flicker", "1",
+          "how often a static voxel is seen through, between the returns of an edge or a leaf: see "
+          "evidence.hpp",
+          0, 10, e.flicker);
+    field("scans.evidence.switch_power", "1",
+          "... by changes between occupied and free, which flicker makes and crossings do not", 0,
+          2, e.switch_power);
+    field("scans.evidence.return_power", "1", "... by returns, of which static voxels have many", 0,
+          2, e.return_power);
+    field("scans.evidence.offset", "1",
+          "observations added to both sides, so that one more or less is not everything", 0, 100,
+          e.offset);
+
+    auto& v = scans.vote;
+    field("scans.vote.company", "1",
+          "weight of neighbours that were there at the same time: things come and go as a whole", 0,
+          10, v.company);
+    field("scans.vote.neighborhood", "1",
+          "weight of all neighbours: surfaces go on, and people walk where others did", 0, 10,
+          v.neighborhood);
+    field("scans.vote.far", "1", "weight of a neighbour that does not touch the voxel", 0, 1,
+          v.far);
+    field("scans.vote.alone", "1", "weight of having no neighbour: a lone voxel is not outvoted", 0,
+          10, v.alone);
+    field("scans.vote.steepness", "1", "log-odds of being dynamic per unit of the sum", 0.1, 100,
+          v.steepness);
+    field("scans.vote.ask_again", "1",
+          "an instant verdict is made anew when the voxel's score has changed by more: a tenth of "
+          "its range",
+          0, 2, v.ask_again);
+
+    auto& c = scans.contact;
+    field("scans.contact.fewest", "1", "static voxels that make a surface", 3, 100, c.fewest);
+    field("scans.contact.flat", "m", "most that they may be off it, root mean square: range noise",
+          0, 1, c.flat);
+    field("scans.contact.outlier", "m", "a static voxel this far off it belongs to something else",
+          0, 1, c.outlier);
+    field("scans.contact.lowest", "m",
+          "something that moves on a surface rises over it by this much, or it is the surface", 0,
+          1, c.lowest);
+    field("scans.contact.height", "m",
+          "a point this high over the surface belongs to what moves: twice the range noise of most "
+          "sensors, and the blur of a voxel",
+          0, 1, c.height);
+}
+
+}  // namespace dynamic_filter

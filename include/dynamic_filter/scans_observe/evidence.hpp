@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+/// What the keyframes said about a voxel, and how that makes it look (Sec. III-C1).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "dynamic_filter/scans_observe/config.hpp"
+#include "dynamic_filter/scans_observe/sight.hpp"
+
+namespace dynamic_filter {
+
+/// Counters of one voxel; they stop at their largest value.
+struct Evidence {
+    std::uint16_t n_own = 0;        ///< scans with a point in it
+    std::uint16_t n_occ = 0;        ///< keyframes that saw it occupied
+    std::uint16_t n_free = 0;       ///< keyframes that saw through it
+    std::uint16_t n_switch = 0;     ///< changes between the two, in the order of the keyframes
+    Sight last = Sight::unknown;    ///< what the newest keyframe saw
+    std::uint32_t first_owner = 0;  ///< the first scan with a point in it, by their order ...
+    std::uint32_t last_owner = 0;   ///< ... and the last
+};
+
+/// Takes in what the next keyframe saw, as if `weight` keyframes like it had seen it.
+void record(Evidence& evidence, Sight sight, unsigned weight = 1);
+
+/// True while none saw through it and fewer than two saw it: one of those is the scan that found
+/// it.
+inline bool is_unknown(const Evidence& e) { return e.n_occ < 2 && e.n_free == 0; }
+
+/// -1..1: whether the voxel was empty most of the time and only crossed by something; below 0: no.
+/// A porous surface, an edge or a leaf is seen through now and then, between returns; where
+/// something came or went, the voxel is free in few long runs. So n_free is compared with what the
+/// number of runs and the number of returns lead one to expect of a static voxel:
+///     expected = flicker (1 + n_switch)^switch_power (n_occ n_own^2)^return_power
+///     (f^2 - e^2) / (f^2 + e^2) with f = n_free + offset and e = expected + offset.
+/// Thread-safe.
+class DynamicScore {
+public:
+    explicit DynamicScore(const ScansConfig::Evidence& config);
+    float operator()(const Evidence& evidence) const;
+
+private:
+    /// scale * (n + shift)^exponent, from a table: pow() would be most of what a look costs.
+    class Power {
+    public:
+        Power(float scale, int shift, float exponent);
+        [[nodiscard]] float operator()(std::size_t n) const {
+            return n < values_.size() ? values_[n] : compute(n);
+        }
+
+    private:
+        [[nodiscard]] float compute(std::size_t n) const;
+        float scale_;
+        int shift_;
+        float exponent_;
+        std::vector<float> values_;
+    };
+    Power by_switches_, by_returns_;
+    float offset_;
+};
+
+/// How much of their time two voxels were there together: the overlap of the spans between their
+/// first and last owner, over their union, 0..1. Voxels of one thing come and go together.
+float co_presence(const Evidence& a, const Evidence& b);
+
+}  // namespace dynamic_filter

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+/// The voxels of the map, and what is known of each.
+#pragma once
+
+#include <vector>
+
+#include "dynamic_filter/geometry/map_points.hpp"
+#include "dynamic_filter/geometry/voxel_index.hpp"
+#include "dynamic_filter/geometry/voxel_neighbors.hpp"
+#include "dynamic_filter/scans_observe/evidence.hpp"
+#include "dynamic_filter/types.hpp"
+
+namespace dynamic_filter {
+
+/// Voxels in blocks of 4 x 4 x 4. A voxel stands for the centroid of its points in the first scan
+/// that has any there, so it can be judged at once, and never moves. Single caller; const members
+/// may run in several threads, and record() too, for different voxels. Points are in the map frame.
+class EvidenceGrid {
+public:
+    EvidenceGrid(float voxel_size, const ScansConfig::Evidence& config)
+        : voxel_size_(voxel_size), score_(config) {}
+
+    /// Puts the points of the next scan into voxels, which it owns from now on. New voxels come
+    /// after the others, those of a block together.
+    PointVoxels add_points(const Scan& scan);
+    /// Takes in what a keyframe saw of the voxel, see evidence.hpp.
+    void record(std::uint32_t voxel, Sight sight, unsigned weight);
+
+    /// Forgets blocks whose middle lies beyond `radius` [m] of a place, and the farthest ones until
+    /// about `most_voxels` are left. Voxels get new numbers. Returns the old number of each.
+    std::vector<std::uint32_t> keep_within(const Point& center, float radius,
+                                           std::size_t most_voxels);
+
+    /// Voxels whose centroid lies within `radius` [m] of a place.
+    [[nodiscard]] std::vector<std::uint32_t> within(const Point& center, float radius) const;
+    /// Blocks in which the newest scan has points, or those in which it has none.
+    [[nodiscard]] std::vector<std::uint32_t> blocks_touched(bool touched) const;
+    /// Blocks of the voxels from `first` on, ascending.
+    [[nodiscard]] std::vector<std::uint32_t> blocks_from(std::uint32_t first) const;
+    [[nodiscard]] Point middle_of(std::uint32_t block) const {
+        return (voxels_.corner(block).cast<float>().array() + 2.0F) * voxel_size_;
+    }
+
+    [[nodiscard]] float voxel_size() const { return voxel_size_; }  ///< [m]
+    [[nodiscard]] const VoxelIndex& voxels() const { return voxels_; }
+    [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(voxels_.size()); }
+    [[nodiscard]] std::uint32_t scans() const { return scans_; }  ///< with points, taken in so far
+    [[nodiscard]] const VoxelNeighbors& neighbors() const { return neighbors_; }
+
+    struct State {
+        Point centroid = Point::Zero();
+        float score = 0.0F;  ///< DynamicScore; neighbours ask far more often than it changes
+        Evidence evidence;
+    };
+    [[nodiscard]] const State& operator[](std::uint32_t voxel) const { return states_[voxel]; }
+
+private:
+    std::uint32_t own(VoxelKey key);
+    void number_by_block(std::size_t known, PointVoxels& voxels_of_points);
+    void find_centroids(std::size_t known, const MapPoints& in_map,
+                        const PointVoxels& voxels_of_points);
+
+    float voxel_size_;
+    DynamicScore score_;
+    VoxelIndex voxels_;
+    VoxelNeighbors neighbors_;
+    std::vector<std::uint32_t> touched_;  // by block: the newest scan with a point in it
+    std::vector<State> states_;           // by voxel
+    std::uint32_t scans_ = 0;
+};
+
+}  // namespace dynamic_filter

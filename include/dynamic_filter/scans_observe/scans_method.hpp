@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+/// The default method: every keyframe says of every voxel in its sight whether it is occupied or
+/// free, and the voxels' counters decide.
+#pragma once
+
+#include "dynamic_filter/method.hpp"
+#include "dynamic_filter/scans_observe/evidence_map.hpp"
+#include "dynamic_filter/scans_observe/final_map.hpp"
+#include "dynamic_filter/scans_observe/instant.hpp"
+
+namespace dynamic_filter {
+
+/// Memory: about 80 bytes a voxel, 28 more after finish(), and six a pixel of the newest
+/// `scans.max_keyframes` keyframes.
+class ScansMethod final : public FilterMethod {
+public:
+    explicit ScansMethod(const Config& config)
+        : config_(config), evidence_(config), instant_(config) {}
+
+    Judged judge(Scan scan) override;
+    [[nodiscard]] bool judges_each_scan() const override { return true; }
+    std::vector<Verdict> finish() override;
+    void decide(const LocatedScan& scan, Verdict& verdict) const override;
+    void settle(const LocatedScan& scan, Verdict& verdict) const override;
+    void keep_within(const Eigen::Vector3d& center, double radius, std::size_t most) override;
+    [[nodiscard]] std::size_t size() const override { return evidence_.grid().size(); }
+    std::vector<VoxelOccupancy> local_map(const Pose& T_map_query,
+                                          std::optional<double> radius) override;
+    [[nodiscard]] std::vector<VoxelOccupancy> static_map() const override;
+    [[nodiscard]] const VoxelIndex& voxels() const override { return evidence_.grid().voxels(); }
+    [[nodiscard]] std::vector<VoxelHistory> histories(
+        std::span<const std::uint32_t> voxels) const override;
+    [[nodiscard]] MapContents contents() const override;
+    [[nodiscard]] StageTimes times() const override { return times_; }
+
+private:
+    Config config_;
+    EvidenceMap evidence_;
+    InstantVerdicts instant_;
+    std::vector<VoxelDecision> decided_;  // by voxel, after finish()
+    StageTimes times_;
+};
+
+}  // namespace dynamic_filter

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+/// The occupancy of a voxel: its own evidence, and that of its neighbours.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "dynamic_filter/scans_observe/config.hpp"
+#include "dynamic_filter/scans_observe/evidence_grid.hpp"
+
+namespace dynamic_filter {
+
+/// Occupancy 0..1 of voxels, from the sum of three scores -1..1: their own, the mean of those
+/// within two cells that were there when they were there (things come and go as a whole), and the
+/// mean of all within two cells (surfaces go on, and people walk where others did). Empty: unknown.
+/// In parallel; const members of the grid only. vote_scalar.hpp says what a vote is.
+std::vector<std::optional<float>> occupancy_of(const EvidenceGrid& grid,
+                                               std::span<const std::uint32_t> voxels,
+                                               const ScansConfig::Vote& config);
+
+}  // namespace dynamic_filter

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+/// The map-to-map back-end (Sec. III-C): static submaps in, the static local map at any pose out.
+#pragma once
+
+#include <vector>
+
+#include "dynamic_filter/config.hpp"
+#include "dynamic_filter/geometry/range_image.hpp"
+#include "dynamic_filter/geometry/voxel_index.hpp"
+#include "dynamic_filter/stage_times.hpp"
+#include "dynamic_filter/submaps_observe/occupancy.hpp"
+#include "dynamic_filter/submaps_observe/submap.hpp"
+#include "dynamic_filter/submaps_observe/submap_buffer.hpp"
+
+namespace dynamic_filter {
+
+/// Single caller. Poses and points are in the map frame.
+class BackEnd {
+public:
+    explicit BackEnd(const Config& config)
+        : config_(config.back_end),
+          voxel_size_(static_cast<float>(config.map.voxel_size)),
+          search_radius_(config.map.search_radius) {}
+
+    /// Puts a submap into the buffer: numbers its voxels, computes its normals.
+    void insert(Submap submap, const BeamPattern& beams, StageTimes& times);
+
+    /// The occupancy of every voxel that a submap near the query pose owns. Empty before the first
+    /// insert().
+    LocalMap local_map(const Pose& T_map_query, StageTimes& times);
+
+    /// The same at the pose of a submap of the buffer, which is always among those consulted.
+    LocalMap local_map_of(std::size_t submap, StageTimes& times);
+
+    /// Forgets the submaps whose pose lies beyond `radius` [m] of a place, and the farthest until
+    /// the rest, at least one, holds at most `most_points`. Voxels get new numbers. Returns how far
+    /// [m] nothing is forgotten.
+    double keep_within(const Eigen::Vector3d& center, double radius, std::size_t most_points);
+    /// Of all submaps.
+    [[nodiscard]] std::size_t points() const;
+
+    [[nodiscard]] const std::vector<BufferedSubmap>& buffer() const { return buffer_; }
+    [[nodiscard]] const VoxelIndex& voxels() const { return voxels_; }
+
+private:
+    LocalMap local_map(const Pose& T_map_query, std::size_t anchor, StageTimes& times);
+
+    BackEndConfig config_;
+    float voxel_size_;      // [m]
+    double search_radius_;  // [m]
+    ImageGrid grid_;        // of the whole sphere, for any query pose
+    std::vector<BufferedSubmap> buffer_;
+    VoxelIndex voxels_;
+    std::vector<std::uint32_t> slot_of_voxel_;  // scratch of count_owners
+};
+
+}  // namespace dynamic_filter

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+/// A static submap (Sec. III-B).
+#pragma once
+
+#include <tsl/robin_set.h>
+
+#include <vector>
+
+#include "dynamic_filter/geometry/voxel.hpp"
+#include "dynamic_filter/submaps_observe/window.hpp"
+#include "dynamic_filter/types.hpp"
+
+namespace dynamic_filter {
+
+struct Submap {
+    Pose T_map_submap = Pose::Identity();  ///< mean pose of its scans
+    Points points;                         ///< map frame, thinned to one per half voxel
+};
+
+/// Points of one scan in the map frame, as every stage computes them (to the last bit).
+void to_map(const Points& points, const Pose& T_map_sensor, Points& out);
+inline void to_map(const Scan& scan, Points& out) { to_map(scan.points, scan.T_world_sensor, out); }
+
+/// Collects the first point of every cell of half a voxel; halves nest in voxels, so thinning never
+/// changes which voxels are owned.
+class Thinner {
+public:
+    explicit Thinner(float voxel_size) : inverse_cell_(2.0F / voxel_size) {}
+    /// Adds the points of a scan that are labelled `kept` [map frame].
+    void add(const Points& points, const Labels& labels, Label kept);
+    Points take() { return std::move(points_); }
+    [[nodiscard]] const Points& points() const { return points_; }
+
+private:
+    float inverse_cell_;
+    tsl::robin_set<VoxelKey, VoxelHash> cells_;
+    Points points_;
+};
+
+/// The voxel of a point, by way of its half cell; empty where a key cannot reach.
+std::optional<VoxelKey> voxel_of(const Point& point, float voxel_size);
+
+}  // namespace dynamic_filter

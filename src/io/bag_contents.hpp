@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+/// What one pass over a bag finds: clouds and poses by topic, and the tree of frames.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "dynamic_filter/io/bag.hpp"
+#include "dynamic_filter/io/poses.hpp"
+#include "io/ros/frame_tree.hpp"
+
+namespace dynamic_filter::io {
+
+struct FoundScan {
+    double stamp = 0.0;
+    std::int64_t recorded_ns = 0;
+    MessageRef ref;
+};
+struct CloudTopic {
+    Topic topic;
+    std::string frame;  // of its first message
+    std::vector<FoundScan> scans;
+};
+struct PoseTopic {
+    std::string parent, child;
+    Trajectory trajectory;
+};
+
+/// All of it, and what was lost on the way.
+struct BagContents {
+    std::map<std::string, CloudTopic> clouds;
+    std::map<std::string, PoseTopic> poses;
+    FrameTree frames;
+    std::vector<std::string> notes, losses;
+};
+
+/// Reads the whole bag once. Throws InputError.
+BagContents contents_of(const Bag& bag);
+
+}  // namespace dynamic_filter::io

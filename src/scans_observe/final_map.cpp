@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "dynamic_filter/scans_observe/final_map.hpp"
+
+#include <numeric>
+
+#include "dynamic_filter/parallel.hpp"
+#include "dynamic_filter/scans_observe/vote.hpp"
+
+namespace dynamic_filter {
+
+namespace {
+
+template <class Use>
+void each_within(const EvidenceGrid& grid, int cells, std::uint32_t voxel, const Use& use) {
+    grid.neighbors().each_within(grid.voxels(), cells, voxel, use);
+}
+
+std::optional<Surface> contact_of(std::uint32_t voxel, const std::vector<VoxelDecision>& decided,
+                                  const EvidenceGrid& grid, const Config& config) {
+    const auto label = [&](std::uint32_t v) {
+        return label_of(decided[v].probability, config.map.occupancy_threshold);
+    };
+    if (label(voxel) != Label::static_) return std::nullopt;
+    bool touches_dynamic = false;
+    each_within(grid, 1, voxel,
+                [&](std::uint32_t v, int) { touches_dynamic |= label(v) == Label::dynamic; });
+    if (!touches_dynamic) return std::nullopt;
+    std::vector<VoxelVerdict> around;
+    each_within(grid, 2, voxel, [&](std::uint32_t v, int distance) {
+        around.push_back({grid[v].centroid, label(v), distance});
+    });
+    return contact_surface(around, config.scans.contact);
+}
+
+/// Points of static voxels that lie above the surface there.
+std::vector<std::size_t> points_above(const LocatedScan& scan,
+                                      const std::vector<VoxelDecision>& decided,
+                                      const Labels& labels, float height) {
+    std::vector<std::size_t> above;
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        if (labels[i] != Label::static_) continue;
+        const auto& contact = decided[scan.voxels[i]].contact;
+        if (contact && contact->height(scan.in_map.points[i]) > height) above.push_back(i);
+    }
+    return above;
+}
+
+}  // namespace
+
+std::vector<VoxelDecision> decide_voxels(const EvidenceGrid& grid, const Config& config) {
+    std::vector<std::uint32_t> all(grid.size());
+    std::iota(all.begin(), all.end(), 0U);
+    const auto occupancy = occupancy_of(grid, all, config.scans.vote);
+    std::vector<VoxelDecision> decided(all.size());
+    for (std::size_t v = 0; v < all.size(); ++v) decided[v].probability = occupancy[v];
+    parallel_for(all.size(), 1024, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t v = begin; v < end; ++v) {
+            decided[v].contact = contact_of(all[v], decided, grid, config);
+        }
+    });
+    return decided;
+}
+
+void decide_points(const LocatedScan& scan, const std::vector<VoxelDecision>& decided,
+                   const EvidenceGrid& grid, const Config& config, Verdict& verdict) {
+    std::vector<bool> moving(decided.size());  // dynamic voxels with a point in this scan
+    for (std::size_t i = 0; i < scan.voxels.size(); ++i) {
+        if (scan.voxels[i] >= decided.size()) continue;  // kNoVoxel, too
+        const auto& probability = decided[scan.voxels[i]].probability;
+        verdict.labels[i] = label_of(probability, config.map.occupancy_threshold);
+        verdict.probability[i] = probability.value_or(0.0F);
+        if (verdict.labels[i] == Label::dynamic) moving[scan.voxels[i]] = true;
+    }
+    const auto height = static_cast<float>(config.scans.contact.height);
+    for (const std::size_t i : points_above(scan, decided, verdict.labels, height)) {
+        bool touches = false;
+        each_within(grid, 1, scan.voxels[i], [&](std::uint32_t v, int) { touches |= moving[v]; });
+        if (touches) verdict.labels[i] = Label::dynamic;
+    }
+}
+
+}  // namespace dynamic_filter

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include "dynamic_filter/scans_observe/instant.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "dynamic_filter/method.hpp"
+#include "dynamic_filter/scans_observe/vote.hpp"
+
+namespace dynamic_filter {
+
+bool InstantVerdicts::is_due(const Said& said, const EvidenceGrid::State& state) const {
+    const bool same = std::abs(state.score - said.score) <= static_cast<float>(config_.ask_again);
+    if (!same) return true;
+    return said.label == Label::unknown && !is_unknown(state.evidence);
+}
+
+Verdict InstantVerdicts::judge(std::size_t index, const PointVoxels& voxels,
+                               const EvidenceGrid& grid) {
+    said_.resize(grid.size());
+    std::vector<std::uint32_t> due;
+    for (const std::uint32_t voxel : voxels) {
+        if (voxel == kNoVoxel || !is_due(said_[voxel], grid[voxel])) continue;
+        said_[voxel] = {grid[voxel].score, Label::static_};  // for now, so that it is listed once
+        due.push_back(voxel);
+    }
+    const auto occupancy = occupancy_of(grid, due, config_);
+    for (std::size_t i = 0; i < due.size(); ++i) {
+        said_[due[i]].label = label_of(occupancy[i], threshold_);
+    }
+    Verdict verdict{index, Labels(voxels.size(), Label::unknown), {}};
+    for (std::size_t i = 0; i < voxels.size(); ++i) {
+        if (voxels[i] != kNoVoxel) verdict.labels[i] = said_[voxels[i]].label;
+    }
+    return verdict;
+}
+
+void InstantVerdicts::keep(std::span<const std::uint32_t> kept) {
+    std::vector<Said> said;
+    said.reserve(kept.size());
+    for (const std::uint32_t v : kept) said.push_back(said_[v]);
+    said_ = std::move(said);
+}
+
+}  // namespace dynamic_filter

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "dynamic_filter/scans_observe/scans_method.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "dynamic_filter/scans_observe/vote.hpp"
+
+namespace dynamic_filter {
+
+/// The scan's points go into voxels; if it is a keyframe, its beams check the voxels around them;
+/// new voxels ask the earlier keyframes; each voxel of the scan is judged by its evidence and its
+/// neighbours'. What can wait: the beams check the rest of the map.
+Judged ScansMethod::judge(Scan scan) {
+    return timed(times_, "judge", [&] {
+        const PointVoxels voxels = evidence_.insert(scan, times_);
+        Verdict verdict = timed(times_, "instant_verdict", [&] {
+            return instant_.judge(scan.index, voxels, evidence_.grid());
+        });
+        Judged judged;
+        judged.verdicts.push_back(std::move(verdict));
+        judged.integrate = [this] {
+            timed(times_, "integrate", [&] { evidence_.observe_elsewhere(times_); });
+        };
+        return judged;
+    });
+}
+
+std::vector<Verdict> ScansMethod::finish() {
+    timed(times_, "finish", [&] { decided_ = decide_voxels(evidence_.grid(), config_); });
+    return {};
+}
+
+void ScansMethod::decide(const LocatedScan& scan, Verdict& verdict) const {
+    decide_points(scan, decided_, evidence_.grid(), config_, verdict);
+}
+
+void ScansMethod::settle(const LocatedScan& scan, Verdict& verdict) const {
+    PointVoxels own = scan.voxels;
+    std::sort(own.begin(), own.end());
+    own.erase(std::unique(own.begin(), own.end()), own.end());
+    if (!own.empty() && own.back() == kNoVoxel) own.pop_back();
+    const auto occupancy = occupancy_of(evidence_.grid(), own, config_.scans.vote);
+    for (std::size_t i = 0; i < scan.voxels.size(); ++i) {
+        if (scan.voxels[i] == kNoVoxel) continue;
+        const auto at = std::lower_bound(own.begin(), own.end(), scan.voxels[i]) - own.begin();
+        const auto& probability = occupancy[static_cast<std::size_t>(at)];
+        verdict.labels[i] = label_of(probability, config_.map.occupancy_threshold);
+        verdict.probability[i] = probability.value_or(0.0F);
+    }
+}
+
+void ScansMethod::keep_within(const Eigen::Vector3d& center, double radius, std::size_t most) {
+    instant_.keep(evidence_.keep_within(center.cast<float>(), static_cast<float>(radius), most));
+}
+
+std::vector<VoxelOccupancy> ScansMethod::local_map(const Pose& T_map_query,
+                                                   std::optional<double> radius) {
+    const auto reach = static_cast<float>(radius.value_or(config_.map.search_radius));
+    const std::vector<std::uint32_t> near =
+        evidence_.grid().within(T_map_query.translation().cast<float>(), reach);
+    const auto occupancy = occupancy_of(evidence_.grid(), near, config_.scans.vote);
+    std::vector<VoxelOccupancy> result;
+    for (std::size_t i = 0; i < near.size(); ++i) {
+        if (label_of(occupancy[i], config_.map.occupancy_threshold) == Label::static_) {
+            result.push_back({near[i], *occupancy[i]});
+        }
+    }
+    return result;
+}
+
+std::vector<VoxelOccupancy> ScansMethod::static_map() const {
+    std::vector<VoxelOccupancy> result;
+    for (std::uint32_t v = 0; v < decided_.size(); ++v) {
+        const auto& probability = decided_[v].probability;
+        if (label_of(probability, config_.map.occupancy_threshold) == Label::static_) {
+            result.push_back({v, *probability});
+        }
+    }
+    return result;
+}
+
+std::vector<VoxelHistory> ScansMethod::histories(std::span<const std::uint32_t> voxels) const {
+    std::vector<VoxelHistory> histories(voxels.size());
+    std::vector<std::uint32_t> seen_through;
+    std::vector<std::size_t> at;
+    for (std::size_t i = 0; i < voxels.size(); ++i) {
+        const Evidence& e = evidence_.grid()[voxels[i]].evidence;
+        histories[i] = {.probability = decided_[voxels[i]].probability,
+                        .n_own = e.n_own,
+                        .n_occ = e.n_occ,
+                        .n_free = e.n_free,
+                        .n_switch = e.n_switch,
+                        .first = evidence_.index_of_owner(e.first_owner),
+                        .last = evidence_.index_of_owner(e.last_owner),
+                        .free_keyframes = {}};
+        if (e.n_free == 0) continue;
+        seen_through.push_back(voxels[i]);
+        at.push_back(i);
+    }
+    auto keyframes = evidence_.free_keyframes(seen_through);
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        histories[at[i]].free_keyframes = std::move(keyframes[i]);
+    }
+    return histories;
+}
+
+MapContents ScansMethod::contents() const {
+    const Observers& observers = evidence_.observers();
+    MapContents contents;
+    contents.observer = "keyframes";
+    contents.observers = observers.total();
+    contents.beams = observers.beams();
+    for (const Observer& observer : observers.kept()) contents.keyframes.push_back(observer.index);
+    const std::size_t scans = evidence_.grid().scans();
+    contents.throughput = {{"judge", "scans", scans}, {"integrate", "scans", scans}};
+    return contents;
+}
+
+}  // namespace dynamic_filter

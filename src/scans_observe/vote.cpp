@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "dynamic_filter/scans_observe/vote.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "best_kernel.hpp"
+#include "dynamic_filter/parallel.hpp"
+#include "vote_kernel.hpp"
+
+namespace dynamic_filter {
+
+namespace {
+
+/// Those who may vote on the voxels of a block.
+struct Neighborhood {
+    static constexpr std::size_t kMost = 8 * 8 * 8;  // a block, and two cells around it
+    using Column = std::array<float, kMost>;
+    Column x, y, z, score, first, last;
+    std::size_t count = 0;
+
+    void add(const Cell& cell, float voter_score, const Evidence& e) {
+        x[count] = static_cast<float>(cell.x());
+        y[count] = static_cast<float>(cell.y());
+        z[count] = static_cast<float>(cell.z());
+        score[count] = voter_score;
+        first[count] = static_cast<float>(e.first_owner);
+        last[count] = static_cast<float>(e.last_owner);
+        ++count;
+    }
+    void gather(const EvidenceGrid& grid, std::uint32_t block) {
+        count = 0;
+        grid.neighbors().each_around(
+            grid.voxels(), 2, block,
+            [&](std::uint32_t v, const Cell& cell) { add(cell, grid[v].score, grid[v].evidence); });
+        constexpr auto kAway = static_cast<int>(kernel::kOutOfReach);
+        while (count % kernel::kVoters != 0) add(Cell::Constant(kAway), 0.0F, {});
+    }
+    [[nodiscard]] float vote_on(const Cell& cell, const Evidence& e,
+                                const ScansConfig::Vote& config) const {
+        static const auto kernel = DYNAMIC_FILTER_BEST_KERNEL(vote);
+        return kernel({.x = x.data(),
+                       .y = y.data(),
+                       .z = z.data(),
+                       .score = score.data(),
+                       .first = first.data(),
+                       .last = last.data(),
+                       .count = count,
+                       .own_x = static_cast<float>(cell.x()),
+                       .own_y = static_cast<float>(cell.y()),
+                       .own_z = static_cast<float>(cell.z()),
+                       .own_first = static_cast<float>(e.first_owner),
+                       .own_last = static_cast<float>(e.last_owner),
+                       .company = static_cast<float>(config.company),
+                       .neighborhood = static_cast<float>(config.neighborhood),
+                       .far = static_cast<float>(config.far),
+                       .alone = static_cast<float>(config.alone)});
+    }
+};
+
+}  // namespace
+
+std::vector<std::optional<float>> occupancy_of(const EvidenceGrid& grid,
+                                               std::span<const std::uint32_t> voxels,
+                                               const ScansConfig::Vote& config) {
+    std::vector<std::pair<std::uint32_t, std::size_t>> by_block;  // block, place among `voxels`
+    for (std::size_t i = 0; i < voxels.size(); ++i) {
+        if (is_unknown(grid[voxels[i]].evidence)) continue;
+        by_block.emplace_back(grid.voxels().block_of_voxel(voxels[i]), i);
+    }
+    std::sort(by_block.begin(), by_block.end());
+    std::vector<std::optional<float>> result(voxels.size());
+    const auto steepness = static_cast<float>(config.steepness);
+    constexpr std::size_t kGrain = 512;
+    parallel_for(by_block.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+        Neighborhood neighborhood;
+        for (std::size_t i = begin; i < end; ++i) {
+            const auto [block, at] = by_block[i];
+            if (i == begin || by_block[i - 1].first != block) neighborhood.gather(grid, block);
+            const std::uint32_t v = voxels[at];
+            const float vote =
+                neighborhood.vote_on(unpack(grid.voxels().key(v)), grid[v].evidence, config);
+            result[at] = 1.0F / (1.0F + std::exp(steepness * (grid[v].score + vote)));
+        }
+    });
+    return result;
+}
+
+}  // namespace dynamic_filter

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+/// The inner loop of the neighbours' vote, compiled once per instruction-set level from
+/// vote_kernel.cpp.
+#pragma once
+
+#include <cstddef>
+
+#include "best_kernel.hpp"
+
+namespace dynamic_filter::kernel {
+
+/// Voters, as parallel arrays: cells along each axis, score, first and last owner.
+struct VoteArgs {
+    const float *x = nullptr, *y = nullptr, *z = nullptr;
+    const float *score = nullptr, *first = nullptr, *last = nullptr;
+    std::size_t count = 0;  ///< a multiple of kVoters
+    // The voxel that is voted on.
+    float own_x = 0.0F, own_y = 0.0F, own_z = 0.0F, own_first = 0.0F, own_last = 0.0F;
+    // ScansConfig::Vote.
+    float company = 0.0F, neighborhood = 0.0F, far = 0.0F, alone = 0.0F;
+};
+
+/// Fill up the arrays with voters that are out of reach.
+constexpr std::size_t kVoters = 16;
+constexpr float kOutOfReach = 8e6F;  // cells: no key goes as far
+
+DYNAMIC_FILTER_DECLARE_KERNEL(float, vote, VoteArgs)
+
+}  // namespace dynamic_filter::kernel

@@ -1,0 +1,1 @@
+df_test(accuracy/floors dynamic_filter_sim dynamic_filter_eval)

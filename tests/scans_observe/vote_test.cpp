@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "dynamic_filter/scans_observe/vote.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "dynamic_filter/scans_observe/evidence_map.hpp"
+#include "pipeline/room.hpp"
+
+namespace dynamic_filter {
+namespace {
+
+using test::drive;
+
+const DynamicScore score(ScansConfig{}.evidence);
+
+Config every_scan() {
+    Config config;
+    config.keyframe.interval = 0.0;
+    return config;
+}
+
+EvidenceMap filled(const std::vector<test::RoomScan>& scans, const Config& config) {
+    EvidenceMap map(config);
+    StageTimes times;
+    for (const auto& s : scans) {
+        map.insert(s.scan, times);
+        map.observe_elsewhere(times);
+    }
+    return map;
+}
+
+std::optional<float> probability_of(const EvidenceMap& map, std::uint32_t voxel) {
+    return occupancy_of(map.grid(), {&voxel, 1}, ScansConfig{}.vote)[0];
+}
+
+/// Own score, that of the company and that of the neighbourhood, by asking all voxels of the map.
+float brute_force_probability(const EvidenceMap& map, std::uint32_t voxel) {
+    const Evidence& own = map.grid()[voxel].evidence;
+    const Cell home = unpack(map.grid().voxels().key(voxel));
+    double company = 0.0, companions = 0.25, around = 0.0, neighbors = 0.25;
+    for (std::uint32_t v = 0; v < map.grid().voxels().size(); ++v) {
+        const int cells = (unpack(map.grid().voxels().key(v)) - home).cwiseAbs().maxCoeff();
+        if (v == voxel || cells > 2) continue;
+        const double value = score(map.grid()[v].evidence);
+        const double together = co_presence(own, map.grid()[v].evidence);
+        const double weight = cells == 1 ? 1.0 : 0.3;
+        company += together * value, companions += together;
+        around += weight * value, neighbors += weight;
+    }
+    const double sum = score(own) + company / companions + 2.0 * around / neighbors;
+    return static_cast<float>(1.0 / (1.0 + std::exp(3.0 * sum)));
+}
+
+TEST(OccupancyOf, ProbabilityAddsUpTheVoxelItsCompanyAndItsNeighborhood) {
+    const EvidenceMap map = filled(drive(12, true), every_scan());
+    std::vector<std::uint32_t> all(map.grid().voxels().size());
+    std::iota(all.begin(), all.end(), 0U);
+    const auto together = occupancy_of(map.grid(), all, ScansConfig{}.vote);
+    int compared = 0;
+    for (std::uint32_t v = 0; v < map.grid().voxels().size(); v += 11) {
+        if (is_unknown(map.grid()[v].evidence)) continue;
+        ASSERT_NEAR(*probability_of(map, v), brute_force_probability(map, v), 1e-5F) << v;
+        ASSERT_EQ(probability_of(map, v), together[v]);  // whoever else is asked about
+        ++compared;
+    }
+    EXPECT_GT(compared, 100);
+}
+
+TEST(OccupancyOf, ProbabilityIsUnknownUntilAnotherKeyframeLooked) {
+    const auto scans = drive(2, false);
+    const EvidenceMap one = filled({scans[0]}, every_scan());
+    for (std::uint32_t v = 0; v < one.grid().voxels().size(); ++v)
+        EXPECT_FALSE(probability_of(one, v));
+    const EvidenceMap two = filled({scans[0], scans[0]}, every_scan());
+    for (std::uint32_t v = 0; v < two.grid().voxels().size(); ++v) {
+        ASSERT_EQ(probability_of(two, v).has_value(), !is_unknown(two.grid()[v].evidence));
+        EXPECT_GT(probability_of(two, v).value_or(1.0F), 0.5F);
+    }
+}
+
+}  // namespace
+}  // namespace dynamic_filter
