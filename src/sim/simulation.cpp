@@ -81,7 +81,7 @@ Crowd simulated_crowd(const Scene& scene, double duration) {
     const auto movers = [&scene](double t) {
         std::vector<Mover> out;
         const PathPoint p = at(scene.robot.path, travelled(scene.robot, t));
-        out.push_back({p.position, scene.robot.speed * p.direction, scene.robot_radius});
+        out.push_back({p.position, speed_at(scene.robot, t) * p.direction, scene.robot_radius});
         for (const Vehicle& vehicle : scene.vehicles) add_movers(vehicle, t, out);
         return out;
     };
