@@ -34,6 +34,7 @@ struct SceneEntry {
     std::string name;
     int pedestrians = 0;  ///< unless asked otherwise
     double rate_hz = 10.0;
+    int rounds = 0;  ///< that the robot goes within the duration; 0: its way is no round
     std::function<Scene(int pedestrians, std::uint64_t seed)> make;
 };
 

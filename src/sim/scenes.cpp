@@ -10,7 +10,7 @@ Scene hall_scene(int pedestrians, std::uint64_t seed);
 
 const std::vector<SceneEntry>& scene_table() {
     static const std::vector<SceneEntry> table = {
-        {.name = "crowd", .pedestrians = 100, .rate_hz = 1.25, .make = crowd_scene},
+        {.name = "crowd", .pedestrians = 100, .rate_hz = 1.25, .rounds = 2, .make = crowd_scene},
         {.name = "street", .pedestrians = 30, .rate_hz = 10.0, .make = street_scene},
         {.name = "square", .pedestrians = 60, .rate_hz = 10.0, .make = square_scene},
         {.name = "hall", .pedestrians = 60, .rate_hz = 10.0, .make = hall_scene},
