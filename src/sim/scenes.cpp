@@ -7,6 +7,7 @@ Scene crowd_scene(int pedestrians, std::uint64_t seed);
 Scene street_scene(int pedestrians, std::uint64_t seed);
 Scene square_scene(int pedestrians, std::uint64_t seed);
 Scene hall_scene(int pedestrians, std::uint64_t seed);
+Scene jam_scene(int pedestrians, std::uint64_t seed);
 
 const std::vector<SceneEntry>& scene_table() {
     static const std::vector<SceneEntry> table = {
@@ -14,6 +15,7 @@ const std::vector<SceneEntry>& scene_table() {
         {.name = "street", .pedestrians = 30, .rate_hz = 10.0, .make = street_scene},
         {.name = "square", .pedestrians = 60, .rate_hz = 10.0, .make = square_scene},
         {.name = "hall", .pedestrians = 60, .rate_hz = 10.0, .make = hall_scene},
+        {.name = "jam", .pedestrians = 60, .rate_hz = 10.0, .make = jam_scene},
     };
     return table;
 }
