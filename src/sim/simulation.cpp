@@ -64,7 +64,7 @@ std::vector<Part> all_parts(const Scene& scene) {
         parts.insert(parts.end(), more.begin(), more.end());
     };
     for (std::size_t i = 0; i < scene.walkers.size(); ++i)
-        add(walker_parts(i));
+        add(walker_parts(i, scene.walkers[i].luggage));
     for (const Vehicle& vehicle : scene.vehicles) add(vehicle_parts(vehicle));
     return parts;
 }
@@ -155,8 +155,11 @@ struct Simulation::World {
     [[nodiscard]] Placements placements(double t) const {
         Placements out;
         for (std::size_t i = 0; i < scene.walkers.size(); ++i) {
-            const Stride stride = stride_at(crowd, i, t);
+            Stride stride = stride_at(crowd, i, t);
             const double ground = scene.ground ? scene.ground(stride.position.cast<double>()) : 0.0;
+            if (scene.carried) {
+                stride.position += scene.carried(stride.position.cast<double>(), t).cast<float>();
+            }
             place_walker(scene.walkers[i], stride, ground, out);
         }
         for (const Vehicle& vehicle : scene.vehicles) place_vehicle(vehicle, t, out);
