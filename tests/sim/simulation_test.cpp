@@ -106,7 +106,8 @@ TEST(Simulation, EveryKindIsSeenWhereItIs) {
         SimulationOptions options;
         options.scene = scene;
         Simulation simulation(options);
-        for (std::size_t i = 0; i < simulation.size(); i += 20) {
+        const std::size_t step = std::max<std::size_t>(20, simulation.size() / 20);
+        for (std::size_t i = 0; i < simulation.size(); i += step) {
             const SimulatedScan scan = simulation.scan(i);
             seen[scene].insert(scan.kinds.begin(), scan.kinds.end());
         }
