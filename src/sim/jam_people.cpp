@@ -13,8 +13,8 @@ constexpr double footway = 8.8;  // [m] y that people walk at
 
 /// A place at the kerb to wait at for the light, in sight of the other side.
 Waypoint kerbside(const Signal& signal, double side, Random& random) {
-    const Vector2d at(signal.at + random.uniform(-1.8, 1.8),
-                      side * (kerb + random.uniform(0.4, 1.7)));
+    const Vector2d at{signal.at + random.uniform(-1.8, 1.8),
+                      side * (kerb + random.uniform(0.4, 1.7))};
     return {.at = at, .reach = 0.4, .face = {at.x(), -20.0 * side}, .release = [signal](double t) {
                 return may_walk(signal, t);
             }};
@@ -27,7 +27,8 @@ std::vector<Waypoint> crossing(const Signal& signal, Random& random) {
     for (const double side : {first, -first}) {
         out.push_back(kerbside(signal, side, random));
         out.push_back({.at = {signal.at + random.uniform(-1.5, 1.5), -side * (kerb + 0.8)}});
-        const double away = (random.chance(0.5) ? 1.0 : -1.0) * random.uniform(6.0, 22.0);
+        const double way = random.chance(0.5) ? 1.0 : -1.0;
+        const double away = way * random.uniform(6.0, 22.0);
         out.push_back({.at = {signal.at + away, -side * random.uniform(8.2, 9.4)},
                        .pause = random.chance(0.6) ? random.uniform(5.0, 45.0) : 0.0});
     }
@@ -36,7 +37,7 @@ std::vector<Waypoint> crossing(const Signal& signal, Random& random) {
 
 /// To the bus stop, a wait there, and on.
 std::vector<Waypoint> waiting(double stop, Random& random) {
-    const Vector2d at(stop + random.uniform(-4.5, 4.5), random.uniform(kerb + 0.5, kerb + 1.8));
+    const Vector2d at{stop + random.uniform(-4.5, 4.5), random.uniform(kerb + 0.5, kerb + 1.8)};
     const double way = random.chance(0.5) ? 1.0 : -1.0;
     return {{.at = at,
              .reach = 0.4,

@@ -63,12 +63,18 @@ void pull_out(Plan& plan, Driver& driver, double x) {
     plan.free.push_back({-driver.way, std::min(back, ahead), std::max(back, ahead)});
 }
 
-/// A car that was parked from the beginning and leaves, not before a time.
-void add_leaving(Plan& plan, double way, double x, double time, Random& random) {
+struct Range {
+    double low, high;
+};
+
+/// A car that was parked from the beginning and leaves, not before a time of that range.
+void add_leaving(Plan& plan, double way, double x, const Range& times, Random& random) {
     Driver driver = in_lane(VehicleKind::car, way, x, random);
     driver.y = at_kerb(driver.kind, way);
     driver.moving = false;
-    driver.halts = {{.at = driver.start, .not_before = time, .gives_way = true}};
+    driver.halts = {{.at = driver.start,
+                     .not_before = random.uniform(times.low, times.high),
+                     .gives_way = true}};
     pull_out(plan, driver, x);
     plan.drivers.push_back(driver);
 }
@@ -92,8 +98,8 @@ void add_own_lane(Plan& plan, Random& random) {
     add_column(plan, 1.0, -62.0, 1 + random.below(3), random);
     add_column(plan, 1.0, sensor.start - 16.0, 4, random);
     add_column(plan, 1.0, sensor.start - 200.0, 5, random);
-    add_leaving(plan, 1.0, random.uniform(58.0, 63.0), random.uniform(6.0, 16.0), random);
-    add_leaving(plan, 1.0, random.uniform(172.0, 182.0), random.uniform(70.0, 95.0), random);
+    add_leaving(plan, 1.0, random.uniform(58.0, 63.0), {6.0, 16.0}, random);
+    add_leaving(plan, 1.0, random.uniform(172.0, 182.0), {70.0, 95.0}, random);
 }
 
 /// The lane beside it: a bus and a van that deliver people and parcels, and more cars.
@@ -117,7 +123,7 @@ void add_other_lane(Plan& plan, Random& random) {
     add_parking(plan, -1.0, 375.0, random.uniform(192.0, 198.0), random);
     add_column(plan, -1.0, 395.0, 4, random);
     add_column(plan, -1.0, 560.0, 5, random);
-    add_leaving(plan, -1.0, random.uniform(58.0, 66.0), random.uniform(48.0, 60.0), random);
+    add_leaving(plan, -1.0, random.uniform(58.0, 66.0), {48.0, 60.0}, random);
 }
 
 void add_cyclists(Plan& plan, Random& random) {

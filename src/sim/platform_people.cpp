@@ -63,16 +63,16 @@ struct Station {
     Vector2d behind_exit(double side) {
         return places.take(
             [&] {
-                return Vector2d(side * random.uniform(exit_from + 1.5, exit_until - 0.6),
-                                random.uniform(-3.6, 0.6));
+                return Vector2d{side * random.uniform(exit_from + 1.5, exit_until - 0.6),
+                                random.uniform(-3.6, 0.6)};
             },
             0.6);
     }
     Vector2d in_train(double door) {
         return places.take(
             [&] {
-                return Vector2d(door + random.uniform(-2.4, 2.4),
-                                random.uniform(train_y - 0.8, train_y + 0.3));
+                return Vector2d{door + random.uniform(-2.4, 2.4),
+                                random.uniform(train_y - 0.8, train_y + 0.3)};
             },
             0.6);
     }
@@ -104,8 +104,9 @@ std::vector<Waypoint> getting_on(Station& station) {
         all[static_cast<std::size_t>(station.random.below(static_cast<int>(all.size())))];
     const Vector2d spot = station.places.take(
         [&]() -> Vector2d {
-            const double aside = station.side() * station.random.uniform(1.1, 3.4);
-            return {door + aside, station.random.uniform(3.0, 3.8)};
+            const double side = station.side();
+            return {door + side * station.random.uniform(1.1, 3.4),
+                    station.random.uniform(3.0, 3.8)};
         },
         0.7);
     const Timetable times = station.timetable;

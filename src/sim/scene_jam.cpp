@@ -69,7 +69,8 @@ void add_furniture(Scene& scene, const Plan& plan, double side, Random& random) 
     };
     for (const double x : row(first + 5.0, last, 12.0)) {
         const Spot tree{.at = {x, side * (kerb + 0.7)}, .axis = {1.0, 0.0}, .z = pavement};
-        if (!kept(x)) add_tree(scene, tree, random.uniform(6.0, 9.0), random.bits());
+        const double height = random.uniform(6.0, 9.0);
+        if (!kept(x)) add_tree(scene, tree, height, random.bits());
         const Spot lamp{.at = {x + 6.0, side * (kerb + 0.4)}, .axis = {0.0, -side}, .z = pavement};
         if (!kept(x + 6.0)) add_lamp(scene, lamp, 6.5);
         const Spot wall{.at = {x + 3.0, side * (front - 0.5)}, .axis = {side, 0.0}, .z = pavement};
@@ -93,9 +94,8 @@ void add_furniture(Scene& scene, const Plan& plan, double side, Random& random) 
 void add_parked(Scene& scene, const Plan& plan, double side, Random& random) {
     for (const double x : row(first, last, 5.8)) {
         if (is_free(plan, side, x, 2.6) || random.chance(0.2)) continue;
-        add_parked_car(scene,
-                       {.at = {x + random.uniform(-0.3, 0.3), side * parking}, .axis = {side, 0.0}},
-                       static_cast<float>(random.uniform(0.4, 1.4)));
+        const Spot spot{.at = {x + random.uniform(-0.3, 0.3), side * parking}, .axis = {side, 0.0}};
+        add_parked_car(scene, spot, static_cast<float>(random.uniform(0.4, 1.4)));
     }
 }
 
