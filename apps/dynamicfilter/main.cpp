@@ -129,6 +129,8 @@ void add_simulate(CLI::App& app, std::function<int()>& chosen) {
         ->check(whole_from(1));
     c.add_option("--rate", s.rate_hz, "scans per second (default: the scene's own)")
         ->check(CLI::Range(0.0, 100.0));
+    c.add_option("--rounds", s.rounds, "of the robot, in crowd (default: 2)")
+        ->check(CLI::Range(1, 100));
     c.add_option("--pose-noise", s.pose_noise_m, "standard deviation of each axis [m]")
         ->check(CLI::Range(0.0, 10.0));
     c.add_option("--pose-noise-deg", s.pose_noise_deg, "standard deviation of each axis [deg]")

@@ -74,20 +74,25 @@ Vector2d half_footprint(VehicleKind kind) {
             return {2.7, 1.0};
         case VehicleKind::bus:
             return {6.0, 1.25};
+        case VehicleKind::wagon:
+            return {wagon_half_length, wagon_half_width};
         case VehicleKind::cyclist:
             break;
     }
     return {0.85, 0.3};
 }
 
-std::vector<Part> walker_parts(std::size_t index) {
+std::vector<Part> walker_parts(std::size_t index, bool luggage) {
     const auto shade = [&](std::uint64_t use) {
         return static_cast<float>(0.5 + 0.9 * unit(hash(0xc107, index, use)));
     };
     const bool pack = unit(hash(0xba6, index)) < 0.3;
     const std::size_t torso = index_of(pack ? Prototype::torso_with_pack : Prototype::torso);
     const std::size_t leg = index_of(Prototype::leg), arm = index_of(Prototype::arm);
-    return {{torso, shade(0)}, {leg, shade(1)}, {leg, shade(1)}, {arm, shade(0)}, {arm, shade(0)}};
+    std::vector<Part> parts = {
+        {torso, shade(0)}, {leg, shade(1)}, {leg, shade(1)}, {arm, shade(0)}, {arm, shade(0)}};
+    if (luggage) parts.push_back({index_of(Prototype::suitcase), shade(2)});
+    return parts;
 }
 
 std::vector<Part> vehicle_parts(const Vehicle& vehicle) {
@@ -99,6 +104,10 @@ std::vector<Part> vehicle_parts(const Vehicle& vehicle) {
             return {{index_of(Prototype::van), b}};
         case VehicleKind::bus:
             return {{index_of(Prototype::bus), b}};
+        case VehicleKind::wagon:
+            return {{index_of(Prototype::wagon), b},
+                    {index_of(Prototype::fore_doors), 0.7F * b},
+                    {index_of(Prototype::aft_doors), 0.7F * b}};
         case VehicleKind::cyclist:
             break;
     }
@@ -123,6 +132,12 @@ void place_walker(const Walker& walker, const Stride& stride, double ground, Pla
     out.push_back({(T * joint({0.0, -0.09, hip}, step)).cast<float>(), kind});
     out.push_back({(T * joint({0.0, 0.23, 1.40}, 0.9 * step)).cast<float>(), kind});
     out.push_back({(T * joint({0.0, -0.23, 1.40}, -0.9 * step)).cast<float>(), kind});
+    if (walker.luggage) {  // a suitcase is as large whoever owns it
+        const Affine3d beside =
+            standing_at(stride.position.cast<double>(), ground, stride.heading.cast<double>()) *
+            Eigen::Translation3d(-0.3, -0.35, 0.0);
+        out.push_back({beside.cast<float>(), kind});
+    }
 }
 
 void place_vehicle(const Vehicle& vehicle, double t, Placements& out) {
@@ -134,9 +149,22 @@ void place_vehicle(const Vehicle& vehicle, double t, Placements& out) {
     if (vehicle.kind == VehicleKind::cyclist) {
         place_pedalling(T, 2.0 * std::numbers::pi * s / metres_per_turn, out);
     }
+    if (vehicle.kind == VehicleKind::wagon) {
+        const double slide = door_leaf * door_opening(vehicle.ride, t);
+        for (const double way : {slide, -slide}) {
+            out.push_back({(T * Eigen::Translation3d(way, 0.0, 0.0)).cast<float>(), Kind::vehicle});
+        }
+    }
+}
+
+double door_opening(const Ride& ride, double t) {
+    constexpr double rest = 1.0, slide = 1.5;  // [s] shut while it stands, and to open
+    const double came = halts_at(ride), leaves = came + ride.stop_time;
+    return std::clamp(std::min(t - came - rest, leaves - rest - t) / slide, 0.0, 1.0);
 }
 
 void add_movers(const Vehicle& vehicle, double t, std::vector<Mover>& out) {
+    if (vehicle.kind == VehicleKind::wagon) return;
     const Vector2d half = half_footprint(vehicle.kind);
     const double s = travelled(vehicle.ride, t);
     const double speed = (travelled(vehicle.ride, t + 0.05) - s) / 0.05;

@@ -11,7 +11,7 @@
 
 namespace dynamic_filter::sim {
 
-enum class VehicleKind { car, van, bus, cyclist };
+enum class VehicleKind { car, van, bus, cyclist, wagon };
 
 struct Vehicle {
     VehicleKind kind = VehicleKind::car;
@@ -22,7 +22,7 @@ struct Vehicle {
 /// Half the length and half the width [m].
 Eigen::Vector2d half_footprint(VehicleKind kind);
 
-std::vector<Part> walker_parts(std::size_t index);
+std::vector<Part> walker_parts(std::size_t index, bool luggage = false);
 std::vector<Part> vehicle_parts(const Vehicle& vehicle);
 
 using Placements = std::vector<Placement>;
@@ -34,7 +34,11 @@ void place_walker(const Walker& walker, const Stride& stride, double ground, Pla
 /// The same for vehicle_parts(), at a time [s].
 void place_vehicle(const Vehicle& vehicle, double t, Placements& out);
 
-/// Discs that cover the vehicle, for those on foot to yield to.
+/// How far the doors of a wagon are open, 0 to 1: only while it stands.
+double door_opening(const Ride& ride, double t);
+
+/// Discs that cover the vehicle, for those on foot to yield to; none for wagons, as people keep to
+/// the platform by themselves and must be let in.
 void add_movers(const Vehicle& vehicle, double t, std::vector<Mover>& out);
 
 }  // namespace dynamic_filter::sim

@@ -57,8 +57,9 @@ void aim_at_next(const State& state, const Walker& walker, Body& body) {
     body.leg_start = body.position;
     body.leg_since = state.time;
     body.next = (body.next + 1) % walker.route.size();
-    body.standing = reached.pause > 0.0;
     body.pause_until = state.time + reached.pause;
+    if (reached.release) body.pause_until = reached.release(body.pause_until);
+    body.standing = body.pause_until > state.time;
     body.waiting = reached.gated;
 }
 

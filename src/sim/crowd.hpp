@@ -18,6 +18,8 @@ struct Waypoint {
     double pause = 0.0;  ///< [s] to stand there
     bool gated = false;  ///< on the way from here on, wait until no vehicle comes
     Eigen::Vector2d face = Eigen::Vector2d::Zero();  ///< look here while standing; zero: nowhere
+    /// When somebody who could go on at a time may do so (a light, a train's doors); empty: then.
+    std::function<double(double)> release = {};
 };
 
 struct Walker {
@@ -27,7 +29,8 @@ struct Walker {
     std::vector<Waypoint> route;  ///< walked round and round
     std::size_t next = 0;         ///< waypoint ahead at the start
     Eigen::Vector2d start = Eigen::Vector2d::Zero();
-    int company = -1;  ///< walkers of one company keep together
+    int company = -1;      ///< walkers of one company keep together
+    bool luggage = false;  ///< a suitcase on wheels at the right hand
 };
 
 struct CrowdPlan {

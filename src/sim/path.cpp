@@ -12,6 +12,8 @@ namespace {
 
 using Eigen::Vector2d;
 
+constexpr double brake = 1.5;  // [m/s2]
+
 Path measured(std::vector<Vector2d> points, bool closed) {
     if (closed) points.push_back(points.front());
     Path path{.points = std::move(points), .lengths = {0.0}, .closed = closed};
@@ -29,7 +31,18 @@ Vector2d tangent(const Path& path, std::size_t i) {
     return (path.points[after] - path.points[before]).normalized();
 }
 
+/// Beyond the ends of the log: on at the speed of the first or last entries.
+double logged(const Log& log, double t) {
+    const double steps = (t - log.from) / log_step;
+    const auto last = static_cast<std::ptrdiff_t>(log.way.size()) - 2;
+    const auto i = static_cast<std::size_t>(
+        std::clamp<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(std::floor(steps)), 0, last));
+    return log.way[i] + (steps - static_cast<double>(i)) * (log.way[i + 1] - log.way[i]);
+}
+
 }  // namespace
+
+Path polyline(std::vector<Vector2d> points) { return measured(std::move(points), false); }
 
 Path smooth_path(const std::vector<Vector2d>& corners, bool closed) {
     const auto n = static_cast<int>(corners.size());
@@ -84,8 +97,13 @@ PathPoint at(const Path& path, double s) {
             ((1.0 - w) * tangent(path, i) + w * tangent(path, i + 1)).normalized()};
 }
 
+double halts_at(const Ride& ride) {
+    const double ramp = ride.speed / brake;
+    return (ride.stop_at - ride.start - 0.5 * ride.speed * ramp) / ride.speed + ramp;
+}
+
 double travelled(const Ride& ride, double t) {
-    constexpr double brake = 1.5;  // [m/s2]
+    if (!ride.log.way.empty()) return logged(ride.log, t);
     if (ride.stop_at <= ride.start || ride.speed <= 0.0) return ride.start + ride.speed * t;
     const double ramp = ride.speed / brake;           // [s]
     const double ramp_way = 0.5 * ride.speed * ramp;  // [m]
@@ -98,6 +116,11 @@ double travelled(const Ride& ride, double t) {
     t -= ride.stop_time;
     if (t < ramp) return ride.stop_at + 0.5 * brake * t * t;
     return ride.stop_at + ramp_way + ride.speed * (t - ramp);
+}
+
+double speed_at(const Ride& ride, double t) {
+    if (ride.log.way.empty()) return ride.speed;
+    return (travelled(ride, t + log_step) - travelled(ride, t)) / log_step;
 }
 
 }  // namespace dynamic_filter::sim

@@ -116,6 +116,19 @@ void add_wheels(Mesh& mesh, double front, double rear, double half_width, double
     }
 }
 
+Mesh suitcase() {
+    Mesh mesh;
+    add_box(mesh, Affine3d::Identity(), {Vector3d(-0.14, -0.22, 0.06), Vector3d(0.14, 0.22, 0.7)},
+            cloth);
+    for (const double y : {-0.08, 0.08})
+        add_capsule(mesh, {-0.1, y, 0.65}, {-0.1, y, 1.0}, 0.01, metal);
+    add_capsule(mesh, {-0.1, -0.08, 1.0}, {-0.1, 0.08, 1.0}, 0.015, metal);
+    for (const double y : {-0.18, 0.18})
+        add_box(mesh, shift(0, y, 0), {Vector3d(-0.12, -0.02, 0), Vector3d(0.12, 0.02, 0.06)},
+                2 * rubber);
+    return mesh;
+}
+
 }  // namespace
 
 Mesh car_mesh() {
@@ -182,7 +195,11 @@ std::vector<Mesh> prototypes() {
             limb(shin_length, 0.05),
             car_mesh(),
             van_mesh(),
-            bus_mesh()};
+            bus_mesh(),
+            suitcase(),
+            wagon_mesh(),
+            doors_mesh(1.0),
+            doors_mesh(-1.0)};
 }
 
 }  // namespace dynamic_filter::sim

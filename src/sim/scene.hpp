@@ -28,12 +28,16 @@ struct Scene {
     double duration = 0.0;       ///< [s]
     double floor = 0.0;          ///< [m] world height of z = 0: on no boundary of usual voxels
     std::function<double(const Eigen::Vector2d&)> ground;  ///< height; empty: zero everywhere
+    /// How far those at a place are carried off at a time (aboard a train); empty: nowhere. The
+    /// crowd is simulated as if they stayed.
+    std::function<Eigen::Vector2d(const Eigen::Vector2d&, double)> carried;
 };
 
 struct SceneEntry {
     std::string name;
     int pedestrians = 0;  ///< unless asked otherwise
     double rate_hz = 10.0;
+    int rounds = 0;  ///< that the robot goes within the duration; 0: its way is no round
     std::function<Scene(int pedestrians, std::uint64_t seed)> make;
 };
 

@@ -7,13 +7,17 @@ Scene crowd_scene(int pedestrians, std::uint64_t seed);
 Scene street_scene(int pedestrians, std::uint64_t seed);
 Scene square_scene(int pedestrians, std::uint64_t seed);
 Scene hall_scene(int pedestrians, std::uint64_t seed);
+Scene jam_scene(int pedestrians, std::uint64_t seed);
+Scene platform_scene(int pedestrians, std::uint64_t seed);
 
 const std::vector<SceneEntry>& scene_table() {
     static const std::vector<SceneEntry> table = {
-        {.name = "crowd", .pedestrians = 100, .rate_hz = 1.25, .make = crowd_scene},
+        {.name = "crowd", .pedestrians = 100, .rate_hz = 1.25, .rounds = 2, .make = crowd_scene},
         {.name = "street", .pedestrians = 30, .rate_hz = 10.0, .make = street_scene},
         {.name = "square", .pedestrians = 60, .rate_hz = 10.0, .make = square_scene},
         {.name = "hall", .pedestrians = 60, .rate_hz = 10.0, .make = hall_scene},
+        {.name = "jam", .pedestrians = 60, .rate_hz = 10.0, .make = jam_scene},
+        {.name = "platform", .pedestrians = 80, .rate_hz = 10.0, .make = platform_scene},
     };
     return table;
 }

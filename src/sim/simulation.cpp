@@ -16,6 +16,7 @@ namespace dynamic_filter::sim {
 namespace {
 
 constexpr int most_pedestrians = 1000;
+constexpr int most_rounds = 100;
 
 template <typename Entry>
 std::vector<std::string> names(const std::vector<Entry>& table) {
@@ -42,6 +43,10 @@ void check(const SimulationOptions& options) {
                           ": expected 0 to " + std::to_string(most_pedestrians) +
                           ", or -1 for the scene's own number");
     }
+    if (options.rounds < 0 || options.rounds > most_rounds) {
+        throw ConfigError("rounds is " + std::to_string(options.rounds) + ": expected 1 to " +
+                          std::to_string(most_rounds) + ", or 0 for the scene's own number");
+    }
     const auto reject_unless_positive = [](const char* name, double value) {
         if (!std::isfinite(value) || value < 0.0) {
             throw ConfigError(std::string(name) + " is " + std::to_string(value) +
@@ -58,9 +63,22 @@ std::vector<Part> all_parts(const Scene& scene) {
     const auto add = [&](const std::vector<Part>& more) {
         parts.insert(parts.end(), more.begin(), more.end());
     };
-    for (std::size_t i = 0; i < scene.walkers.size(); ++i) add(walker_parts(i));
+    for (std::size_t i = 0; i < scene.walkers.size(); ++i)
+        add(walker_parts(i, scene.walkers[i].luggage));
     for (const Vehicle& vehicle : scene.vehicles) add(vehicle_parts(vehicle));
     return parts;
+}
+
+/// [s] For as many rounds as are asked for.
+double duration_of(const Scene& scene, const SceneEntry& entry, int rounds) {
+    if (rounds == 0) return scene.duration;
+    if (entry.rounds > 0) return scene.duration * rounds / entry.rounds;
+    std::string choices;
+    for (const SceneEntry& other : scene_table()) {
+        if (other.rounds > 0) choices += (choices.empty() ? "" : ", ") + other.name;
+    }
+    throw ConfigError("rounds is " + std::to_string(rounds) + ": in the scene \"" + entry.name +
+                      "\" the robot does not go in rounds; it does in " + choices);
 }
 
 /// How many scans are asked for; there must be that many.
@@ -81,7 +99,7 @@ Crowd simulated_crowd(const Scene& scene, double duration) {
     const auto movers = [&scene](double t) {
         std::vector<Mover> out;
         const PathPoint p = at(scene.robot.path, travelled(scene.robot, t));
-        out.push_back({p.position, scene.robot.speed * p.direction, scene.robot_radius});
+        out.push_back({p.position, speed_at(scene.robot, t) * p.direction, scene.robot_radius});
         for (const Vehicle& vehicle : scene.vehicles) add_movers(vehicle, t, out);
         return out;
     };
@@ -137,8 +155,11 @@ struct Simulation::World {
     [[nodiscard]] Placements placements(double t) const {
         Placements out;
         for (std::size_t i = 0; i < scene.walkers.size(); ++i) {
-            const Stride stride = stride_at(crowd, i, t);
+            Stride stride = stride_at(crowd, i, t);
             const double ground = scene.ground ? scene.ground(stride.position.cast<double>()) : 0.0;
+            if (scene.carried) {
+                stride.position += scene.carried(stride.position.cast<double>(), t).cast<float>();
+            }
             place_walker(scene.walkers[i], stride, ground, out);
         }
         for (const Vehicle& vehicle : scene.vehicles) place_vehicle(vehicle, t, out);
@@ -156,7 +177,7 @@ Simulation::Simulation(const SimulationOptions& options) {
     Scene scene =
         entry.make(options.pedestrians < 0 ? entry.pedestrians : options.pedestrians, options.seed);
     const double rate = options.rate_hz > 0.0 ? options.rate_hz : entry.rate_hz;
-    const std::size_t scans = scan_count(options, scene.duration, rate);
+    const std::size_t scans = scan_count(options, duration_of(scene, entry, options.rounds), rate);
     Crowd crowd = simulated_crowd(scene, static_cast<double>(scans) / rate);
     // the mesh of the still parts is large: kept by the caster only
     world_.reset(new World{options, sensor, scene,

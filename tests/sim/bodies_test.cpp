@@ -96,6 +96,46 @@ TEST(Bodies, HaltedVehiclesAndCyclistsAreVehicles) {
     }
 }
 
+TEST(Bodies, LuggageStandsBesideItsOwner) {
+    Walker walker;
+    walker.luggage = true;
+    const auto parts = walker_parts(3, true);
+    Placements placements;
+    place_walker(walker, {}, 0.15, placements);
+    ASSERT_EQ(placements.size(), parts.size());
+    ASSERT_EQ(parts.size(), walker_parts(3).size() + 1);
+    EXPECT_EQ(parts.back().prototype, static_cast<std::size_t>(Prototype::suitcase));
+    EXPECT_EQ(placements.back().kind, placements.front().kind);
+    const Eigen::Vector3f at = placements.back().T_world_part.translation();
+    EXPECT_NEAR(at.z(), 0.15F, 1e-5F);
+    EXPECT_GT(at.head<2>().norm(), 0.3F);
+    EXPECT_LT(at.head<2>().norm(), 0.6F);
+}
+
+TEST(Bodies, DoorsOpenOnlyWhileTheWagonStands) {
+    const Path path = smooth_path({{0, 0}, {100, 0}, {200, 0}}, false);
+    const Vehicle wagon{.kind = VehicleKind::wagon,
+                        .ride = {.path = path, .speed = 10.0, .stop_at = 100.0, .stop_time = 30.0}};
+    const double came = halts_at(wagon.ride);
+    std::vector<Mover> movers;
+    add_movers(wagon, came, movers);
+    EXPECT_TRUE(movers.empty());
+    for (double t = 0.0; t < came + 60.0; t += 0.1) {
+        const double open = door_opening(wagon.ride, t);
+        if (t < came || t > came + 30.0) {
+            EXPECT_EQ(open, 0.0) << t;
+        } else if (t > came + 2.6 && t < came + 27.4) {
+            EXPECT_EQ(open, 1.0) << t;
+        }
+        Placements placements;
+        place_vehicle(wagon, t, placements);
+        ASSERT_EQ(placements.size(), vehicle_parts(wagon).size());
+        const auto x = [&](std::size_t i) { return placements[i].T_world_part.translation().x(); };
+        EXPECT_NEAR(x(1) - x(0), door_leaf * open, 1e-4);
+        EXPECT_NEAR(x(2) - x(0), -door_leaf * open, 1e-4);
+    }
+}
+
 TEST(Bodies, MoversCoverTheVehicle) {
     const Vehicle bus{
         .kind = VehicleKind::bus,

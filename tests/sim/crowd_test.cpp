@@ -83,6 +83,18 @@ TEST(Crowd, StandsForItsPauseWithLegsAtRest) {
     EXPECT_NEAR(still * 0.1, 8.5, 2.0);
 }
 
+TEST(Crowd, StandsUntilItIsReleased) {
+    CrowdPlan plan = corridor();
+    plan.walkers = {walker({0, 0}, {{0, 0}, {10, 0}, {10, 2}})};
+    plan.walkers[0].route[0].release = [](double t) { return std::max(t, 20.0); };
+    plan.walkers[0].route[2].release = [](double) { return 1e9; };
+    const Crowd crowd = simulate_crowd(plan, 60.0);
+    EXPECT_LT(stride_at(crowd, 0, 19.5).position.norm(), 0.3F);
+    EXPECT_GT(stride_at(crowd, 0, 24.0).position.x(), 2.0F);
+    for (const double t : {45.0, 59.0})
+        EXPECT_LT((stride_at(crowd, 0, t).position - Eigen::Vector2f(10, 2)).norm(), 0.3F);
+}
+
 TEST(Crowd, WaitsAtTheKerbForVehicles) {
     CrowdPlan plan = corridor();
     plan.walkers = {walker({0, -2}, {{0, -2}, {0, 2}})};

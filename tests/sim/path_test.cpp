@@ -35,6 +35,35 @@ TEST(Path, OpenPathGoesOnStraightBeyondItsEnds) {
     EXPECT_NEAR((at(path, 23.0).position - Vector2d(23, 0)).norm(), 0.0, 1e-6);
 }
 
+TEST(Path, PolylineGoesStraightFromPointToPoint) {
+    const Path path = polyline({{0, 0}, {3, 4}, {3, 10}});
+    EXPECT_DOUBLE_EQ(path.lengths.back(), 11.0);
+    EXPECT_NEAR((at(path, 5.0).position - Vector2d(3, 4)).norm(), 0.0, 1e-9);
+    EXPECT_NEAR((at(path, 8.0).position - Vector2d(3, 7)).norm(), 0.0, 1e-9);
+}
+
+TEST(Path, LogTellsTheWay) {
+    Ride ride{.path = {}, .start = 100.0, .speed = 50.0};
+    ride.log = {.from = -1.0, .way = {5.0, 6.0, 6.0, 8.0}};
+    EXPECT_NEAR(travelled(ride, -1.0), 5.0, 1e-9);
+    EXPECT_NEAR(travelled(ride, -1.0 + 0.5 * log_step), 5.5, 1e-9);
+    EXPECT_NEAR(travelled(ride, -1.0 + 1.5 * log_step), 6.0, 1e-9);
+    EXPECT_NEAR(travelled(ride, -1.0 + 4.0 * log_step), 10.0, 1e-9);  // on as it was
+    EXPECT_NEAR(travelled(ride, -1.0 - log_step), 4.0, 1e-9);
+    EXPECT_NEAR(speed_at(ride, -1.0), 10.0, 1e-9);
+    EXPECT_NEAR(speed_at(ride, -1.0 + 1.5 * log_step), 10.0, 1e-6);
+    ride.log = {};
+    EXPECT_EQ(speed_at(ride, 3.0), 50.0);
+}
+
+TEST(Path, HaltsWhenTheRideStands) {
+    const Ride ride{.path = {}, .start = 10.0, .speed = 6.0, .stop_at = 70.0, .stop_time = 10.0};
+    const double t = halts_at(ride);
+    EXPECT_NEAR(travelled(ride, t), 70.0, 1e-9);
+    EXPECT_LT(travelled(ride, t - 0.2), 69.99);
+    EXPECT_EQ(travelled(ride, t + 9.9), 70.0);
+}
+
 TEST(Path, RideBrakesStandsAndGoesOn) {
     const Ride ride{.path = {}, .start = 10.0, .speed = 6.0, .stop_at = 70.0, .stop_time = 10.0};
     double before = travelled(ride, 0.0), speed = 6.0, standing = 0.0;

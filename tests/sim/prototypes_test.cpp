@@ -17,7 +17,7 @@ Eigen::AlignedBox3f bounds(const Mesh& mesh) {
 
 TEST(Prototypes, OneMeshForEachValue) {
     const auto all = prototypes();
-    ASSERT_EQ(all.size(), static_cast<std::size_t>(Prototype::bus) + 1);
+    ASSERT_EQ(all.size(), static_cast<std::size_t>(Prototype::aft_doors) + 1);
     for (const Mesh& mesh : all) {
         EXPECT_FALSE(mesh.triangles.empty());
         EXPECT_EQ(mesh.triangles.size(), mesh.materials.size());
@@ -36,6 +36,17 @@ TEST(Prototypes, VehiclesStandOnTheGround) {
                 0.02F);
     EXPECT_NEAR(bounds(car_mesh()).sizes().x(), 4.3F, 0.05F);
     EXPECT_NEAR(bounds(bus_mesh()).sizes().x(), 12.0F, 0.05F);
+}
+
+TEST(Prototypes, DoorsCloseTheDoorwaysOfTheWagon) {
+    const auto wagon = bounds(wagon_mesh()), fore = bounds(doors_mesh(1.0)),
+               aft = bounds(doors_mesh(-1.0));
+    EXPECT_NEAR(wagon.sizes().x(), 2.0F * static_cast<float>(wagon_half_length), 0.15F);
+    EXPECT_LT(wagon.max().z(), 3.0F);
+    EXPECT_LT(fore.max().y(), -static_cast<float>(wagon_half_width));
+    EXPECT_NEAR(fore.max().x(), static_cast<float>(wagon_doors[2] + door_leaf), 1e-4F);
+    EXPECT_NEAR(aft.min().x(), static_cast<float>(wagon_doors[0] - door_leaf), 1e-4F);
+    EXPECT_NEAR(fore.min().x(), static_cast<float>(wagon_doors[0]), 1e-4F);
 }
 
 TEST(Prototypes, PersonReaches175Centimetres) {

@@ -22,6 +22,34 @@ TEST(SceneCrowd, PeopleAreOrderly) {
     }
 }
 
+TEST(SceneCrowd, BodiesHideBodies) {
+    for (const auto& [people, least] : {std::pair(150, 0.5), std::pair(250, 0.65)}) {
+        const Scene scene = entry("crowd").make(people, 1);
+        const Crowd crowd = walked(scene, 60.0);
+        expect_orderly(scene, crowd, 60.0);
+        std::size_t hidden = 0, all = 0;
+        for (double t = 0.0; t < 60.0; t += 1.0) {
+            const auto robot = at(scene.robot.path, travelled(scene.robot, t)).position;
+            for (std::size_t i = 0; i < crowd.walkers; ++i) {
+                const Eigen::Vector2d to = stride_at(crowd, i, t).position.cast<double>() - robot;
+                if (to.norm() > 30.0) continue;
+                ++all;
+                for (std::size_t j = 0; j < crowd.walkers; ++j) {  // a torso covers the middle of i
+                    const Eigen::Vector2d p =
+                        stride_at(crowd, j, t).position.cast<double>() - robot;
+                    const double along = p.dot(to) / to.norm();
+                    if (j == i || along < 0.0 || along > to.norm() - 0.3) continue;
+                    if ((p - along * to.normalized()).norm() > 0.2) continue;
+                    ++hidden;
+                    break;
+                }
+            }
+        }
+        const double share = static_cast<double>(hidden) / static_cast<double>(all);
+        EXPECT_GT(share, least) << people;
+    }
+}
+
 TEST(SceneCrowd, FewStandAndTalk) {
     const Scene scene = entry("crowd").make(150, 1);
     std::size_t companies = 0;

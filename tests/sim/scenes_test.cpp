@@ -20,6 +20,8 @@ TEST(Scenes, NamesAreUniqueAndAllCanBeMade) {
     EXPECT_TRUE(names.contains("street"));
     EXPECT_TRUE(names.contains("square"));
     EXPECT_TRUE(names.contains("hall"));
+    EXPECT_TRUE(names.contains("jam"));
+    EXPECT_TRUE(names.contains("platform"));
 }
 
 TEST(Scenes, SeedsGiveOtherPeople) {

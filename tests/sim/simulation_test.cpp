@@ -46,11 +46,30 @@ TEST(Simulation, SameOptionsSameBytesWhateverTheThreadsAndTheOrder) {
 }
 
 TEST(Simulation, SeedsDiffer) {
-    SimulationOptions options = short_run("crowd");
-    Simulation one(options);
-    options.seed = 2;
+    for (const auto& scene : scene_names()) {
+        SimulationOptions options = short_run(scene);
+        Simulation one(options);
+        options.seed = 2;
+        Simulation two(options);
+        EXPECT_NE(one.scan(1).points, two.scan(1).points) << scene;
+    }
+}
+
+TEST(Simulation, RoundsMakeTheCrowdLongerAndItsBeginningTheSame) {
+    SimulationOptions options;
+    options.pedestrians = 20;
     Simulation two(options);
-    EXPECT_NE(one.scan(1).points, two.scan(1).points);
+    options.rounds = 2;
+    EXPECT_EQ(Simulation(options).size(), two.size());
+    options.rounds = 8;
+    Simulation eight(options);
+    EXPECT_NEAR(static_cast<double>(eight.size()), 4.0 * static_cast<double>(two.size()), 4.0);
+    expect_equal(two.scan(5), eight.scan(5));
+    EXPECT_GT(eight.scan(eight.size() - 1).points.size(), 10000U);
+    options = {};
+    options.pedestrians = 0;
+    options.rate_hz = 10.0;
+    EXPECT_NEAR(static_cast<double>(Simulation(options).size()), 2590.0, 60.0);
 }
 
 TEST(Simulation, LabelsAreStillOrDynamic) {
@@ -87,7 +106,8 @@ TEST(Simulation, EveryKindIsSeenWhereItIs) {
         SimulationOptions options;
         options.scene = scene;
         Simulation simulation(options);
-        for (std::size_t i = 0; i < simulation.size(); i += 20) {
+        const std::size_t step = std::max<std::size_t>(20, simulation.size() / 20);
+        for (std::size_t i = 0; i < simulation.size(); i += step) {
             const SimulatedScan scan = simulation.scan(i);
             seen[scene].insert(scan.kinds.begin(), scan.kinds.end());
         }
@@ -97,11 +117,15 @@ TEST(Simulation, EveryKindIsSeenWhereItIs) {
     EXPECT_EQ(seen["street"].size(), kind_names.size());
     EXPECT_EQ(seen["square"].size(), kind_names.size());
     EXPECT_EQ(seen["hall"].size(), kind_names.size() - 1);  // no vehicles
+    EXPECT_EQ(seen["jam"].size(), kind_names.size());
+    EXPECT_EQ(seen["platform"].size(), kind_names.size() - 1);  // nothing grows
 }
 
 TEST(Simulation, GroundIsAtTheGroundAndOthersMostlyAreNot) {
-    const std::map<std::string, double> highest = {
-        {"crowd", 0.0}, {"street", 0.15}, {"square", 0.8}, {"hall", 4.0}};
+    const std::map<std::string, double> highest = {{"crowd", 0.0},  {"street", 0.15},
+                                                   {"square", 0.8}, {"hall", 4.0},
+                                                   {"jam", 0.15},   {"platform", 2.4}};
+    const auto lowest = [](const std::string& scene) { return scene == "platform" ? -1.1 : 0.0; };
     for (const auto& scene : scene_names()) {
         Simulation simulation(short_run(scene));
         const SimulatedScan scan = simulation.scan(0);
@@ -109,7 +133,7 @@ TEST(Simulation, GroundIsAtTheGroundAndOthersMostlyAreNot) {
         for (std::size_t i = 0; i < scan.points.size(); ++i) {
             const double z = (scan.T_world_sensor * scan.points[i].cast<double>()).z() - 0.05;
             if (scan.kinds[i] == Kind::ground) {
-                EXPECT_GT(z, -0.1) << scene;
+                EXPECT_GT(z, lowest(scene) - 0.1) << scene;
                 EXPECT_LT(z, highest.at(scene) + 0.1) << scene;
             } else {
                 ++others;
@@ -209,7 +233,8 @@ TEST(Simulation, WrongOptionsAreNamed) {
     };
     SimulationOptions options;
     options.scene = "moon";
-    EXPECT_NE(message(options).find("crowd, street, square, hall"), std::string::npos);
+    EXPECT_NE(message(options).find("crowd, street, square, hall, jam, platform"),
+              std::string::npos);
     options = {};
     options.sensor = "eye";
     EXPECT_NE(message(options).find("vlp16"), std::string::npos);
@@ -230,6 +255,16 @@ TEST(Simulation, WrongOptionsAreNamed) {
     options = {};
     options.pose_noise_m = std::nan("");
     EXPECT_NE(message(options), "");
+    options = {};
+    options.rounds = -1;
+    EXPECT_NE(message(options), "");
+    options.rounds = 2;
+    EXPECT_EQ(message(options), "");
+    for (const auto& scene : scene_names()) {
+        if (scene == "crowd") continue;
+        options.scene = scene;
+        EXPECT_NE(message(options).find("it does in crowd"), std::string::npos) << scene;
+    }
 }
 
 }  // namespace dynamic_filter::sim

@@ -1,6 +1,6 @@
 foreach(unit bodies caster crowd facade lidar mesh obstacles path people portable props prototypes
-             random scene_crowd scene_hall scene_square scene_street scenes sensors simulation social_force
-             voxel_share)
+             random scene_crowd scene_hall scene_square scene_jam scene_platform scene_street scenes sensors signal
+             simulation social_force traffic voxel_share)
   df_test(sim/${unit} dynamic_filter_sim embree)
   target_include_directories(sim_${unit}_test PRIVATE ${PROJECT_SOURCE_DIR}/src)
 endforeach()

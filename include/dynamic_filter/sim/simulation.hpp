@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Scenes with exact labels: a crowd (Sec. IV-A), a street, a square, a hall; rays cast by Embree.
+/// Scenes with exact labels: a crowd (Sec. IV-A), a street, a square, a hall, a jam, a platform;
+/// rays cast by Embree.
 ///
 /// - Units: [m], [s], [deg].
 /// - Frames: points in the sensor's, poses T_world_sensor; world: z up.
@@ -32,6 +33,7 @@ struct SimulationOptions {
     double rate_hz = 0.0;               ///< [Hz] scans per second; 0: the scene's own
     double pose_noise_m = 0.0;          ///< [m] standard deviation of each axis of the written pose
     double pose_noise_deg = 0.0;        ///< [deg] standard deviation of each rotation axis
+    int rounds = 0;  ///< of the robot, where it goes in rounds; 0: the scene's own
 };
 
 /// One sweep, with all that is known of it.
@@ -48,7 +50,7 @@ std::vector<std::string> scene_names();   ///< what SimulationOptions::scene may
 std::vector<std::string> sensor_names();  ///< what SimulationOptions::sensor may be
 
 /// Same options, same bytes. Throws ConfigError (unknown scene or sensor, naming the choices; more
-/// frames than the scene has scans at its rate).
+/// frames than the scene has scans at its rate; rounds where the robot does not go in rounds).
 /// scan() may be called in any order.
 class Simulation {
 public:
