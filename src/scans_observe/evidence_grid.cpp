@@ -80,8 +80,7 @@ std::uint32_t EvidenceGrid::own(VoxelKey key) {
     touched_[voxels_.block_of_voxel(voxel)] = scans_;
     Evidence& e = states_[voxel].evidence;
     if (e.n_own == 0 || e.last_owner != scans_) {
-        e.last_owner = scans_;
-        if (e.n_own < UINT16_MAX) ++e.n_own;
+        record_owner(e, scans_);
         states_[voxel].score = score_(e);
     }
     return voxel;

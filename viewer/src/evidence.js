@@ -2,13 +2,25 @@
 // The arithmetic of include/dynamic_filter/scans_observe/evidence.hpp, for the words about a point.
 
 /** How often one expects a static voxel with these counts to be seen through. */
-export const expectedPasses = ({ occupied, owned, switches }) =>
-  0.45 * (1 + switches) ** 0.9 * (occupied * owned ** 2) ** 0.2;
+export function expectedPasses(evidence) {
+  const { occupied, owned, switches } = scaled(evidence);
+  return expected(occupied, owned, switches) / scaleOf(evidence);
+}
+
+/** More observations than this tell no more than so many in the same proportions. */
+const ENOUGH = 128;
+const scaleOf = ({ occupied, free }) => Math.min(1, ENOUGH / Math.max(1, occupied + free));
+function scaled(evidence) {
+  const scale = scaleOf(evidence);
+  return Object.fromEntries(Object.entries(evidence).map(([name, count]) => [name, scale * count]));
+}
+const expected = (occupied, owned, switches) => 0.45 * (1 + switches) ** 0.9 * (Math.max(1, occupied) * Math.max(1, owned) ** 2) ** 0.2;
 
 /** -1..1: whether the voxel was empty most of the time; below 0: no. */
 export function dynamicScore(evidence) {
-  const f = evidence.free + 2;
-  const e = expectedPasses(evidence) + 2;
+  const { occupied, free, owned, switches } = scaled(evidence);
+  const f = free + 2;
+  const e = expected(occupied, owned, switches) + 2;
   return (f * f - e * e) / (f * f + e * e);
 }
 

@@ -51,6 +51,7 @@ struct ScansConfig {
         double switch_power = 0.9;
         double return_power = 0.2;
         double offset = 2.0;
+        double enough = 128.0;
     } evidence;
 
     /// How much neighbours count: see vote.hpp.
@@ -148,6 +149,11 @@ void visit_scans(C& scans, F&& f) {
     field("scans.evidence.offset", "1",
           "observations added to both sides, so that one more or less is not everything", 0, 100,
           e.offset);
+
+    field("scans.evidence.enough", "1",
+          "more observations than this tell no more than so many in the same proportions: a place "
+          "does not become static because the recording goes on",
+          8, 1e9, e.enough);
 
     auto& v = scans.vote;
     field("scans.vote.company", "1",

@@ -10,7 +10,7 @@
 
 namespace dynamic_filter {
 
-/// Counters of one voxel; they stop at their largest value.
+/// Counters of one voxel. Before one overflows, all are halved.
 struct Evidence {
     std::uint16_t n_own = 0;        ///< scans with a point in it
     std::uint16_t n_occ = 0;        ///< keyframes that saw it occupied
@@ -24,6 +24,9 @@ struct Evidence {
 /// Takes in what the next keyframe saw, as if `weight` keyframes like it had seen it.
 void record(Evidence& evidence, Sight sight, unsigned weight = 1);
 
+/// Notes that this scan, by the order of the scans, has a point in the voxel: once a scan.
+void record_owner(Evidence& evidence, std::uint32_t scan);
+
 /// True while none saw through it and fewer than two saw it: one of those is the scan that found
 /// it.
 inline bool is_unknown(const Evidence& e) { return e.n_occ < 2 && e.n_free == 0; }
@@ -34,30 +37,33 @@ inline bool is_unknown(const Evidence& e) { return e.n_occ < 2 && e.n_free == 0;
 /// number of runs and the number of returns lead one to expect of a static voxel:
 ///     expected = flicker (1 + n_switch)^switch_power (n_occ n_own^2)^return_power
 ///     (f^2 - e^2) / (f^2 + e^2) with f = n_free + offset and e = expected + offset.
-/// Thread-safe.
+/// Where keyframes said more than `enough` times what the voxel is, all counters are scaled down to
+/// so many first: the sum of the exponents is more than one, so without that every busy place would
+/// become static once a recording is long enough. Thread-safe.
 class DynamicScore {
 public:
     explicit DynamicScore(const ScansConfig::Evidence& config);
     float operator()(const Evidence& evidence) const;
 
 private:
-    /// scale * (n + shift)^exponent, from a table: pow() would be most of what a look costs.
+    /// scale * (n + shift)^exponent, from a table in steps of 1/16: pow() would be most of what a
+    /// look costs.
     class Power {
     public:
         Power(float scale, int shift, float exponent);
-        [[nodiscard]] float operator()(std::size_t n) const {
-            return n < values_.size() ? values_[n] : compute(n);
+        [[nodiscard]] float operator()(float n) const {
+            const auto step = static_cast<std::size_t>(kSteps * n + 0.5F);
+            return step < values_.size() ? values_[step] : compute(n);
         }
 
     private:
-        [[nodiscard]] float compute(std::size_t n) const;
-        float scale_;
-        int shift_;
-        float exponent_;
+        static constexpr float kSteps = 16.0F;
+        [[nodiscard]] float compute(float n) const;
+        float scale_, shift_, exponent_;
         std::vector<float> values_;
     };
     Power by_switches_, by_returns_;
-    float offset_;
+    float offset_, enough_;
 };
 
 /// How much of their time two voxels were there together: the overlap of the spans between their
