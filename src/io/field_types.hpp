@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "dynamic_filter/io/cloud.hpp"
+#include "io/byte_reader.hpp"
 
 namespace dynamic_filter::io {
 
@@ -38,13 +39,6 @@ decltype(auto) with_type(FieldType type, F&& f) {
             break;
     }
     return f(std::type_identity<double>{});
-}
-
-template <class T>
-T load(const std::byte* bytes) {
-    T value{};
-    std::memcpy(&value, bytes, sizeof value);
-    return value;
 }
 
 template <class T>

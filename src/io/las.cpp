@@ -45,7 +45,7 @@ private:
     template <class From, class To, class F>
     void each(const LasField& from, const Field& to, const F& f) {
         for (std::size_t i = 0; i < cloud_.size(); ++i) {
-            const From value = load<From>(records_.data() + i * stride_ + from.at);
+            const From value = little_endian<From>(records_.data() + i * stride_ + from.at);
             store_at<To>(cloud_.data.data() + i * cloud_.point_bytes + to.offset, f(value));
         }
     }

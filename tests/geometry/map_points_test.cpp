@@ -9,6 +9,7 @@
 
 #include "dynamic_filter/submaps_observe/submap.hpp"
 #include "geometry/voxel_kernel.hpp"
+#include "support/levels.hpp"
 #include "support/random.hpp"
 
 namespace dynamic_filter {
@@ -74,25 +75,15 @@ TEST(ToVoxels, NothingGivesNothing) {
     EXPECT_TRUE(out.keys.empty());
 }
 
-struct Level {
-    std::string name;
-    void (*to_voxels)(const kernel::VoxelArgs&);
-};
-
 TEST(VoxelKernel, EveryLevelAgreesBitByBit) {
-    std::vector<Level> levels{{"baseline", kernel::baseline::to_voxels}};
-#ifdef DYNAMIC_FILTER_X86_LEVELS
-    if (__builtin_cpu_supports("avx2")) levels.push_back({"avx2", kernel::avx2::to_voxels});
-    if (__builtin_cpu_supports("avx512f")) levels.push_back({"avx512", kernel::avx512::to_voxels});
-#endif
     const Points points = points_of_all_kinds(1013);  // no whole number of vectors
     const Eigen::Matrix<float, 3, 4, Eigen::RowMajor> matrix =
         somewhere().matrix().topRows<3>().cast<float>();
     MapPoints expected;
     to_voxels(points, somewhere(), 0.1F, expected);
-    for (const Level& level : levels) {
+    for (const auto& level : DYNAMIC_FILTER_LEVELS_OF(to_voxels)) {
         MapPoints out{Points(points.size()), std::vector<VoxelKey>(points.size() + 1, 7)};
-        level.to_voxels({.xyz = points.front().data(),
+        level.run({.xyz = points.front().data(),
                          .count = points.size(),
                          .matrix = matrix.data(),
                          .half_cells_per_metre = 2.0F / 0.1F,

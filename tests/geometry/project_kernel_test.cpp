@@ -10,6 +10,7 @@
 #include <string>
 
 #include "dynamic_filter/geometry/range_image.hpp"
+#include "support/levels.hpp"
 #include "support/random.hpp"
 
 namespace dynamic_filter {
@@ -27,13 +28,12 @@ struct Level {
 
 /// Every level that this machine can run.
 std::vector<Level> levels() {
-    std::vector<Level> all{{"baseline", kernel::baseline::project, kernel::baseline::to_spherical}};
-#ifdef DYNAMIC_FILTER_X86_LEVELS
-    if (__builtin_cpu_supports("avx2"))
-        all.push_back({"avx2", kernel::avx2::project, kernel::avx2::to_spherical});
-    if (__builtin_cpu_supports("avx512f"))
-        all.push_back({"avx512", kernel::avx512::project, kernel::avx512::to_spherical});
-#endif
+    const auto project = DYNAMIC_FILTER_LEVELS_OF(project);
+    const auto to_spherical = DYNAMIC_FILTER_LEVELS_OF(to_spherical);
+    std::vector<Level> all;
+    for (std::size_t i = 0; i < project.size(); ++i) {
+        all.push_back({project[i].name, project[i].run, to_spherical[i].run});
+    }
     return all;
 }
 
