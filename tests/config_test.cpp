@@ -264,6 +264,16 @@ TEST(Config, AChangedSettingOfAnotherMethodIsAViolationThatNamesTheMethod) {
     EXPECT_TRUE(contains(violations(config)[0], "'scans'"));
 }
 
+TEST(Config, APresetMayBeUsedWithEveryMethod) {
+    for (const auto* name : {"default", "paper"}) {
+        for (const Method method : kMethods) {
+            Config config = preset(name);
+            config.method = method;
+            EXPECT_TRUE(violations(config).empty()) << name;
+        }
+    }
+}
+
 TEST(Config, EverySettingBelongsToAMethodAndIsRefusedInTheOthers) {
     for (const Method method : kMethods) {
         Config config;

@@ -49,7 +49,7 @@ void apply_table(Config& config, const toml::table& table, const std::string& pr
 
 /// toml++ has no limit to the depth of dotted keys, but the stack has.
 std::string read_shallow(const std::filesystem::path& file) {
-    constexpr std::ptrdiff_t kMostDots = 1000;  // of all settings together: some forty
+    constexpr std::ptrdiff_t kMostDots = 1000;  // `config` prints fewer than a hundred
     std::string text = io::read_file(file);
     if (std::count(text.begin(), text.end(), '.') <= kMostDots) return text;
     throw ConfigError(

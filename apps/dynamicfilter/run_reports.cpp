@@ -89,7 +89,8 @@ void describe(PageRun& run, const Pass& pass) {
     }
     run.info["voxel_size"] = pass.config.map.voxel_size;
     run.info["occupancy_threshold"] = pass.config.map.occupancy_threshold;
-    run.info["keyframes_total"] = pass.summary.contents.observers;
+    const MapContents& contents = pass.summary.contents;
+    run.info["keyframes_total"] = contents.keyframes.empty() ? 0 : contents.observers;
     run.info["config"] = to_toml(pass.config);
     const RunSummary& s = pass.summary;
     run.info["counts"] = {{"static", s.still}, {"dynamic", s.dynamic}, {"unknown", s.unknown}};

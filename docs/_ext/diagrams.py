@@ -67,15 +67,15 @@ def sight():
     for y in (45, 110, 175):
         d.line(50, 110, 552, y, FAINT, 1.2, arrow=True)
     d.line(50, 110, 300, 205, FAINT, 1.2, "4 4")
-    d.text(318, 203, "nothing came back: nothing is known", INK, "start", 12)
+    d.text(318, 203, "nothing came back: unknown", INK, "start", 12)
     d.dot(300, 77.5, GREEN, 6)
-    d.text(300, 62, "passed: it was free", GREEN)
+    d.text(300, 62, "free: a beam went through", GREEN)
     d.dot(556, 110, BLUE, 6)
     d.text(545, 98, "occupied: it ended here", BLUE, "end")
     d.dot(620, 45, INK, 6, hollow=True)
     d.text(620, 32, "behind: unknown", INK)
     d.text(40, 140, "sensor")
-    d.write("how-sight.svg", "What one scan says about three places: passed, occupied, nothing")
+    d.write("how-sight.svg", "What one scan says about three places: free, occupied, unknown")
 
 
 def lines():
@@ -91,7 +91,7 @@ def lines():
     d.dot(450, ground, BLUE, 7, hollow=True)
     d.text(450, 186, "on the line: the surface goes through it", BLUE)
     d.dot(450, 122, GREEN, 6)
-    d.text(462, 118, "before the line: passed", GREEN, "start")
+    d.text(462, 118, "before the line: free", GREEN, "start")
     d.text(210, 186, "returns of three rings", INK)
     d.text(300, 30, "by its pixel alone the place would be free:", INK, "start", 12)
     d.text(300, 46, "the upper beam went farther", INK, "start", 12)
@@ -99,7 +99,7 @@ def lines():
     d.write("how-lines.svg", "Ground between two rings lies on the line between their returns")
 
 
-def transience(passed, seen, switches, owned):
+def dynamic_score(passed, seen, switches, owned):
     """As evidence.cpp has it."""
     f, e = passed + 2, 0.45 * (1 + switches) ** 0.9 * (max(seen, 1) * max(owned, 1) ** 2) ** 0.2 + 2
     return (f * f - e * e) / (f * f + e * e)
@@ -116,22 +116,22 @@ def evidence():
             d.box(145 + 21 * i, y, 17, 24, color, color, 0.85 if look == "o" else 0.15)
         seen, passed = looks.count("o"), looks.count("p")
         switches = sum(a != b for a, b in zip(looks, looks[1:]))
-        value = transience(passed, seen, switches, owned)
+        value = dynamic_score(passed, seen, switches, owned)
         d.text(492, y + 9, f"n_occ {seen}, n_free {passed}, switches {switches}", INK, "start", 11)
-        d.text(492, y + 26, f"transience {value:+.2f}: {'dynamic' if value > 0 else 'static'}", RED if value > 0 else BLUE, "start", 12, "bold")
+        d.text(492, y + 26, f"score {value:+.2f}: {'dynamic' if value > 0 else 'static'}", RED if value > 0 else BLUE, "start", 12, "bold")
     d.line(145, 160, 478, 160, INK, 1, arrow=True)
     d.text(320, 176, "keyframes, in time", INK, size=12)
     d.box(20, 150, 12, 12, BLUE, BLUE, 0.85)
     d.text(38, 161, "occupied", INK, "start", 12)
     d.box(20, 166, 12, 12, GREEN, GREEN, 0.15)
-    d.text(38, 177, "passed", INK, "start", 12)
-    d.write("how-evidence.svg", "A leaf is passed in many short runs, the place where somebody walked by in few long ones")
+    d.text(38, 177, "free", INK, "start", 12)
+    d.write("how-evidence.svg", "A leaf is seen through in many short runs, the place where somebody walked by in few long ones")
 
 
 def presets():
     d = Drawing(680, 330)
     columns = [(20, "default: scans observe", BLUE, [
-        "each scan is an image of its own beams", "a keyframe looks at all known voxels,", "counts per voxel: occupied, passed, switches",
+        "each scan is an image of its own beams", "a keyframe checks all known voxels,", "counts per voxel: occupied, free, switches",
         "neighbours vote; instant verdict", "feet on the ground; final verdict"], "new voxels ask earlier keyframes"),
                (350, "paper: submaps observe", RED, [
         "windows of keyframes, range images", "remove what was seen through; revert by PCA", "static submaps, thinned",

@@ -50,12 +50,10 @@ void visit(C& c, F&& f) {
             "scans (each scan observes), submaps (the paper's) or removert (the paper's opponent)"},
         c.method);
     f(Setting{"map.voxel_size", "m", "III-C1", "edge of a voxel", 0.02, 5}, c.map.voxel_size);
-    f(Setting{"map.occupancy_threshold", "1", "III-C1", "voxels at or above it are static", 0, 1,
-              methods_of(Method::scans) | methods_of(Method::submaps)},
+    f(Setting{"map.occupancy_threshold", "1", "III-C1", "voxels at or above it are static", 0, 1},
       c.map.occupancy_threshold);
     f(Setting{"map.search_radius", "m", "r",
-              "a local map is made of voxels, or of submaps, this near to its pose", 0, 1e6,
-              methods_of(Method::scans) | methods_of(Method::submaps)},
+              "a local map is made of voxels, or of submaps, this near to its pose", 0, 1e6},
       c.map.search_radius);
     f(Setting{"map.keep_unknown", "", "", "points without a verdict go into the static map"},
       c.map.keep_unknown);

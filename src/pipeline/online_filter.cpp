@@ -194,11 +194,14 @@ TwoStages::Rest OnlineFilter::Engine::judge(QueuedScan& next) {
     before_last = std::exchange(last, now);
     latency.add(seconds_since(next.since));
     deliver(judged.verdicts, index, next);
+    TwoStages::Rest rest;
+    if (judged.integrate) {
+        rest = [this, integrating = std::move(judged.integrate), unsettled = std::move(unsettled),
+                pose = now.T_world_sensor]() mutable { integrate(integrating, unsettled, pose); };
+    }
     const auto hold = stages.lock();
     ++counters.processed;
-    if (!judged.integrate) return {};
-    return [this, rest = std::move(judged.integrate), unsettled = std::move(unsettled),
-            pose = now.T_world_sensor]() mutable { integrate(rest, unsettled, pose); };
+    return rest;
 }
 
 /// Evidence from before a break would be held against places that are not the same.

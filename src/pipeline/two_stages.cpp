@@ -46,7 +46,7 @@ void TwoStages::run_second() {
         Rest rest;
         {
             Lock hold = lock();
-            changed_.wait(hold, [&] { return stopping_ || !rests_.empty(); });
+            changed_.wait(hold, [&] { return !rests_.empty() || (stopping_ && !first_busy_); });
             if (rests_.empty()) return;  // what the first has done is finished all the same
             rest = std::move(rests_.front());
             rests_.pop_front();

@@ -15,7 +15,9 @@ constexpr unsigned kMost = std::numeric_limits<std::uint16_t>::max();
 void make_room(Evidence& e, unsigned weight) {
     const auto largest = [&] { return std::max({e.n_own, e.n_occ, e.n_free, e.n_switch}); };
     while (largest() + weight > kMost) {
-        for (std::uint16_t* counter : {&e.n_own, &e.n_occ, &e.n_free, &e.n_switch}) *counter /= 2;
+        for (std::uint16_t* counter : {&e.n_own, &e.n_occ, &e.n_free, &e.n_switch}) {
+            *counter = static_cast<std::uint16_t>((*counter + 1) / 2);  // what was seen stays seen
+        }
     }
 }
 

@@ -81,7 +81,7 @@ export function explain(point, facts, meta, words) {
     ["seen occupied", count(evidence.occupied), "n_occ: scans that saw something there"],
     ["owned", count(evidence.owned), "scans with a point in the voxel"],
     ["switches", count(evidence.switches), "changes between occupied and free"],
-    ["own score", fixed(result.score, 2), "−1 stays … +1 came or went: (f² − e²) / (f² + e²) with f = n_free + 2, e = expected + 2"],
+    ["own score", fixed(result.score, 2), "−1 stays … +1 came or went: (f² − e²) / (f² + e²) with f = n_free + 2, e = expected + 2, of counters scaled down to 128 observations where there are more; constants of the default settings"],
   );
   if (span) result.counters.push(["occupied", `${words(span[0])} to ${words(span[1])}`, "first and last scan with a point in it"]);
   return result;

@@ -86,8 +86,8 @@ struct Counters {
     std::uint64_t queued = 0;     ///< waiting, or being judged
 };
 
-/// Two threads of its own, and those of the work inside: the front-end judges scan after scan, the
-/// back-end integrates beside the caller, and beside the front-end where submaps observe. Scans
+/// Two threads of its own, and those of the work inside: the first judges scan after scan, the
+/// second integrates beside the caller, and beside the first where submaps observe. Scans
 /// that wait are put in the order of their stamps. One filter serves one vehicle; indices of scans
 /// must grow. push(), ask(), flush(), finish(), counters(), settled() and local_static_map() may
 /// be called from any thread at any time; the others while nothing is pushed, after flush() or, if

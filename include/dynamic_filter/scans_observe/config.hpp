@@ -126,7 +126,7 @@ void visit_scans(C& scans, F&& f) {
     field("scans.sight.own_pixels", "1",
           "a return within this many pixels of the place is the place's own: half a pixel, and a "
           "little for rounding",
-          0.5, 2, s.own_pixels);
+          0.5, 1, s.own_pixels);
     field("scans.sight.close_pixels", "1",
           "where beams exist only above or only below the place, one must pass within this many "
           "pixels of it",
@@ -147,7 +147,7 @@ void visit_scans(C& scans, F&& f) {
     field("scans.evidence.return_power", "1", "... by returns, of which static voxels have many", 0,
           2, e.return_power);
     field("scans.evidence.offset", "1",
-          "observations added to both sides, so that one more or less is not everything", 0, 100,
+          "observations added to both sides, so that one more or less is not everything", 0.01, 100,
           e.offset);
 
     field("scans.evidence.enough", "1",
@@ -164,8 +164,8 @@ void visit_scans(C& scans, F&& f) {
           v.neighborhood);
     field("scans.vote.far", "1", "weight of a neighbour that does not touch the voxel", 0, 1,
           v.far);
-    field("scans.vote.alone", "1", "weight of having no neighbour: a lone voxel is not outvoted", 0,
-          10, v.alone);
+    field("scans.vote.alone", "1", "weight of having no neighbour: a lone voxel is not outvoted",
+          0.01, 10, v.alone);
     field("scans.vote.steepness", "1", "log-odds of being dynamic per unit of the sum", 0.1, 100,
           v.steepness);
     field("scans.vote.ask_again", "1",
