@@ -79,10 +79,12 @@ def text_of(page):
     return (site / page).read_text()
 
 
-config = (root / "include/dynamic_filter/config.hpp").read_text()
-keys = re.findall(r'Setting\{"([\w.]+)"', config)
-fields = re.findall(r"^ +[\w:]+ (\w+) = [^;]*;", config[:config.index("struct Setting")], re.MULTILINE)
-assert len(keys) == len(fields) >= 25, (keys, fields)
+keys, fields = [], []
+for name in ("config", "keyframe", "scans_observe/config", "submaps_observe/config"):
+    config = (root / f"include/dynamic_filter/{name}.hpp").read_text()
+    keys += re.findall(r'(?:Setting\{|\bfield\((?:\w+, )?)\s*"([\w.]+)"', config)
+    fields += re.findall(r"^ +[\w:]+ (\w+) = [^;]*;", config.split("/// Calls f(")[0], re.MULTILINE)
+assert len(keys) == len(fields) >= 50, (keys, fields)
 listed = re.findall(r"<tr[^>]*><td><p><code[^>]*><span[^>]*>([\w.]+)<", text_of("parameters.html"))
 wrong += [f"parameters.html lacks {key}" for key in keys if key not in listed]
 wrong += [f"api/python.html lacks {name}" for name in TYPES if name not in pages[site / "api/python.html"].ids]
