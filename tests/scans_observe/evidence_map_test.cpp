@@ -9,32 +9,15 @@
 #include <numeric>
 
 #include "dynamic_filter/scans_observe/vote.hpp"
-#include "pipeline/room.hpp"
+#include "scans_observe/filled_map.hpp"
 
 namespace dynamic_filter {
 namespace {
 
 using test::drive;
-
-Config every_scan() {
-    Config config;
-    config.keyframe.interval = 0.0;
-    return config;
-}
-
-EvidenceMap filled(const std::vector<test::RoomScan>& scans, const Config& config) {
-    EvidenceMap map(config);
-    StageTimes times;
-    for (const auto& s : scans) {
-        map.insert(s.scan, times);
-        map.observe_elsewhere(times);
-    }
-    return map;
-}
-
-std::optional<float> probability_of(const EvidenceMap& map, std::uint32_t voxel) {
-    return occupancy_of(map.grid(), {&voxel, 1}, ScansConfig{}.vote)[0];
-}
+using test::every_scan;
+using test::filled;
+using test::probability_of;
 
 /// What asking all keyframes about a place, oldest first, gives.
 Evidence brute_force(const std::vector<test::RoomScan>& scans, const Point& place,

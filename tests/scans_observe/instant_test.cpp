@@ -6,16 +6,12 @@
 #include "dynamic_filter/method.hpp"
 #include "dynamic_filter/scans_observe/evidence_map.hpp"
 #include "dynamic_filter/scans_observe/vote.hpp"
-#include "pipeline/room.hpp"
+#include "scans_observe/filled_map.hpp"
 
 namespace dynamic_filter {
 namespace {
 
-Config every_scan() {
-    Config config;
-    config.keyframe.interval = 0.0;
-    return config;
-}
+using test::every_scan;
 
 TEST(InstantVerdicts, AskedWithoutReserveAreThoseOfTheEvidenceSoFar) {
     Config config = every_scan();

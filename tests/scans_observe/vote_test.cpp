@@ -7,34 +7,17 @@
 #include <numeric>
 
 #include "dynamic_filter/scans_observe/evidence_map.hpp"
-#include "pipeline/room.hpp"
+#include "scans_observe/filled_map.hpp"
 
 namespace dynamic_filter {
 namespace {
 
 using test::drive;
+using test::every_scan;
+using test::filled;
+using test::probability_of;
 
 const DynamicScore score(ScansConfig{}.evidence);
-
-Config every_scan() {
-    Config config;
-    config.keyframe.interval = 0.0;
-    return config;
-}
-
-EvidenceMap filled(const std::vector<test::RoomScan>& scans, const Config& config) {
-    EvidenceMap map(config);
-    StageTimes times;
-    for (const auto& s : scans) {
-        map.insert(s.scan, times);
-        map.observe_elsewhere(times);
-    }
-    return map;
-}
-
-std::optional<float> probability_of(const EvidenceMap& map, std::uint32_t voxel) {
-    return occupancy_of(map.grid(), {&voxel, 1}, ScansConfig{}.vote)[0];
-}
 
 /// Own score, that of the company and that of the neighbourhood, by asking all voxels of the map.
 float brute_force_probability(const EvidenceMap& map, std::uint32_t voxel) {
