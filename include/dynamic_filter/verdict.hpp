@@ -51,13 +51,16 @@ struct StaticVoxel {
 /// What the scans said about a voxel, to explain the verdict on a point in it. Where submaps
 /// observe, only the probability is known, and the rest is zero.
 struct VoxelHistory {
-    std::optional<float> probability;         ///< occupancy 0..1; empty: unknown
-    std::uint32_t n_own = 0;                  ///< scans with a point in it
-    std::uint32_t n_occ = 0;                  ///< keyframes that saw it occupied
-    std::uint32_t n_free = 0;                 ///< keyframes that saw through it
-    std::uint32_t n_switch = 0;               ///< changes between the two, in order of time
-    std::size_t first = 0;                    ///< Scan::index of the first with a point in it ...
-    std::size_t last = 0;                     ///< ... and of the last
+    std::optional<float> probability;  ///< occupancy 0..1; empty: unknown
+    std::uint32_t n_own = 0;           ///< scans with a point in it
+    std::uint32_t n_occ = 0;           ///< keyframes that saw it occupied
+    std::uint32_t n_free = 0;          ///< keyframes that saw through it
+    std::uint32_t n_switch = 0;        ///< changes between the two, in order of time
+    float free = 0.0F;                 ///< n_free in units of sure sights: a weak one is an eighth
+    float expected_free = 0.0F;  ///< what `free` would be of a static voxel, in units of the same
+    float score = 0.0F;          ///< in units of DynamicScore: above 0 something came or went
+    std::size_t first = 0;       ///< Scan::index of the first with a point in it ...
+    std::size_t last = 0;        ///< ... and of the last
     std::vector<std::size_t> free_keyframes;  ///< Scan::index of the keyframes kept so far that
                                               ///< saw through it, ascending
 };

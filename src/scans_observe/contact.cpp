@@ -31,7 +31,7 @@ std::optional<Surface> plane_of(const Points& points, const Config& config) {
     const auto axis = smallest_axis(moments);
     if (!axis) return std::nullopt;
     const Point mean = moments.origin + (moments.sum / moments.count).cast<float>();
-    return Surface{axis->cast<float>(), axis->cast<float>().dot(mean)};
+    return Surface{axis->cast<float>(), axis->cast<float>().dot(mean), 0.0F};
 }
 
 /// Fits twice: the second time without what the first plane shows not to belong to it.
@@ -48,8 +48,9 @@ std::optional<Surface> fit(const Points& points, const Config& config) {
     if (!second || 2 * inliers.size() < points.size()) return std::nullopt;
     float sum_sq = 0.0F;
     for (const Point& p : inliers) sum_sq += second->height(p) * second->height(p);
-    if (sum_sq > flat * flat * static_cast<float>(inliers.size())) return std::nullopt;
-    return second;
+    const float roughness = std::sqrt(sum_sq / static_cast<float>(inliers.size()));
+    if (roughness > flat) return std::nullopt;
+    return Surface{second->normal, second->offset, roughness};
 }
 
 }  // namespace
@@ -66,7 +67,7 @@ std::optional<Surface> contact_surface(std::span<const VoxelVerdict> around, con
     const float height = surface->height(*moving);
     if (std::abs(height) < static_cast<float>(config.lowest))
         return std::nullopt;  // part of the surface, judged wrongly
-    if (height < 0.0F) *surface = {-surface->normal, -surface->offset};
+    if (height < 0.0F) *surface = {-surface->normal, -surface->offset, surface->roughness};
     return surface;
 }
 

@@ -13,9 +13,12 @@ constexpr unsigned kMost = std::numeric_limits<std::uint16_t>::max();
 
 /// Halves all counters until each can take so many more: their proportions are what tells.
 void make_room(Evidence& e, unsigned weight) {
-    const auto largest = [&] { return std::max({e.n_own, e.n_occ, e.n_free, e.n_switch}); };
+    const auto largest = [&] {
+        return std::max({e.n_own, e.n_occ, e.n_free, e.n_switch, e.occupied, e.free, e.hits});
+    };
     while (largest() + weight > kMost) {
-        for (std::uint16_t* counter : {&e.n_own, &e.n_occ, &e.n_free, &e.n_switch}) {
+        for (std::uint16_t* counter :
+             {&e.n_own, &e.n_occ, &e.n_free, &e.n_switch, &e.occupied, &e.free, &e.hits}) {
             *counter = static_cast<std::uint16_t>((*counter + 1) / 2);  // what was seen stays seen
         }
     }
@@ -27,13 +30,27 @@ void add(std::uint16_t& counter, unsigned weight) {
 
 }  // namespace
 
-void record(Evidence& evidence, Sight sight, unsigned weight) {
-    if (sight == Sight::unknown) return;
-    weight = std::min(weight, kMost / 2);
-    make_room(evidence, weight);
-    add(sight == Sight::occupied ? evidence.n_occ : evidence.n_free, weight);
-    if (evidence.last != Sight::unknown && evidence.last != sight) add(evidence.n_switch, weight);
-    evidence.last = sight;
+void record(Evidence& e, const Observation& o, unsigned longest_run) {
+    if (o.sight == Sight::unknown) return;
+    const unsigned weight = std::min(o.weight, kMost / (2 * kSure));
+    make_room(e, kSure * weight);
+    const unsigned each = is_weak(o.sight) ? kWeak : kSure;
+    const Sight now = is_free(o.sight) ? Sight::free : Sight::occupied;
+    if (e.last != now) {
+        if (e.last != Sight::unknown) add(e.n_switch, weight);
+        e.run = 0;
+    }
+    const unsigned new_of_run = std::min(weight, longest_run - e.run);
+    if (now == Sight::free) {
+        add(e.n_free, weight);
+        add(e.free, each * weight);
+    } else {
+        add(e.n_occ, weight);
+        add(e.occupied, each * new_of_run);
+        if (o.hit) add(e.hits, new_of_run);
+    }
+    e.run = static_cast<std::uint8_t>(e.run + new_of_run);
+    e.last = now;
 }
 
 void record_owner(Evidence& evidence, std::uint32_t scan) {
@@ -56,21 +73,34 @@ float DynamicScore::Power::compute(float n) const {
 
 DynamicScore::DynamicScore(const ScansConfig::Evidence& config)
     : by_switches_(static_cast<float>(config.flicker), 1, static_cast<float>(config.switch_power)),
-      by_returns_(1.0F, 0, static_cast<float>(config.return_power)),
+      by_occupied_(1.0F, 0, static_cast<float>(config.occupied_power)),
+      by_hits_(1.0F, 0, static_cast<float>(config.hit_power)),
       offset_(static_cast<float>(config.offset)),
-      enough_(static_cast<float>(config.enough)) {}
+      gain_(static_cast<float>(config.gain)),
+      enough_(static_cast<float>(config.enough)),
+      lowest_(-static_cast<float>(config.static_limit)) {}
+
+float DynamicScore::scale_of(const Evidence& e) const {
+    const float observations = static_cast<float>(e.occupied + e.free) / kSure;
+    return observations > enough_ ? enough_ / observations : 1.0F;
+}
+
+float DynamicScore::expected(const Evidence& e, float scale) const {
+    const float occupied = static_cast<float>(e.occupied) / kSure;
+    return by_switches_(scale * e.n_switch) * by_occupied_(std::max(scale * occupied, 1.0F)) *
+           by_hits_(std::max(scale * e.hits, 1.0F));
+}
+
+float DynamicScore::expected_free(const Evidence& e) const {
+    const float scale = scale_of(e);
+    return expected(e, scale) / scale;
+}
 
 float DynamicScore::operator()(const Evidence& e) const {
-    const auto observations = static_cast<float>(e.n_occ + e.n_free);
-    const float scale = observations > enough_ ? enough_ / observations : 1.0F;
-    const auto returns = [&](std::uint16_t n) {
-        return by_returns_(std::max(scale * static_cast<float>(n), 1.0F));
-    };
-    const float own = returns(e.n_own);
-    const float expected =
-        by_switches_(scale * e.n_switch) * returns(e.n_occ) * own * own + offset_;
-    const float free = scale * e.n_free + offset_;
-    return (free * free - expected * expected) / (free * free + expected * expected);
+    const float scale = scale_of(e);
+    const float free = scale * static_cast<float>(e.free) / kSure;
+    const float ratio = (free + offset_) / (expected(e, scale) + offset_);
+    return std::clamp(gain_ * std::log(ratio), lowest_, 1.0F);
 }
 
 float co_presence(const Evidence& a, const Evidence& b) {

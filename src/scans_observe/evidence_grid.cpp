@@ -79,17 +79,15 @@ std::uint32_t EvidenceGrid::own(VoxelKey key) {
     touched_.resize(voxels_.blocks());
     touched_[voxels_.block_of_voxel(voxel)] = scans_;
     Evidence& e = states_[voxel].evidence;
-    if (e.n_own == 0 || e.last_owner != scans_) {
-        record_owner(e, scans_);
-        states_[voxel].score = score_(e);
-    }
+    if (e.n_own == 0 || e.last_owner != scans_) record_owner(e, scans_);
     return voxel;
 }
 
-void EvidenceGrid::record(std::uint32_t voxel, Sight sight, unsigned weight) {
+void EvidenceGrid::record(std::uint32_t voxel, Sight sight, unsigned weight, bool newest) {
     State& state = states_[voxel];
-    dynamic_filter::record(state.evidence, sight, weight);
-    state.score = score_(state.evidence);
+    const bool hit = newest && state.evidence.last_owner + 1 == scans_;
+    dynamic_filter::record(state.evidence, {sight, weight, hit}, longest_run_);
+    state.score = is_unknown(state.evidence) ? 0.0F : score_(state.evidence);
 }
 
 std::vector<std::uint32_t> EvidenceGrid::blocks_touched(bool touched) const {

@@ -59,7 +59,7 @@ struct EvidenceMap::Batch {
 void EvidenceMap::check_known(std::span<const std::uint32_t> blocks) {
     parallel_for(blocks.size(), kGrain, [&](std::size_t begin, std::size_t end) {
         Batch batch{.first = 0, .end = known_};
-        observe(blocks.subspan(begin, end - begin), batch, observers_.kept().back(), 1);
+        observe(blocks.subspan(begin, end - begin), batch, {&observers_.kept().back(), 1});
     });
 }
 
@@ -69,8 +69,8 @@ void EvidenceMap::check_new() {
     const std::vector<Observers::Asked> asked = observers_.asked_by_new();
     parallel_for(blocks.size(), kGrain, [&](std::size_t begin, std::size_t end) {
         Batch batch{.first = known_, .end = grid_.size()};
-        for (const auto& [observer, weight] : asked) {
-            observe({&blocks[begin], end - begin}, batch, *observer, weight);
+        for (const Observers::Asked& one : asked) {
+            observe({&blocks[begin], end - begin}, batch, one);
         }
     });
 }
@@ -105,11 +105,12 @@ void EvidenceMap::find_sights(std::span<const std::uint32_t> blocks, Batch& batc
 }
 
 void EvidenceMap::observe(std::span<const std::uint32_t> blocks, Batch& batch,
-                          const Observer& observer, unsigned weight) {
-    find_sights(blocks, batch, observer);
+                          const Observers::Asked& asked) {
+    find_sights(blocks, batch, *asked.observer);
+    const bool newest = asked.observer->index == indices_.back();
     for (std::size_t i = 0; i < batch.voxels.size(); ++i) {
         if (batch.sights[i] == Sight::unknown) continue;
-        grid_.record(batch.voxels[i], batch.sights[i], weight);
+        grid_.record(batch.voxels[i], batch.sights[i], asked.weight, newest);
     }
 }
 
@@ -129,7 +130,7 @@ std::vector<std::vector<std::size_t>> EvidenceMap::free_keyframes(
             find_sights({&blocks[begin], end - begin}, batch, observer);
             for (std::size_t i = 0; i < batch.voxels.size(); ++i) {
                 const std::uint32_t at = place[batch.voxels[i]];
-                if (batch.sights[i] != Sight::free || at == kNoVoxel) continue;
+                if (!is_free(batch.sights[i]) || at == kNoVoxel) continue;
                 result[at].push_back(observer.index);
             }
         }

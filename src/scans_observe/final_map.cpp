@@ -35,12 +35,15 @@ std::optional<Surface> contact_of(std::uint32_t voxel, const std::vector<VoxelDe
 /// Points of static voxels that lie above the surface there.
 std::vector<std::size_t> points_above(const LocatedScan& scan,
                                       const std::vector<VoxelDecision>& decided,
-                                      const Labels& labels, float height) {
+                                      const Labels& labels, const ScansConfig::Contact& config) {
     std::vector<std::size_t> above;
     for (std::size_t i = 0; i < labels.size(); ++i) {
         if (labels[i] != Label::static_) continue;
         const auto& contact = decided[scan.voxels[i]].contact;
-        if (contact && contact->height(scan.in_map.points[i]) > height) above.push_back(i);
+        if (!contact) continue;
+        const float least = std::max(static_cast<float>(config.height),
+                                     static_cast<float>(config.roughness) * contact->roughness);
+        if (contact->height(scan.in_map.points[i]) > least) above.push_back(i);
     }
     return above;
 }
@@ -71,10 +74,9 @@ void decide_points(const LocatedScan& scan, const std::vector<VoxelDecision>& de
         verdict.probability[i] = probability.value_or(0.0F);
         if (verdict.labels[i] == Label::dynamic) moving[scan.voxels[i]] = true;
     }
-    const auto height = static_cast<float>(config.scans.contact.height);
-    for (const std::size_t i : points_above(scan, decided, verdict.labels, height)) {
+    for (const std::size_t i : points_above(scan, decided, verdict.labels, config.scans.contact)) {
         bool touches = false;
-        each_within(grid, 1, scan.voxels[i], [&](std::uint32_t v, int) { touches |= moving[v]; });
+        each_within(grid, 2, scan.voxels[i], [&](std::uint32_t v, int) { touches |= moving[v]; });
         if (touches) verdict.labels[i] = Label::dynamic;
     }
 }

@@ -38,7 +38,9 @@ SightMargins margins_of(const ScansConfig::Sight& config, double voxel_size) {
             .own_pixels = number(config.own_pixels),
             .close_pixels = number(config.close_pixels),
             .close_beside = number(config.close_beside),
-            .same_spot = number(config.same_spot)};
+            .same_spot = number(config.same_spot),
+            .clear = at_least(config.clear, config.clear_voxels),
+            .clear_unseen = number(config.clear_unseen)};
 }
 
 void check_lines_of_sight(const BeamImage& image, const Directions& places,
@@ -69,6 +71,8 @@ void check_lines_of_sight(const BeamImage& image, const Directions& places,
             .close_pixels = margins.close_pixels,
             .close_beside = margins.close_beside,
             .same_spot = margins.same_spot,
+            .clear = margins.clear,
+            .clear_unseen = margins.clear_unseen,
             .azimuth = places.azimuth.data(),
             .elevation = places.elevation.data(),
             .range = places.range.data(),

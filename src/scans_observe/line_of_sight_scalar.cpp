@@ -106,9 +106,11 @@ private:
     [[nodiscard]] Sight between() const {
         int beams = 0;
         bool any_beyond = false, all_behind = true, on_surface = false;
+        float nearest = std::numeric_limits<float>::infinity();
         for (const auto& row : quad_) {
             for (const Near& beam : row) {
                 beams += beam.exists() ? 1 : 0;
+                if (beam.exists()) nearest = std::min(nearest, beam.range);
                 any_beyond |= is_beyond(beam);
             }
         }
@@ -132,8 +134,9 @@ private:
                                           place_.range, margins_.same_spot) > surface_;
             }
         }
-        if (all_behind) return Sight::free;
-        return on_surface ? Sight::occupied : Sight::unknown;
+        if (!all_behind) return on_surface ? Sight::weak_occupied : Sight::unknown;
+        const float enough = beams == 4 ? margins_.clear : margins_.clear_unseen;
+        return nearest - place_.range >= enough ? Sight::free : Sight::weak_free;
     }
 
     /// Above or below the image's border, or a hole in it, only a beam that all but meets the place

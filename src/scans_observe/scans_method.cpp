@@ -91,6 +91,9 @@ std::vector<VoxelHistory> ScansMethod::histories(std::span<const std::uint32_t> 
                         .n_occ = e.n_occ,
                         .n_free = e.n_free,
                         .n_switch = e.n_switch,
+                        .free = static_cast<float>(e.free) / kSure,
+                        .expected_free = evidence_.grid().expected_free(e),
+                        .score = evidence_.grid()[voxels[i]].score,
                         .first = evidence_.index_of_owner(e.first_owner),
                         .last = evidence_.index_of_owner(e.last_owner),
                         .free_keyframes = {}};

@@ -36,7 +36,7 @@ DF_INLINE Side side_of(const SightArgs& args, Floats angle_a, Floats range_a, Fl
     return {(distance > 0.0F) & (distance * distance > limit_sq), distance * distance <= limit_sq};
 }
 
-constexpr int kUndecided = 4;
+constexpr int kUndecided = 8;
 
 /// What the pooled image and one beam tell: most places lie behind all that is around them, or the
 /// very beam to them touches them. As judge() finds, or undecided.
@@ -154,9 +154,12 @@ DF_INLINE Ints judge(const SightArgs& args, const Places& p, const Around& aroun
     const auto is_beyond = [&](const Near& beam) { return exists(beam) & (beam.range > far); };
     Ints beams{}, any_beyond{}, on_surface{};
     Ints all_behind = ~Ints{};
+    Floats nearest = zero + kNone;
     for (int side = 0; side < 2; ++side) {
         const Near &below = quad[0][side], &above = quad[1][side];
         beams -= exists(below) + exists(above);
+        nearest = smaller(nearest, smaller(exists(below) ? below.range : zero + kNone,
+                                           exists(above) ? above.range : zero + kNone));
         any_beyond |= is_beyond(below) | is_beyond(above);
         const Ints both = exists(below) & exists(above);
         const Side up_down = side_of(args, args.elevation_step * below.up, below.range,
@@ -177,9 +180,11 @@ DF_INLINE Ints judge(const SightArgs& args, const Places& p, const Around& aroun
         all_behind &= ~spans | left_right.before;
     }
     const Ints judged = (beams >= 2) & any_beyond & ~around.blocked;
-    const Ints occupied = around.touched | (judged & ~all_behind & on_surface);
+    const Ints on = judged & ~all_behind & on_surface & ~around.touched;
     const Ints free = judged & all_behind & ~around.touched;
-    return p.in_range & ((occupied & 1) | (free & 2));
+    const Floats enough = beams == 4 ? zero + args.clear : zero + args.clear_unseen;
+    const Ints weak = on | (free & (nearest - range < enough));
+    return p.in_range & (((around.touched | on) & 1) | (free & 2) | (weak & 4));
 }
 
 /// Places that are collected until there are sixteen of them, by their number.

@@ -18,25 +18,29 @@ namespace {
 struct Neighborhood {
     static constexpr std::size_t kMost = 8 * 8 * 8;  // a block, and two cells around it
     using Column = std::array<float, kMost>;
-    Column x, y, z, score, first, last;
+    Column x, y, z, weight, score, first, last;
     std::size_t count = 0;
 
-    void add(const Cell& cell, float voter_score, const Evidence& e) {
+    void add(const Cell& cell, float voter_weight, float voter_score, const Evidence& e) {
         x[count] = static_cast<float>(cell.x());
         y[count] = static_cast<float>(cell.y());
         z[count] = static_cast<float>(cell.z());
-        score[count] = voter_score;
+        weight[count] = voter_weight;
+        score[count] = voter_weight * voter_score;
         first[count] = static_cast<float>(e.first_owner);
         last[count] = static_cast<float>(e.last_owner);
         ++count;
     }
-    void gather(const EvidenceGrid& grid, std::uint32_t block) {
+    void gather(const EvidenceGrid& grid, std::uint32_t block, float sure) {
         count = 0;
         grid.neighbors().each_around(
-            grid.voxels(), 2, block,
-            [&](std::uint32_t v, const Cell& cell) { add(cell, grid[v].score, grid[v].evidence); });
+            grid.voxels(), 2, block, [&](std::uint32_t v, const Cell& cell) {
+                const Evidence& e = grid[v].evidence;
+                const auto looks = static_cast<float>(e.n_own + e.n_free);
+                add(cell, looks / (looks + sure), std::max(grid[v].score, -1.0F), e);
+            });
         constexpr auto kAway = static_cast<int>(kernel::kOutOfReach);
-        while (count % kernel::kVoters != 0) add(Cell::Constant(kAway), 0.0F, {});
+        while (count % kernel::kVoters != 0) add(Cell::Constant(kAway), 0.0F, 0.0F, {});
     }
     [[nodiscard]] float vote_on(const Cell& cell, const Evidence& e,
                                 const ScansConfig::Vote& config) const {
@@ -44,6 +48,7 @@ struct Neighborhood {
         return kernel({.x = x.data(),
                        .y = y.data(),
                        .z = z.data(),
+                       .weight = weight.data(),
                        .score = score.data(),
                        .first = first.data(),
                        .last = last.data(),
@@ -67,21 +72,23 @@ std::vector<std::optional<float>> occupancy_of(const EvidenceGrid& grid,
                                                const ScansConfig::Vote& config) {
     std::vector<std::pair<std::uint32_t, std::size_t>> by_block;  // block, place among `voxels`
     for (std::size_t i = 0; i < voxels.size(); ++i) {
-        if (is_unknown(grid[voxels[i]].evidence)) continue;
         by_block.emplace_back(grid.voxels().block_of_voxel(voxels[i]), i);
     }
     std::sort(by_block.begin(), by_block.end());
     std::vector<std::optional<float>> result(voxels.size());
     const auto steepness = static_cast<float>(config.steepness);
+    const auto sure = static_cast<float>(config.sure);
     constexpr std::size_t kGrain = 512;
     parallel_for(by_block.size(), kGrain, [&](std::size_t begin, std::size_t end) {
         Neighborhood neighborhood;
         for (std::size_t i = begin; i < end; ++i) {
             const auto [block, at] = by_block[i];
-            if (i == begin || by_block[i - 1].first != block) neighborhood.gather(grid, block);
+            if (i == begin || by_block[i - 1].first != block)
+                neighborhood.gather(grid, block, sure);
             const std::uint32_t v = voxels[at];
             const float vote =
                 neighborhood.vote_on(unpack(grid.voxels().key(v)), grid[v].evidence, config);
+            if (vote == 0.0F && is_unknown(grid[v].evidence)) continue;
             result[at] = 1.0F / (1.0F + std::exp(steepness * (grid[v].score + vote)));
         }
     });

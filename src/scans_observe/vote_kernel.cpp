@@ -33,11 +33,12 @@ float vote(const VoteArgs& args) {
         const Floats either =
             larger(last, zero + args.own_last) - smaller(first, zero + args.own_first) + 1.0F;
         const Floats together = (votes & (both > 0.0F)) ? both / either : zero;
+        const Floats weight = load(args.weight + i);
         company += together * score;
-        companions += together;
-        const Floats weight = votes ? (distance > 1.5F ? zero + args.far : zero + 1.0F) : zero;
-        around += weight * score;
-        neighbors += weight;
+        companions += together * weight;
+        const Floats share = votes ? (distance > 1.5F ? zero + args.far : zero + 1.0F) : zero;
+        around += share * score;
+        neighbors += share * weight;
     }
     return args.company * sum(company) / (sum(companions) + args.alone) +
            args.neighborhood * sum(around) / (sum(neighbors) + args.alone);

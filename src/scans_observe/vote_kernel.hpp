@@ -9,10 +9,11 @@
 
 namespace dynamic_filter::kernel {
 
-/// Voters, as parallel arrays: cells along each axis, score, first and last owner.
+/// Voters, as parallel arrays: cells along each axis, weight, score times weight, first and last
+/// owner.
 struct VoteArgs {
     const float *x = nullptr, *y = nullptr, *z = nullptr;
-    const float *score = nullptr, *first = nullptr, *last = nullptr;
+    const float *weight = nullptr, *score = nullptr, *first = nullptr, *last = nullptr;
     std::size_t count = 0;  ///< a multiple of kVoters
     // The voxel that is voted on.
     float own_x = 0.0F, own_y = 0.0F, own_z = 0.0F, own_first = 0.0F, own_last = 0.0F;

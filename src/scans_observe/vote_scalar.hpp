@@ -25,10 +25,10 @@ inline float vote_scalar(const VoteArgs& args) {
             std::max(args.last[i], args.own_last) - std::min(args.first[i], args.own_first) + 1.0F;
         const float together = both > 0.0F ? both / either : 0.0F;
         company += together * args.score[i];
-        companions += together;
-        const float weight = distance > 1.5F ? args.far : 1.0F;
-        around += weight * args.score[i];
-        neighbors += weight;
+        companions += together * args.weight[i];
+        const float share = distance > 1.5F ? args.far : 1.0F;
+        around += share * args.score[i];
+        neighbors += share * args.weight[i];
     }
     return args.company * company / (companions + args.alone) +
            args.neighborhood * around / (neighbors + args.alone);

@@ -63,18 +63,28 @@ TEST(EvidenceGrid, KnowsWhichBlocksTheNewestScanTouched) {
     EXPECT_EQ(grid.blocks_touched(false), std::vector{grid.voxels().block_of_voxel(l)});
 }
 
-TEST(EvidenceGrid, OwningAndObservingChangeTheScore) {
+TEST(EvidenceGrid, ASightChangesTheScoreAndCountsAsHitWhereTheNewestScanHasAPoint) {
     EvidenceGrid grid = empty_grid();
     Scan scan;
     scan.points = {{1.0F, 0.1F, 0.1F}, {1.01F, 0.1F, 0.1F}};
     const std::uint32_t voxel = grid.add_points(scan)[0];
     EXPECT_EQ(grid[voxel].evidence.n_own, 1);  // once a scan
-    for (int i = 0; i < 10; ++i) grid.record(voxel, Sight::free, 1);
+    EXPECT_EQ(grid[voxel].score, 0.0F);        // nobody looked
+    grid.record(voxel, Sight::free, 1, true);
     const float free = grid[voxel].score;
     EXPECT_GT(free, 0.0F);
-    for (int i = 0; i < 10; ++i) grid.add_points(scan);
+    for (int i = 0; i < 10; ++i) {
+        grid.add_points(scan);
+        grid.record(voxel, Sight::occupied, 1, true);
+    }
     EXPECT_LT(grid[voxel].score, free);
     EXPECT_EQ(grid[voxel].evidence.last_owner, 10U);
+    grid.record(voxel, Sight::occupied, 1, false);  // an older keyframe
+    scan.points = {{9.0F, 0.1F, 0.1F}};
+    grid.add_points(scan);
+    grid.record(voxel, Sight::occupied, 1, true);  // the newest has no point there
+    EXPECT_EQ(grid[voxel].evidence.hits, 10);
+    EXPECT_EQ(grid[voxel].evidence.n_occ, 12);
 }
 
 TEST(EvidenceGrid, KeepsWhatIsNear) {

@@ -32,7 +32,7 @@ Evidence brute_force(const std::vector<test::RoomScan>& scans, const Point& plac
         std::vector<Sight> sights;
         check_lines_of_sight(BeamImage(s.scan.points, beams), seen,
                              margins_of(config.scans.sight, config.map.voxel_size), sights);
-        record(e, sights.at(0));
+        record(e, {sights.at(0)}, static_cast<unsigned>(config.scans.evidence.longest_run));
     }
     return e;
 }
@@ -51,6 +51,8 @@ TEST(EvidenceMap, EqualsAskingEveryKeyframeAboutEveryVoxel) {
             EXPECT_EQ(map.grid()[v].evidence.n_occ, expected.n_occ) << v;
             EXPECT_EQ(map.grid()[v].evidence.n_free, expected.n_free) << v;
             EXPECT_EQ(map.grid()[v].evidence.n_switch, expected.n_switch) << v;
+            EXPECT_EQ(map.grid()[v].evidence.free, expected.free) << v;
+            EXPECT_EQ(map.grid()[v].evidence.occupied, expected.occupied) << v;
         }
     }
 }

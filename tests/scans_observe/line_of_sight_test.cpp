@@ -70,9 +70,9 @@ TEST(LineOfSight, BeforeAWallIsFreeOnItIsOccupiedBehindItIsUnknown) {
     const BeamImage image = scan(wall(10.0));
     for (double y = -5.0; y <= 5.0; y += 0.37) {
         for (double z = -1.5; z <= 1.5; z += 0.23) {
-            EXPECT_EQ(sight_of(image, {6.0, y, 0.6 * z}), Sight::free) << y << ' ' << z;
+            EXPECT_TRUE(is_free(sight_of(image, {6.0, y, 0.6 * z}))) << y << ' ' << z;
             EXPECT_EQ(sight_of(image, {11.0, y, z}), Sight::unknown) << y << ' ' << z;
-            EXPECT_NE(sight_of(image, {10.0, y, z}), Sight::free) << y << ' ' << z;
+            EXPECT_FALSE(is_free(sight_of(image, {10.0, y, z}))) << y << ' ' << z;
         }
     }
     EXPECT_EQ(sight_of(image, 10.0 / std::cos(4.0 * kDeg) * ray_to(0.2 * kDeg, 4.0 * kDeg)),
@@ -92,8 +92,8 @@ TEST(LineOfSight, NoGroundIsEverFreeHoweverGrazing) {
         int occupied = 0;
         for (double x = 2.0; x < 25.0; x += 0.13) {
             const Sight sight = sight_of(image, {x, 0.3 * x, -height});
-            EXPECT_NE(sight, Sight::free) << x;
-            occupied += sight == Sight::occupied ? 1 : 0;
+            EXPECT_FALSE(is_free(sight)) << x;
+            occupied += is_occupied(sight) ? 1 : 0;
         }
         EXPECT_GT(occupied, 100);  // between the rings too
     }
@@ -102,8 +102,17 @@ TEST(LineOfSight, NoGroundIsEverFreeHoweverGrazing) {
 TEST(LineOfSight, WhatStoodOnTheGroundIsFreeOnceItIsGone) {
     const BeamImage image = scan(ground(1.7));
     for (double x = 5.0; x < 15.0; x += 0.31) {
-        EXPECT_EQ(sight_of(image, {x, 1.0, -1.4 + 0.01 * x}), Sight::free) << x;
+        EXPECT_TRUE(is_free(sight_of(image, {x, 1.0, -1.4 + 0.01 * x}))) << x;
     }
+}
+
+TEST(LineOfSight, IsWeakJustBeforeASurfaceAndAtTheBorderOfTheImage) {
+    const BeamImage image = scan(wall(10.0));
+    EXPECT_EQ(sight_of(image, {7.0, 0.3, 0.2}), Sight::free);
+    EXPECT_EQ(sight_of(image, {9.75, 0.3, 0.2}), Sight::weak_free);
+    const Eigen::Vector3d above = ray_to(0.0, 16.2 * kDeg);  // of all beams
+    EXPECT_EQ(sight_of(image, 7.0 * above), Sight::free);
+    EXPECT_EQ(sight_of(image, 9.0 * above), Sight::weak_free);
 }
 
 TEST(LineOfSight, NoWallAlongTheBeamsIsFree) {
@@ -114,8 +123,8 @@ TEST(LineOfSight, NoWallAlongTheBeamsIsFree) {
         return std::min(to_side, to_end);
     });
     for (double x = 0.5; x < 40.0; x += 0.17) {
-        EXPECT_NE(sight_of(image, {x, 2.0, 0.2}), Sight::free) << x;
-        EXPECT_EQ(sight_of(image, {std::min(x, 30.0) + 1.0, 0.0, 0.2}), Sight::free) << x;
+        EXPECT_FALSE(is_free(sight_of(image, {x, 2.0, 0.2}))) << x;
+        EXPECT_TRUE(is_free(sight_of(image, {std::min(x, 30.0) + 1.0, 0.0, 0.2}))) << x;
     }
 }
 
@@ -127,8 +136,8 @@ TEST(LineOfSight, APoleThinnerThanTheMarginIsNotFree) {
         return (std::abs(y_at_pole) < 0.03 ? 5.0 : 12.0) / ray.x();
     });
     for (double z = -0.6; z <= 0.6; z += 0.05) {
-        EXPECT_NE(sight_of(image, {5.0, 0.0, z}), Sight::free) << z;
-        EXPECT_EQ(sight_of(image, {5.0, 0.8, z}), Sight::free) << z;
+        EXPECT_FALSE(is_free(sight_of(image, {5.0, 0.0, z}))) << z;
+        EXPECT_TRUE(is_free(sight_of(image, {5.0, 0.8, z}))) << z;
     }
 }
 
@@ -138,14 +147,14 @@ TEST(LineOfSight, WrapsAroundTheBack) {
         return -10.0 / ray.x();
     });
     for (double y = -0.3; y <= 0.3; y += 0.01) {
-        EXPECT_EQ(sight_of(image, {-6.0, y, 0.1}), Sight::free) << y;
-        EXPECT_NE(sight_of(image, {-10.0, y, 0.1}), Sight::free) << y;
+        EXPECT_TRUE(is_free(sight_of(image, {-6.0, y, 0.1}))) << y;
+        EXPECT_FALSE(is_free(sight_of(image, {-10.0, y, 0.1}))) << y;
     }
 }
 
 TEST(LineOfSight, JudgesOnlyWithinItsRange) {
     const BeamImage image = scan(wall(100.0));
-    EXPECT_EQ(sight_of(image, {70.0, 0.0, 0.0}), Sight::free);
+    EXPECT_TRUE(is_free(sight_of(image, {70.0, 0.0, 0.0})));
     EXPECT_EQ(sight_of(image, {85.0, 0.0, 0.0}), Sight::unknown);
     EXPECT_EQ(sight_of(image, {0.2, 0.0, 0.0}), Sight::unknown);
     EXPECT_EQ(sight_of(image, {std::nan(""), 0.0, 0.0}), Sight::unknown);
@@ -153,7 +162,7 @@ TEST(LineOfSight, JudgesOnlyWithinItsRange) {
 
 TEST(LineOfSight, AtTheBorderOfTheViewOnlyABeamThatMeetsThePlaceCounts) {
     const BeamImage image = scan(wall(20.0));  // the highest beam goes up by 16 degrees
-    EXPECT_EQ(sight_of(image, 10.0 * ray_to(0.0, 16.2 * kDeg)), Sight::free);
+    EXPECT_TRUE(is_free(sight_of(image, 10.0 * ray_to(0.0, 16.2 * kDeg))));
     EXPECT_EQ(sight_of(image, 10.0 * ray_to(0.0, 17.2 * kDeg)), Sight::unknown);
 }
 

@@ -13,24 +13,25 @@ namespace dynamic_filter {
 namespace {
 
 struct Voters {
-    std::vector<float> x, y, z, score, first, last;
+    std::vector<float> x, y, z, weight, score, first, last;
 
     explicit Voters(test::Random& random, std::size_t count) {
         for (std::size_t i = 0; i < count; ++i) {
             add({static_cast<float>(random.below(9)), static_cast<float>(random.below(9)),
                  static_cast<float>(random.below(9))},
-                random.uniform_f(-1.0F, 1.0F), static_cast<float>(random.below(50)),
-                static_cast<float>(random.below(50)));
+                random.uniform_f(0.0F, 1.0F), random.uniform_f(-1.0F, 1.0F),
+                static_cast<float>(random.below(50)), static_cast<float>(random.below(50)));
         }
         while (x.size() % kernel::kVoters != 0) {
-            add(Point::Constant(kernel::kOutOfReach), 0.0F, 0.0F, 0.0F);
+            add(Point::Constant(kernel::kOutOfReach), 0.0F, 0.0F, 0.0F, 0.0F);
         }
     }
-    void add(const Point& cell, float value, float from, float duration) {
+    void add(const Point& cell, float share, float value, float from, float duration) {
         x.push_back(cell.x());
         y.push_back(cell.y());
         z.push_back(cell.z());
-        score.push_back(value);
+        weight.push_back(share);
+        score.push_back(share * value);
         first.push_back(from);
         last.push_back(from + duration);
     }
@@ -38,6 +39,7 @@ struct Voters {
         return {.x = x.data(),
                 .y = y.data(),
                 .z = z.data(),
+                .weight = weight.data(),
                 .score = score.data(),
                 .first = first.data(),
                 .last = last.data(),

@@ -13,10 +13,8 @@ const FORGOTTEN = 5;  // of the key frames, the first are no longer known one by
 const quantised = (place) => place.map((p, c) => Math.max(0, Math.min(65535, Math.round((p - LOW[c]) / STEP))));
 const bits = (settled, truth, instant) => settled | (truth << 2) | (instant << 4);
 
-function dynamicScore({ occupied, free, owned, switches }) {
-  const f = free + 2, e = 0.45 * (1 + switches) ** 0.9 * (occupied * owned ** 2) ** 0.2 + 2;
-  return (f * f - e * e) / (f * f + e * e);
-}
+const expectedPasses = ({ occupied, owned, switches }) => 0.3 * (1 + switches) ** 0.95 * occupied ** 0.37 * owned ** 0.33;
+const dynamicScore = (voxel) => Math.max(-1.8, Math.min(1, 2.8 * Math.log((voxel.free + 1) / (expectedPasses(voxel) + 1))));
 
 /** Voxels in the order in which points fall into them. */
 class Voxels {
@@ -127,6 +125,7 @@ function counters(list) {
   list.forEach(({ passes }, k) => (begin[k + 1] = begin[k] + passes.length));
   return {
     "voxel-evidence": array("uint16", 4, Uint16Array.from(list.flatMap((v) => [v.occupied, v.free, v.owned, v.switches]))),
+    "voxel-score": array("float32", 3, Float32Array.from(list.flatMap((v) => [v.free, expectedPasses(v), dynamicScore(v)]))),
     "voxel-span": array("uint32", 2, Uint32Array.from(list.flatMap((v) => [v.first, v.last]))),
     "pass-begin": array("uint32", 1, begin),
     pass: array("uint16", 1, Uint16Array.from(list.flatMap((v) => v.passes))),

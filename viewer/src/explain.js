@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Why a point got its verdict, in words. No element is made here.
 import { DYNAMIC, finalOf, hasTruth, instantOf, isCorrected, NO_VOXEL, NOT_RECORDED, STATIC, truthOf } from "./data.js";
-import { expectedPasses, dynamicScore } from "./evidence.js";
 import { count, fixed, plural, short } from "./format.js";
 
 const VERDICTS = ["unknown", "static", "removed"];
@@ -27,8 +26,7 @@ function reason(verdict, { probability, evidence }, threshold) {
   }
   if (!evidence) return `In its voxel ${said}; from ${threshold} on a voxel is static.`;
   const seenThrough = evidence.free === 0 ? "No scan saw through this place" : `${plural(evidence.free, "scan")} saw through this place`;
-  const expected = expectedPasses(evidence);
-  const score = dynamicScore(evidence);
+  const { expected, score } = evidence;
   const than = `something static with these counts would be seen through about ${plural(Number(fixed(expected, 1)), "time")}`;
   const own = `${seenThrough}; ${than}.`;
   if (score > 0 === (verdict === DYNAMIC)) return own;
@@ -74,14 +72,15 @@ export function explain(point, facts, meta, words) {
   }
   const { evidence, span } = facts;
   if (!evidence) return result;
-  result.score = dynamicScore(evidence);
+  result.score = evidence.score;
   result.counters.push(
     ["seen through", count(evidence.free), "n_free: scans whose beams passed the place"],
-    ["expected", short(expectedPasses(evidence)), "passes of a static voxel: 0.45 (1 + switches)^0.9 (n_occ owned²)^0.2"],
+    ["weighed", short(evidence.weighed), "the same, with doubtful passes counted an eighth"],
+    ["expected", short(evidence.expected), "weighed passes of a static voxel, by how often it was seen occupied and how often that changed"],
     ["seen occupied", count(evidence.occupied), "n_occ: scans that saw something there"],
     ["owned", count(evidence.owned), "scans with a point in the voxel"],
     ["switches", count(evidence.switches), "changes between occupied and free"],
-    ["own score", fixed(result.score, 2), "−1 stays … +1 came or went: (f² − e²) / (f² + e²) with f = n_free + 2, e = expected + 2, of counters scaled down to 128 observations where there are more; constants of the default settings"],
+    ["own score", fixed(result.score, 2), "below 0 it stays, above 0 something came or went: by the ratio of weighed and expected passes"],
   );
   if (span) result.counters.push(["occupied", `${words(span[0])} to ${words(span[1])}`, "first and last scan with a point in it"]);
   return result;

@@ -52,7 +52,7 @@ export class RunView extends CloudView {
   }
 
   async loadEvidence() {
-    await this.run.loadAll(["voxel-evidence", "voxel-span", "pass-begin", "pass"]);
+    await this.run.loadAll(["voxel-evidence", "voxel-score", "voxel-span", "pass-begin", "pass"]);
   }
 
   #addScans() {

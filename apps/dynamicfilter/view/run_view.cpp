@@ -112,6 +112,7 @@ void add_voxels(const ViewInput& in, const std::vector<std::uint64_t>& places, P
     if (keyframes.size() > kMost) keyframes.erase(keyframes.begin(), keyframes.end() - kMost);
     std::vector<std::uint8_t> probability;
     std::vector<std::uint16_t> evidence, pass;
+    std::vector<float> score;
     std::vector<std::uint32_t> span, pass_begin;
     for (const VoxelHistory& h : in.filter.histories(places)) {
         probability.push_back(h.probability
@@ -120,6 +121,7 @@ void add_voxels(const ViewInput& in, const std::vector<std::uint64_t>& places, P
         for (const std::uint32_t count : {h.n_occ, h.n_free, h.n_own, h.n_switch}) {
             evidence.push_back(static_cast<std::uint16_t>(std::min<std::uint32_t>(count, kMost)));
         }
+        score.insert(score.end(), {h.free, h.expected_free, h.score});
         span.insert(span.end(), {row_of(in.scans, h.first), row_of(in.scans, h.last)});
         pass_begin.push_back(static_cast<std::uint32_t>(pass.size()));
         for (const std::size_t index : h.free_keyframes) {
@@ -132,6 +134,7 @@ void add_voxels(const ViewInput& in, const std::vector<std::uint64_t>& places, P
     run.arrays.push_back(page_array("voxel-probability", 1, probability));
     if (!in.has_evidence) return;
     run.arrays.push_back(page_array("voxel-evidence", 4, evidence));
+    run.arrays.push_back(page_array("voxel-score", 3, score));
     run.arrays.push_back(page_array("voxel-span", 2, span));
     run.arrays.push_back(page_array("pass-begin", 1, pass_begin));
     run.arrays.push_back(page_array("pass", 1, pass));

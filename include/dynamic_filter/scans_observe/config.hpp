@@ -43,23 +43,31 @@ struct ScansConfig {
         double close_pixels = 0.3;
         double close_beside = 0.5;
         double same_spot = 0.02;
+        double clear = 0.3;
+        double clear_voxels = 1.5;
+        double clear_unseen = 2.0;
     } sight;
 
     /// How the counters of a voxel become a score: see evidence.hpp.
     struct Evidence {
-        double flicker = 0.45;
-        double switch_power = 0.9;
-        double return_power = 0.2;
-        double offset = 2.0;
+        double flicker = 0.3;
+        double switch_power = 0.95;
+        double occupied_power = 0.37;
+        double hit_power = 0.33;
+        double offset = 1.0;
+        double gain = 2.8;
         double enough = 128.0;
+        int longest_run = 16;
+        double static_limit = 1.8;
     } evidence;
 
     /// How much neighbours count: see vote.hpp.
     struct Vote {
-        double company = 1.0;
-        double neighborhood = 2.0;
-        double far = 0.3;
-        double alone = 0.25;
+        double company = 1.25;
+        double neighborhood = 1.75;
+        double far = 0.5;
+        double sure = 8.0;
+        double alone = 0.2;
         double steepness = 3.0;
         double ask_again = 0.2;
     } vote;
@@ -67,10 +75,11 @@ struct ScansConfig {
     /// Points on a static surface, below something that moves: see contact.hpp.
     struct Contact {
         int fewest = 6;
-        double flat = 0.025;
+        double flat = 0.04;
         double outlier = 0.05;
         double lowest = 0.03;
-        double height = 0.08;
+        double height = 0.02;
+        double roughness = 2.0;
     } contact;
 };
 
@@ -135,6 +144,16 @@ void visit_scans(C& scans, F&& f) {
           s.close_beside);
     field("scans.sight.same_spot", "m", "two returns nearer than this to each other make no line",
           0, 1, s.same_spot);
+    field("scans.sight.clear", "m",
+          "a place is surely free if beams on all four sides of it go on by this much, and else "
+          "weakly: just in front of a surface, noise and poses decide",
+          0, 10, s.clear);
+    field("scans.sight.clear_voxels", "1", "... or this many voxels, if that is more", 0, 10,
+          s.clear_voxels);
+    field("scans.sight.clear_unseen", "m",
+          "where there is no beam on some side, those that there are must go on by this much: at "
+          "the upper border of the image, a ceiling looks free from far away",
+          0, 100, s.clear_unseen);
 
     auto& e = scans.evidence;
     field("scans.evidence.flicker", "1",
@@ -144,16 +163,29 @@ void visit_scans(C& scans, F&& f) {
     field("scans.evidence.switch_power", "1",
           "... by changes between occupied and free, which flicker makes and crossings do not", 0,
           2, e.switch_power);
-    field("scans.evidence.return_power", "1", "... by returns, of which static voxels have many", 0,
-          2, e.return_power);
+    field("scans.evidence.occupied_power", "1",
+          "... by how often it was seen occupied, as static voxels are", 0, 2, e.occupied_power);
+    field("scans.evidence.hit_power", "1",
+          "... by how often a point lay in it then, and not only near it", 0, 2, e.hit_power);
     field("scans.evidence.offset", "1",
           "observations added to both sides, so that one more or less is not everything", 0.01, 100,
           e.offset);
-
+    field("scans.evidence.gain", "1", "score per natural logarithm of the ratio of both sides",
+          0.01, 100, e.gain);
     field("scans.evidence.enough", "1",
           "more observations than this tell no more than so many in the same proportions: a place "
           "does not become static because the recording goes on",
           8, 1e9, e.enough);
+    field(
+        "scans.evidence.longest_run", "1",
+        "keyframes of an occupied run that count: how long a thing rests does not tell whether it "
+        "is static",
+        1, 255, e.longest_run);
+    field(
+        "scans.evidence.static_limit", "1",
+        "how far below 0 the score of a static voxel may go; above 0 it ends at 1: neighbours may "
+        "outvote any voxel but one that is surely static",
+        1, 10, e.static_limit);
 
     auto& v = scans.vote;
     field("scans.vote.company", "1",
@@ -164,6 +196,11 @@ void visit_scans(C& scans, F&& f) {
           v.neighborhood);
     field("scans.vote.far", "1", "weight of a neighbour that does not touch the voxel", 0, 1,
           v.far);
+    field(
+        "scans.vote.sure", "1",
+        "scans with a point in the voxel, or keyframes that saw through it, after which its voice "
+        "has half its weight: what was hardly looked at has little to say",
+        0, 1000, v.sure);
     field("scans.vote.alone", "1", "weight of having no neighbour: a lone voxel is not outvoted",
           0.01, 10, v.alone);
     field("scans.vote.steepness", "1", "log-odds of being dynamic per unit of the sum", 0.1, 100,
@@ -183,9 +220,13 @@ void visit_scans(C& scans, F&& f) {
           "something that moves on a surface rises over it by this much, or it is the surface", 0,
           1, c.lowest);
     field("scans.contact.height", "m",
-          "a point this high over the surface belongs to what moves: twice the range noise of most "
-          "sensors, and the blur of a voxel",
+          "a point this high over the surface belongs to what moves: on ground, range noise shifts "
+          "a point along it far more than across",
           0, 1, c.height);
+    field("scans.contact.roughness", "1",
+          "... if that is also this many times what the surface's own voxels are off it: poses are "
+          "not exact",
+          0, 100, c.roughness);
 }
 
 }  // namespace dynamic_filter

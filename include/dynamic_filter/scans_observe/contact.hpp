@@ -15,7 +15,8 @@ namespace dynamic_filter {
 /// A plane `normal . p = offset` whose normal points to the side where things moved.
 struct Surface {
     Point normal = Point::Zero();
-    float offset = 0.0F;  ///< [m]
+    float offset = 0.0F;     ///< [m]
+    float roughness = 0.0F;  ///< [m] of what lies on it, root mean square
     [[nodiscard]] float height(const Point& p) const { return normal.dot(p) - offset; }
 };
 

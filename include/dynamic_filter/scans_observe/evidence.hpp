@@ -10,19 +10,36 @@
 
 namespace dynamic_filter {
 
+/// What a weak sight counts: an eighth of a sure one.
+inline constexpr unsigned kWeak = 1, kSure = 8;
+
 /// Counters of one voxel. Before one overflows, all are halved.
 struct Evidence {
     std::uint16_t n_own = 0;        ///< scans with a point in it
     std::uint16_t n_occ = 0;        ///< keyframes that saw it occupied
     std::uint16_t n_free = 0;       ///< keyframes that saw through it
     std::uint16_t n_switch = 0;     ///< changes between the two, in the order of the keyframes
-    Sight last = Sight::unknown;    ///< what the newest keyframe saw
+    std::uint16_t occupied = 0;     ///< as n_occ, but weighed, and of each run its beginning
+    std::uint16_t free = 0;         ///< as n_free, but weighed
+    std::uint16_t hits = 0;         ///< as n_occ, but of each run its beginning, and with a point
+    std::uint8_t run = 0;           ///< keyframes of the present run, as far as they count
+    Sight last = Sight::unknown;    ///< what the newest keyframe saw: occupied or free
     std::uint32_t first_owner = 0;  ///< the first scan with a point in it, by their order ...
     std::uint32_t last_owner = 0;   ///< ... and the last
 };
 
-/// Takes in what the next keyframe saw, as if `weight` keyframes like it had seen it.
-void record(Evidence& evidence, Sight sight, unsigned weight = 1);
+/// What a keyframe saw of a voxel, as if `weight` keyframes like it had seen it. `hit`: its own
+/// scan has a point in the voxel.
+struct Observation {
+    Sight sight = Sight::unknown;
+    unsigned weight = 1;
+    bool hit = false;
+};
+
+/// Takes in what the next keyframe saw. An occupied run lasts from when a voxel is first seen
+/// occupied until it is seen free: of each, only the first `longest_run` keyframes (up to 255) tell
+/// anything new about whether the voxel is static.
+void record(Evidence& evidence, const Observation& observation, unsigned longest_run);
 
 /// Notes that this scan, by the order of the scans, has a point in the voxel: once a scan.
 void record_owner(Evidence& evidence, std::uint32_t scan);
@@ -31,19 +48,21 @@ void record_owner(Evidence& evidence, std::uint32_t scan);
 /// it.
 inline bool is_unknown(const Evidence& e) { return e.n_occ < 2 && e.n_free == 0; }
 
-/// -1..1: whether the voxel was empty most of the time and only crossed by something; below 0: no.
-/// A porous surface, an edge or a leaf is seen through now and then, between returns; where
-/// something came or went, the voxel is free in few long runs. So n_free is compared with what the
-/// number of runs and the number of returns lead one to expect of a static voxel:
-///     expected = flicker (1 + n_switch)^switch_power (n_occ n_own^2)^return_power
-///     (f^2 - e^2) / (f^2 + e^2) with f = n_free + offset and e = expected + offset.
-/// Where keyframes said more than `enough` times what the voxel is, all counters are scaled down to
-/// so many first: the sum of the exponents is more than one, so without that every busy place would
-/// become static once a recording is long enough. Thread-safe.
+/// Whether the voxel was empty most of the time and only crossed by something, -static_limit..1;
+/// below 0: no. A porous surface, an edge or a leaf is seen through now and then, between returns;
+/// where something came or went, the voxel is free in few long runs. So how often it was seen free
+/// is compared with what the number of runs and of returns lead one to expect of a static voxel:
+///     expected = flicker (1 + n_switch)^switch_power occupied^occupied_power hits^hit_power
+///     gain * log((free + offset) / (expected + offset))
+/// Where observations are more than `enough`, all counters are scaled down to so many first: the
+/// sum of the exponents is more than one, so without that every busy place would become static once
+/// a recording is long enough. Thread-safe.
 class DynamicScore {
 public:
     explicit DynamicScore(const ScansConfig::Evidence& config);
     float operator()(const Evidence& evidence) const;
+    /// How often a static voxel with these counters would be seen free.
+    [[nodiscard]] float expected_free(const Evidence& evidence) const;
 
 private:
     /// scale * (n + shift)^exponent, from a table in steps of 1/16: pow() would be most of what a
@@ -62,8 +81,11 @@ private:
         float scale_, shift_, exponent_;
         std::vector<float> values_;
     };
-    Power by_switches_, by_returns_;
-    float offset_, enough_;
+    /// By how much counters are scaled down.
+    [[nodiscard]] float scale_of(const Evidence& evidence) const;
+    [[nodiscard]] float expected(const Evidence& evidence, float scale) const;
+    Power by_switches_, by_occupied_, by_hits_;
+    float offset_, gain_, enough_, lowest_;
 };
 
 /// How much of their time two voxels were there together: the overlap of the spans between their

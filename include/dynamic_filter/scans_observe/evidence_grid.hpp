@@ -18,13 +18,16 @@ namespace dynamic_filter {
 class EvidenceGrid {
 public:
     EvidenceGrid(float voxel_size, const ScansConfig::Evidence& config)
-        : voxel_size_(voxel_size), score_(config) {}
+        : voxel_size_(voxel_size),
+          longest_run_(static_cast<unsigned>(config.longest_run)),
+          score_(config) {}
 
     /// Puts the points of the next scan into voxels, which it owns from now on. New voxels come
     /// after the others, those of a block together.
     PointVoxels add_points(const Scan& scan);
-    /// Takes in what a keyframe saw of the voxel, see evidence.hpp.
-    void record(std::uint32_t voxel, Sight sight, unsigned weight);
+    /// Takes in what a keyframe saw of the voxel, see evidence.hpp; `newest`: it is the newest
+    /// scan.
+    void record(std::uint32_t voxel, Sight sight, unsigned weight, bool newest);
 
     /// Forgets blocks whose middle lies beyond `radius` [m] of a place, and the farthest ones until
     /// about `most_voxels` are left. Voxels get new numbers. Returns the old number of each.
@@ -47,9 +50,12 @@ public:
     [[nodiscard]] std::uint32_t scans() const { return scans_; }  ///< with points, taken in so far
     [[nodiscard]] const VoxelNeighbors& neighbors() const { return neighbors_; }
 
+    /// See DynamicScore.
+    [[nodiscard]] float expected_free(const Evidence& e) const { return score_.expected_free(e); }
+
     struct State {
         Point centroid = Point::Zero();
-        float score = 0.0F;  ///< DynamicScore; neighbours ask far more often than it changes
+        float score = 0.0F;  ///< DynamicScore, 0 while unknown; kept, as neighbours ask often
         Evidence evidence;
     };
     [[nodiscard]] const State& operator[](std::uint32_t voxel) const { return states_[voxel]; }
@@ -61,6 +67,7 @@ private:
                         const PointVoxels& voxels_of_points);
 
     float voxel_size_;
+    unsigned longest_run_;
     DynamicScore score_;
     VoxelIndex voxels_;
     VoxelNeighbors neighbors_;

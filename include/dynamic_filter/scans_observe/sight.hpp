@@ -8,9 +8,21 @@ namespace dynamic_filter {
 
 /// What a scan says about a place.
 enum class Sight : std::uint8_t {
-    unknown,   ///< it did not look there, or cannot tell
-    occupied,  ///< its beams end there
-    free       ///< its beams go through
+    unknown = 0,        ///< it did not look there, or cannot tell
+    occupied = 1,       ///< one of its beams ends there
+    free = 2,           ///< its beams go through, well clear of anything
+    weak_occupied = 5,  ///< a surface between its beams runs through it
+    weak_free = 6       ///< its beams go through, but some side of the place was not looked at, or
+                        ///< something begins just behind it
 };
+
+inline bool is_occupied(Sight sight) {
+    return sight == Sight::occupied || sight == Sight::weak_occupied;
+}
+inline bool is_free(Sight sight) { return sight == Sight::free || sight == Sight::weak_free; }
+/// It counts less than one that is sure.
+inline bool is_weak(Sight sight) {
+    return sight == Sight::weak_occupied || sight == Sight::weak_free;
+}
 
 }  // namespace dynamic_filter

@@ -11,10 +11,12 @@
 
 namespace dynamic_filter {
 
-/// Occupancy 0..1 of voxels, from the sum of three scores -1..1: their own, the mean of those
-/// within two cells that were there when they were there (things come and go as a whole), and the
-/// mean of all within two cells (surfaces go on, and people walk where others did). Empty: unknown.
-/// In parallel; const members of the grid only. vote_scalar.hpp says what a vote is.
+/// Occupancy 0..1 of voxels, from the sum of three scores: their own, the mean of those within two
+/// cells that were there when they were there (things come and go as a whole), and the mean of all
+/// within two cells (surfaces go on, and people walk where others did). The mean is weighted by how
+/// often the neighbours were looked at. A voxel about which nothing is known itself is what its
+/// neighbours are; empty: nothing is known of them either. In parallel; const members of the grid
+/// only. vote_scalar.hpp says what a vote is.
 std::vector<std::optional<float>> occupancy_of(const EvidenceGrid& grid,
                                                std::span<const std::uint32_t> voxels,
                                                const ScansConfig::Vote& config);

@@ -145,6 +145,8 @@ TEST_F(RunView, SaysWhyAPointIsGone) {
     const std::vector<std::uint32_t> keyframes = run.info["keyframes"];
     ASSERT_EQ(begin.size(), probability.size() + 1);
     ASSERT_EQ(evidence.size(), 4 * probability.size());
+    const auto score = column<float>(run, "voxel-score");
+    ASSERT_EQ(score.size(), 3 * probability.size());
     ASSERT_EQ(begin.back(), pass.size());
     std::size_t removed = 0;
     for (std::size_t i = 0; i < verdict.size(); ++i) {
@@ -153,6 +155,7 @@ TEST_F(RunView, SaysWhyAPointIsGone) {
         ASSERT_LT(v, probability.size());
         EXPECT_LE(span[2 * v], span[2 * v + 1]);
         EXPECT_LE(evidence[4 * v + 1], scans_.size());
+        EXPECT_LE(score[3 * v], static_cast<float>(evidence[4 * v + 1]));
         for (std::uint32_t k = begin[v]; k < begin[v + 1]; ++k) {
             ASSERT_LT(pass[k], keyframes.size());
             EXPECT_LT(keyframes[pass[k]], scans_.size());
