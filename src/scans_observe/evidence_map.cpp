@@ -59,7 +59,7 @@ struct EvidenceMap::Batch {
 void EvidenceMap::check_known(std::span<const std::uint32_t> blocks) {
     parallel_for(blocks.size(), kGrain, [&](std::size_t begin, std::size_t end) {
         Batch batch{.first = 0, .end = known_};
-        observe(blocks.subspan(begin, end - begin), batch, {&observers_.kept().back(), 1});
+        observe(blocks.subspan(begin, end - begin), batch, {&observers_.kept().back(), 1}, true);
     });
 }
 
@@ -70,7 +70,8 @@ void EvidenceMap::check_new() {
     parallel_for(blocks.size(), kGrain, [&](std::size_t begin, std::size_t end) {
         Batch batch{.first = known_, .end = grid_.size()};
         for (const Observers::Asked& one : asked) {
-            observe({&blocks[begin], end - begin}, batch, one);
+            const bool newest = is_due_ && one.observer == &observers_.kept().back();
+            observe({&blocks[begin], end - begin}, batch, one, newest);
         }
     });
 }
@@ -105,9 +106,8 @@ void EvidenceMap::find_sights(std::span<const std::uint32_t> blocks, Batch& batc
 }
 
 void EvidenceMap::observe(std::span<const std::uint32_t> blocks, Batch& batch,
-                          const Observers::Asked& asked) {
+                          const Observers::Asked& asked, bool newest) {
     find_sights(blocks, batch, *asked.observer);
-    const bool newest = asked.observer->index == indices_.back();
     for (std::size_t i = 0; i < batch.voxels.size(); ++i) {
         if (batch.sights[i] == Sight::unknown) continue;
         grid_.record(batch.voxels[i], batch.sights[i], asked.weight, newest);

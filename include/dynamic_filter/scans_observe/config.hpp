@@ -56,7 +56,7 @@ struct ScansConfig {
         double hit_power = 0.33;
         double offset = 1.0;
         double gain = 2.8;
-        double enough = 128.0;
+        double enough = 40.0;
         int longest_run = 16;
         double static_limit = 1.8;
     } evidence;

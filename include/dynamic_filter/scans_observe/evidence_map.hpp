@@ -57,8 +57,8 @@ private:
     void check_new();
     void find_sights(std::span<const std::uint32_t> blocks, Batch& batch,
                      const Observer& observer) const;
-    void observe(std::span<const std::uint32_t> blocks, Batch& batch,
-                 const Observers::Asked& asked);
+    void observe(std::span<const std::uint32_t> blocks, Batch& batch, const Observers::Asked& asked,
+                 bool newest);
 
     SightMargins margins_;
     EvidenceGrid grid_;
