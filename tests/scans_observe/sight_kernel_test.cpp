@@ -108,14 +108,17 @@ TEST(SightKernel, EveryLevelAgreesWithTheScalarFormAndBitByBitWithTheOthers) {
         for (const auto& level : DYNAMIC_FILTER_LEVELS_OF(check_lines_of_sight)) {
             EXPECT_EQ(check_with(level, image, asked), baseline) << level.name;
         }
-        int other = 0;  // by rounding, at the very edge of a margin
+        std::array<int, 3> kinds{};  // unknown, occupied, free, be they weak or sure
+        int other = 0;               // by rounding, at the very edge of a margin
         for (std::size_t i = 0; i < baseline.size(); ++i) {
             const Sight expected = line_of_sight(
                 image, {asked.azimuth[i], asked.elevation[i], asked.range[i]}, kMargins);
             ++seen[static_cast<std::size_t>(expected)];
+            ++kinds[is_occupied(expected) ? 1U : is_free(expected) ? 2U : 0U];
             other += static_cast<std::uint8_t>(expected) != baseline[i] ? 1 : 0;
         }
         EXPECT_LE(other, 10) << step;
+        for (const int count : kinds) EXPECT_GT(count, 50) << step;
     }
     for (const Sight sight :
          {Sight::unknown, Sight::occupied, Sight::free, Sight::weak_occupied, Sight::weak_free}) {
