@@ -209,7 +209,7 @@ void occupancy_of_a_map(benchmark::State& state) {
         std::vector<std::uint32_t> all(map.grid().size());
         for (std::uint32_t v = 0; v < all.size(); ++v) all[v] = v;
         for (auto _ : state)
-            benchmark::DoNotOptimize(occupancy_of(map.grid(), all, config.scans.vote).data());
+            benchmark::DoNotOptimize(occupancy_of(map.grid(), all, config.scans).data());
         // About 100 voters are weighed per voxel, 20 operations each.
         report(state, all.size(), {36, 100 * 20});
     });

@@ -17,11 +17,13 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kMethods{"scans", "submaps", "removert"};
 constexpr std::array<std::string_view, 3> kRevertings{"map", "visibility", "none"};
+constexpr std::array<std::string_view, 2> kMapTimes{"always", "latest"};
 constexpr std::array<std::string_view, 2> kSwitch{"false", "true"};
 
 /// The words for a choice, in the order of its enumerators.
 constexpr const auto& words(Method) { return kMethods; }
 constexpr const auto& words(Reverting) { return kRevertings; }
+constexpr const auto& words(MapTime) { return kMapTimes; }
 constexpr const auto& words(bool) { return kSwitch; }
 
 template <class T>

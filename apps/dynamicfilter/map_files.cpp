@@ -51,7 +51,7 @@ std::vector<std::byte> world_records(const io::Frame& frame, const io::Cloud& la
     return records;
 }
 
-void MapFiles::append(const io::Frame& frame, const Labels& labels) {
+void MapFiles::append(const io::Frame& frame, const Verdict& verdict) {
     if (!still_) {
         layout_ = layout_of(frame, in_world_);
         still_.emplace(folder_ / "static_map.pcd", layout_.fields, layout_.point_bytes);
@@ -61,12 +61,13 @@ void MapFiles::append(const io::Frame& frame, const Labels& labels) {
     const auto records = in_world_ ? frame.cloud.data : world_records(frame, layout_);
     std::vector<std::byte> still, dynamic;
     still.reserve(records.size());
-    for (std::size_t i = 0; i < labels.size(); ++i) {
+    for (std::size_t i = 0; i < verdict.labels.size(); ++i) {
         if (!is_measured(frame.points[i])) continue;
         const auto* const record = records.data() + i * bytes;
-        if (labels[i] == Label::dynamic) {
+        const bool stays = !verdict.stays.empty() && verdict.stays[i];
+        if (verdict.labels[i] == Label::dynamic && !stays) {
             dynamic.insert(dynamic.end(), record, record + bytes);
-        } else if (labels[i] == Label::static_ || keep_unknown_) {
+        } else if (verdict.labels[i] != Label::unknown || keep_unknown_) {
             still.insert(still.end(), record, record + bytes);
         }
     }

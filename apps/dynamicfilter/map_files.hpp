@@ -5,6 +5,7 @@
 
 #include "dynamic_filter/io/sequence.hpp"
 #include "dynamic_filter/io/writers.hpp"
+#include "dynamic_filter/verdict.hpp"
 
 namespace dynamic_filter::app {
 
@@ -18,7 +19,8 @@ public:
     MapFiles(std::filesystem::path folder, bool keep_unknown, bool in_world)
         : folder_(std::move(folder)), keep_unknown_(keep_unknown), in_world_(in_world) {}
 
-    void append(const io::Frame& frame, const Labels& labels);
+    /// What stays where it is until the end belongs to the static map, see Verdict::stays.
+    void append(const io::Frame& frame, const Verdict& verdict);
     void commit();
 
 private:

@@ -130,28 +130,28 @@ void write_results(Pass& pass) {
                   pass.sequence.format == io::Format::benchmark);
     const std::vector<std::size_t> scans = accepted_scans(pass);
     Progress progress("write", scans.size(), pass.watchers.quiet);
-    std::vector<Labels> labels(pass.sequence.size());
+    std::vector<Verdict> verdicts(pass.sequence.size());
     const auto classify = [&](std::size_t i, MaybeFrame& maybe) {
         const io::Frame& frame = *maybe.frame;
-        labels[i] =
-            pass.filter.verdict({frame.points, frame.T_world_sensor, frame.stamp, i}).labels;
-        io::write_labels(folder / (io::stem(pass.sequence, i) + ".label"), labels[i]);
+        verdicts[i] = pass.filter.verdict({frame.points, frame.T_world_sensor, frame.stamp, i});
+        io::write_labels(folder / (io::stem(pass.sequence, i) + ".label"), verdicts[i].labels);
     };
     const auto use = [&](std::size_t i, MaybeFrame& maybe) {
         if (!maybe.frame) {
             throw InputError(pass.sequence.scan_files[i], "",
                              "changed while it was in use: " + maybe.error);
         }
-        maps.append(*maybe.frame, labels[i]);
-        note(pass, i, *maybe.frame, labels[i]);
+        const Labels& labels = verdicts[i].labels;
+        maps.append(*maybe.frame, verdicts[i]);
+        note(pass, i, *maybe.frame, labels);
         if (pass.watchers.from_above) {
             pass.watchers.from_above->add(shifted_world(*maybe.frame, Eigen::Vector3d::Zero()),
-                                          labels[i]);
+                                          labels);
         }
         if (pass.watchers.live) {
-            pass.watchers.live->feed().corrected(i, maybe.frame->points, labels[i]);
+            pass.watchers.live->feed().corrected(i, maybe.frame->points, labels);
         }
-        labels[i] = {};
+        verdicts[i] = {};
         progress.advance();
         return true;  // what is filtered is written even after an interruption; a second one kills
     };

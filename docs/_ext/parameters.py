@@ -21,8 +21,8 @@ Each method has its own settings, and `dynamicfilter config` prints those of the
 names the method it belongs to. There are three methods: `scans` (preset `default`), `submaps` (preset `paper`) and `removert`, the paper's opponent.
 
 With the default preset few settings matter to a user: `map.voxel_size` (finer costs time and memory, see [performance](performance.md)), `map.occupancy_threshold` (higher
-removes more), `scans.max_keyframes` (memory), `keyframe.interval` and `keyframe.distance` (how often a scan observes). Two say only what comes out: `map.search_radius` (of
-local maps) and `map.keep_unknown`. All others of `scans.*` are the constants of the method. They are settings so that an ablation can change them (`script/ablate`) and a run
+removes more), `scans.max_keyframes` (memory), `keyframe.interval` and `keyframe.distance` (how often a scan observes). Three say only what comes out: `map.search_radius` (of
+local maps), `map.keep_unknown` and `map.time` (what is in the static map: what never moved, or what is there at the end). All others of `scans.*` are the constants of the method. They are settings so that an ablation can change them (`script/ablate`) and a run
 can tell what was in force; there is no need to tune them.
 
 *Paper*: symbol, section or table there. The code: [`Config`](../include/dynamic_filter/config.hpp).
@@ -31,7 +31,8 @@ can tell what was in force; there is no need to tune them.
 PARTS = {
     "method": "The method", "map": "The map", "keyframe": "Keyframes",
     "scans": "Method `scans`", "scans.observers": "Method `scans`: which keyframes are asked", "scans.sight": "Method `scans`: lines of sight",
-    "scans.evidence": "Method `scans`: evidence of a voxel", "scans.vote": "Method `scans`: neighbours", "scans.contact": "Method `scans`: feet on the ground",
+    "scans.evidence": "Method `scans`: evidence of a voxel", "scans.vote": "Method `scans`: neighbours", "scans.instances": "Method `scans`: instances",
+    "scans.contact": "Method `scans`: feet on the ground",
     "submap": "Method `submaps`: submaps", "front_end": "Method `submaps`: front-end", "back_end": "Method `submaps`: back-end",
 }
 

@@ -27,6 +27,7 @@ struct MapConfig {
     double occupancy_threshold = 0.5;
     double search_radius = 20.0;
     bool keep_unknown = true;
+    MapTime time = MapTime::always;  ///< of the method "scans"
 };
 
 /// All settings, with the defaults of the preset "default". What each means: visit(). A setting of
@@ -57,6 +58,13 @@ void visit(C& c, F&& f) {
       c.map.search_radius);
     f(Setting{"map.keep_unknown", "", "", "points without a verdict go into the static map"},
       c.map.keep_unknown);
+    f(
+        Setting{
+            "map.time", "", "",
+            "the static map holds what never moved (always), or what is there at the end (latest), "
+            "also if it came; labels are the same",
+            0, 0, methods_of(Method::scans)},
+        c.map.time);
     f(Setting{"keyframe.interval", "s", "III-B",
               "a scan this long after the last keyframe becomes one", 0, 3600},
       c.keyframe.interval);

@@ -16,6 +16,10 @@ namespace dynamic_filter {
 /// Removert, the paper's opponent (Table II), which has no back-end.
 enum class Method { scans, submaps, removert };
 
+/// What the static map holds: what never moved, or what is there when the recording ends, so also
+/// what came, or moved, and then stayed.
+enum class MapTime { always, latest };
+
 /// A set of methods: one bit each.
 constexpr unsigned methods_of(Method method) { return 1U << static_cast<unsigned>(method); }
 /// Of all methods.

@@ -27,6 +27,9 @@ struct Verdict {
     std::vector<float> probability;  ///< occupancy 0..1 of the point's voxel, 0 where the label is
                                      ///< unknown (a point that stands on a static surface may be
                                      ///< dynamic all the same); empty in instant verdicts
+    std::vector<bool> stays{};       ///< with `map.time` = latest, in final verdicts: true for
+                                     ///< points of what moves that are still there when the
+                                     ///< recording ends; else empty
 };
 
 /// Every point unknown, with probabilities.

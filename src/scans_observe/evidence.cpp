@@ -14,11 +14,12 @@ constexpr unsigned kMost = std::numeric_limits<std::uint16_t>::max();
 /// Halves all counters until each can take so many more: their proportions are what tells.
 void make_room(Evidence& e, unsigned weight) {
     const auto largest = [&] {
-        return std::max({e.n_own, e.n_occ, e.n_free, e.n_switch, e.occupied, e.free, e.hits});
+        return std::max({e.n_own, e.n_occ, e.n_free, e.n_switch, e.occupied, e.free, e.hits,
+                         e.passes, e.n_flicker, e.moved});
     };
     while (largest() + weight > kMost) {
-        for (std::uint16_t* counter :
-             {&e.n_own, &e.n_occ, &e.n_free, &e.n_switch, &e.occupied, &e.free, &e.hits}) {
+        for (std::uint16_t* counter : {&e.n_own, &e.n_occ, &e.n_free, &e.n_switch, &e.occupied,
+                                       &e.free, &e.hits, &e.passes, &e.n_flicker, &e.moved}) {
             *counter = static_cast<std::uint16_t>((*counter + 1) / 2);  // what was seen stays seen
         }
     }
@@ -26,6 +27,16 @@ void make_room(Evidence& e, unsigned weight) {
 
 void add(std::uint16_t& counter, unsigned weight) {
     counter = static_cast<std::uint16_t>(counter + weight);
+}
+
+/// What tells about things so thin that they lie between the beams of most scans.
+void record_pass(Evidence& e, const Observation& o, unsigned weight) {
+    const bool passed = is_passed(o.sight);
+    if (!passed && !o.hit) return;
+    if (passed) add(e.passes, weight);
+    const Sight now = passed ? Sight::free : Sight::occupied;
+    if (e.last_near != now && e.last_near != Sight::unknown) add(e.n_flicker, weight);
+    e.last_near = now;
 }
 
 }  // namespace
@@ -40,10 +51,12 @@ void record(Evidence& e, const Observation& o, unsigned longest_run) {
         if (e.last != Sight::unknown) add(e.n_switch, weight);
         e.run = 0;
     }
+    record_pass(e, o, weight);
     const unsigned new_of_run = std::min(weight, longest_run - e.run);
     if (now == Sight::free) {
         add(e.n_free, weight);
         add(e.free, each * weight);
+        e.seen_empty |= !is_weak(o.sight);
     } else {
         add(e.n_occ, weight);
         add(e.occupied, each * new_of_run);
@@ -56,26 +69,35 @@ void record(Evidence& e, const Observation& o, unsigned longest_run) {
 void record_owner(Evidence& evidence, std::uint32_t scan) {
     if (evidence.n_own > 0 && evidence.last_owner == scan) return;
     make_room(evidence, 1);
+    if (evidence.n_own == 0 || evidence.seen_empty) evidence.since = scan;
+    evidence.seen_empty = false;
     add(evidence.n_own, 1);
     evidence.last_owner = scan;
 }
 
-DynamicScore::Power::Power(float scale, int shift, float exponent)
-    : scale_(scale), shift_(static_cast<float>(shift)), exponent_(exponent), values_(8192) {
+void record_moved(Evidence& evidence, unsigned scans) {
+    make_room(evidence, scans);
+    add(evidence.moved, scans);
+}
+
+DynamicScore::Power::Power(int shift, float exponent)
+    : shift_(static_cast<float>(shift)), exponent_(exponent), values_(8192) {
     for (std::size_t i = 0; i < values_.size(); ++i) {
         values_[i] = compute(static_cast<float>(i) / kSteps);
     }
 }
 
-float DynamicScore::Power::compute(float n) const {
-    return scale_ * std::pow(n + shift_, exponent_);
-}
+float DynamicScore::Power::compute(float n) const { return std::pow(n + shift_, exponent_); }
 
 DynamicScore::DynamicScore(const ScansConfig::Evidence& config)
-    : by_switches_(static_cast<float>(config.flicker), 1, static_cast<float>(config.switch_power)),
-      by_occupied_(1.0F, 0, static_cast<float>(config.occupied_power)),
-      by_hits_(1.0F, 0, static_cast<float>(config.hit_power)),
+    : by_switches_(1, static_cast<float>(config.switch_power)),
+      by_occupied_(0, static_cast<float>(config.occupied_power)),
+      by_hits_(0, static_cast<float>(config.hit_power)),
+      flicker_(static_cast<float>(config.flicker)),
       offset_(static_cast<float>(config.offset)),
+      thin_flicker_(static_cast<float>(config.thin_flicker)),
+      thin_offset_(static_cast<float>(config.thin_offset)),
+      thin_benefit_(static_cast<float>(config.thin_benefit)),
       gain_(static_cast<float>(config.gain)),
       enough_(static_cast<float>(config.enough)),
       lowest_(-static_cast<float>(config.static_limit)) {}
@@ -87,7 +109,8 @@ float DynamicScore::scale_of(const Evidence& e) const {
 
 float DynamicScore::expected(const Evidence& e, float scale) const {
     const float occupied = static_cast<float>(e.occupied) / kSure;
-    return by_switches_(scale * e.n_switch) * by_occupied_(std::max(scale * occupied, 1.0F)) *
+    return flicker_ * by_switches_(scale * e.n_switch) *
+           by_occupied_(std::max(scale * occupied, 1.0F)) *
            by_hits_(std::max(scale * e.hits, 1.0F));
 }
 
@@ -96,11 +119,20 @@ float DynamicScore::expected_free(const Evidence& e) const {
     return expected(e, scale) / scale;
 }
 
+float DynamicScore::passed(const Evidence& e) const {
+    const auto observations = static_cast<float>(e.hits + e.passes);
+    const float scale = observations > enough_ ? enough_ / observations : 1.0F;
+    const float hits = std::max(scale * e.hits, 1.0F);
+    const float thin =
+        thin_flicker_ * by_switches_(scale * e.n_flicker) * by_occupied_(hits) * by_hits_(hits);
+    return std::log((scale * e.passes + thin_offset_) / (thin + thin_offset_)) + thin_benefit_;
+}
+
 float DynamicScore::operator()(const Evidence& e) const {
     const float scale = scale_of(e);
     const float free = scale * static_cast<float>(e.free) / kSure;
-    const float ratio = (free + offset_) / (expected(e, scale) + offset_);
-    return std::clamp(gain_ * std::log(ratio), lowest_, 1.0F);
+    const float seen = std::log((free + offset_) / (expected(e, scale) + offset_));
+    return std::clamp(gain_ * std::min(seen, passed(e)), lowest_, 1.0F);
 }
 
 float co_presence(const Evidence& a, const Evidence& b) {

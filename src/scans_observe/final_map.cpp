@@ -53,7 +53,7 @@ std::vector<std::size_t> points_above(const LocatedScan& scan,
 std::vector<VoxelDecision> decide_voxels(const EvidenceGrid& grid, const Config& config) {
     std::vector<std::uint32_t> all(grid.size());
     std::iota(all.begin(), all.end(), 0U);
-    const auto occupancy = occupancy_of(grid, all, config.scans.vote);
+    const auto occupancy = occupancy_of(grid, all, config.scans);
     std::vector<VoxelDecision> decided(all.size());
     for (std::size_t v = 0; v < all.size(); ++v) decided[v].probability = occupancy[v];
     parallel_for(all.size(), 1024, [&](std::size_t begin, std::size_t end) {
@@ -62,6 +62,19 @@ std::vector<VoxelDecision> decide_voxels(const EvidenceGrid& grid, const Config&
         }
     });
     return decided;
+}
+
+std::vector<std::optional<std::uint32_t>> occupied_since(const EvidenceGrid& grid,
+                                                         const ScansConfig::Evidence& config) {
+    std::vector<std::optional<std::uint32_t>> since(grid.size());
+    for (std::uint32_t v = 0; v < grid.size(); ++v) {
+        const Evidence& e = grid[v].evidence;
+        const auto longest = static_cast<std::uint32_t>(config.longest_run);
+        const bool is_seen = e.last == Sight::occupied && e.run >= longest && !e.seen_empty;
+        const bool has_points = e.last_owner - e.since + 1 >= longest;  // else it is but near one
+        if (is_seen && has_points) since[v] = e.since;
+    }
+    return since;
 }
 
 void decide_points(const LocatedScan& scan, const std::vector<VoxelDecision>& decided,

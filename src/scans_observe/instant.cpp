@@ -10,7 +10,8 @@
 namespace dynamic_filter {
 
 bool InstantVerdicts::is_due(const Said& said, const EvidenceGrid::State& state) const {
-    const bool same = std::abs(state.score - said.score) <= static_cast<float>(config_.ask_again);
+    const bool same =
+        std::abs(state.score - said.score) <= static_cast<float>(config_.vote.ask_again);
     if (!same) return true;
     return said.label == Label::unknown && !is_unknown(state.evidence);
 }

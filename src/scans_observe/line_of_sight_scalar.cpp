@@ -105,13 +105,15 @@ private:
     /// Judges by the surface between the nearest beams.
     [[nodiscard]] Sight between() const {
         int beams = 0;
-        bool any_beyond = false, all_behind = true, on_surface = false;
+        bool any_beyond = false, all_behind = true, on_surface = false, passed = false;
         float nearest = std::numeric_limits<float>::infinity();
         for (const auto& row : quad_) {
             for (const Near& beam : row) {
                 beams += beam.exists() ? 1 : 0;
                 if (beam.exists()) nearest = std::min(nearest, beam.range);
                 any_beyond |= is_beyond(beam);
+                passed |= beam.exists() && std::abs(beam.up) <= beside_ &&
+                          std::abs(beam.right) <= own_right_;
             }
         }
         if (beams < 2 || !any_beyond) return Sight::unknown;
@@ -136,7 +138,9 @@ private:
         }
         if (!all_behind) return on_surface ? Sight::weak_occupied : Sight::unknown;
         const float enough = beams == 4 ? margins_.clear : margins_.clear_unseen;
-        return nearest - place_.range >= enough ? Sight::free : Sight::weak_free;
+        const bool sure = nearest - place_.range >= enough;
+        if (passed) return sure ? Sight::passed : Sight::weak_passed;
+        return sure ? Sight::free : Sight::weak_free;
     }
 
     /// Above or below the image's border, or a hole in it, only a beam that all but meets the place

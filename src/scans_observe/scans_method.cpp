@@ -10,13 +10,16 @@ namespace dynamic_filter {
 
 /// The scan's points go into voxels; if it is a keyframe, its beams check the voxels around them;
 /// new voxels ask the earlier keyframes; each voxel of the scan is judged by its evidence and its
-/// neighbours'. What can wait: the beams check the rest of the map.
+/// neighbours'; what moves as one is judged as one. What can wait: the beams check the rest of the
+/// map.
 Judged ScansMethod::judge(Scan scan) {
     return timed(times_, "judge", [&] {
         const PointVoxels voxels = evidence_.insert(scan, times_);
         Verdict verdict = timed(times_, "instant_verdict", [&] {
             return instant_.judge(scan.index, voxels, evidence_.grid());
         });
+        timed(times_, "instances",
+              [&] { instances_.update(scan, voxels, evidence_.grid(), verdict.labels); });
         Judged judged;
         judged.verdicts.push_back(std::move(verdict));
         judged.integrate = [this] {
@@ -27,12 +30,30 @@ Judged ScansMethod::judge(Scan scan) {
 }
 
 std::vector<Verdict> ScansMethod::finish() {
-    timed(times_, "finish", [&] { decided_ = decide_voxels(evidence_.grid(), config_); });
+    timed(times_, "finish", [&] {
+        decided_ = decide_voxels(evidence_.grid(), config_);
+        if (config_.map.time == MapTime::latest) {
+            occupied_since_ = occupied_since(evidence_.grid(), config_.scans.evidence);
+        }
+    });
     return {};
 }
 
 void ScansMethod::decide(const LocatedScan& scan, Verdict& verdict) const {
     decide_points(scan, decided_, evidence_.grid(), config_, verdict);
+    if (config_.map.time != MapTime::latest) return;
+    verdict.stays.assign(scan.voxels.size(), false);
+    for (std::size_t i = 0; i < scan.voxels.size(); ++i) {
+        const std::uint32_t voxel = scan.voxels[i];
+        if (voxel < decided_.size()) verdict.stays[i] = stays(voxel, verdict.index);
+    }
+}
+
+/// A point of a dynamic voxel belongs to what is still there in the end.
+bool ScansMethod::stays(std::uint32_t voxel, std::size_t index) const {
+    const auto since = occupied_since_[voxel];
+    return since && index >= evidence_.index_of_owner(*since) &&
+           label_of(decided_[voxel].probability, config_.map.occupancy_threshold) == Label::dynamic;
 }
 
 void ScansMethod::settle(const LocatedScan& scan, Verdict& verdict) const {
@@ -40,7 +61,7 @@ void ScansMethod::settle(const LocatedScan& scan, Verdict& verdict) const {
     std::sort(own.begin(), own.end());
     own.erase(std::unique(own.begin(), own.end()), own.end());
     if (!own.empty() && own.back() == kNoVoxel) own.pop_back();
-    const auto occupancy = occupancy_of(evidence_.grid(), own, config_.scans.vote);
+    const auto occupancy = occupancy_of(evidence_.grid(), own, config_.scans);
     for (std::size_t i = 0; i < scan.voxels.size(); ++i) {
         if (scan.voxels[i] == kNoVoxel) continue;
         const auto at = std::lower_bound(own.begin(), own.end(), scan.voxels[i]) - own.begin();
@@ -51,7 +72,10 @@ void ScansMethod::settle(const LocatedScan& scan, Verdict& verdict) const {
 }
 
 void ScansMethod::keep_within(const Eigen::Vector3d& center, double radius, std::size_t most) {
-    instant_.keep(evidence_.keep_within(center.cast<float>(), static_cast<float>(radius), most));
+    const std::vector<std::uint32_t> kept =
+        evidence_.keep_within(center.cast<float>(), static_cast<float>(radius), most);
+    instant_.keep(kept);
+    instances_.keep(kept);
 }
 
 std::vector<VoxelOccupancy> ScansMethod::local_map(const Pose& T_map_query,
@@ -59,7 +83,7 @@ std::vector<VoxelOccupancy> ScansMethod::local_map(const Pose& T_map_query,
     const auto reach = static_cast<float>(radius.value_or(config_.map.search_radius));
     const std::vector<std::uint32_t> near =
         evidence_.grid().within(T_map_query.translation().cast<float>(), reach);
-    const auto occupancy = occupancy_of(evidence_.grid(), near, config_.scans.vote);
+    const auto occupancy = occupancy_of(evidence_.grid(), near, config_.scans);
     std::vector<VoxelOccupancy> result;
     for (std::size_t i = 0; i < near.size(); ++i) {
         if (label_of(occupancy[i], config_.map.occupancy_threshold) == Label::static_) {
@@ -73,8 +97,11 @@ std::vector<VoxelOccupancy> ScansMethod::static_map() const {
     std::vector<VoxelOccupancy> result;
     for (std::uint32_t v = 0; v < decided_.size(); ++v) {
         const auto& probability = decided_[v].probability;
+        const bool is_there = v < occupied_since_.size() && occupied_since_[v];
         if (label_of(probability, config_.map.occupancy_threshold) == Label::static_) {
             result.push_back({v, *probability});
+        } else if (probability && is_there) {
+            result.push_back({v, 1.0F});  // seen there until the end
         }
     }
     return result;

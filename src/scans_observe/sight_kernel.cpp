@@ -152,7 +152,12 @@ DF_INLINE Ints judge(const SightArgs& args, const Places& p, const Around& aroun
     const Floats range = p.range, surface = args.surface + args.per_metre * range;
     const Floats far = range + args.beyond;
     const auto is_beyond = [&](const Near& beam) { return exists(beam) & (beam.range > far); };
-    Ints beams{}, any_beyond{}, on_surface{};
+    // Beams go on where the place is free: near enough to the place, they went through it.
+    const auto passes = [&](const Near& beam) {
+        return exists(beam) & (magnitude(beam.up) <= p.beside_rows) &
+               (magnitude(beam.right) <= p.own_columns);
+    };
+    Ints beams{}, any_beyond{}, on_surface{}, passed{};
     Ints all_behind = ~Ints{};
     Floats nearest = zero + kNone;
     for (int side = 0; side < 2; ++side) {
@@ -161,6 +166,7 @@ DF_INLINE Ints judge(const SightArgs& args, const Places& p, const Around& aroun
         nearest = smaller(nearest, smaller(exists(below) ? below.range : zero + kNone,
                                            exists(above) ? above.range : zero + kNone));
         any_beyond |= is_beyond(below) | is_beyond(above);
+        passed |= passes(below) | passes(above);
         const Ints both = exists(below) & exists(above);
         const Side up_down = side_of(args, args.elevation_step * below.up, below.range,
                                      args.elevation_step * above.up, above.range, range, surface);
@@ -184,7 +190,8 @@ DF_INLINE Ints judge(const SightArgs& args, const Places& p, const Around& aroun
     const Ints free = judged & all_behind & ~around.touched;
     const Floats enough = beams == 4 ? zero + args.clear : zero + args.clear_unseen;
     const Ints weak = on | (free & (nearest - range < enough));
-    return p.in_range & (((around.touched | on) & 1) | (free & 2) | (weak & 4));
+    return p.in_range &
+           (((around.touched | on) & 1) | (free & 2) | (weak & 4) | (free & passed & 8));
 }
 
 /// Places that are collected until there are sixteen of them, by their number.

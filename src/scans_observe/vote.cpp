@@ -65,11 +65,20 @@ struct Neighborhood {
     }
 };
 
+/// How occupied a voxel can be, as its points were part of what moves: one half at the share at
+/// which it is dynamic.
+float rest_of(const Evidence& e, const ScansConfig::Instances& config) {
+    if (e.moved == 0) return 1.0F;
+    const float moved = static_cast<float>(e.moved) / static_cast<float>(e.n_own);
+    return std::max(1.0F - 0.5F * moved / static_cast<float>(config.share), 0.0F);
+}
+
 }  // namespace
 
 std::vector<std::optional<float>> occupancy_of(const EvidenceGrid& grid,
                                                std::span<const std::uint32_t> voxels,
-                                               const ScansConfig::Vote& config) {
+                                               const ScansConfig& scans) {
+    const ScansConfig::Vote& config = scans.vote;
     std::vector<std::pair<std::uint32_t, std::size_t>> by_block;  // block, place among `voxels`
     for (std::size_t i = 0; i < voxels.size(); ++i) {
         by_block.emplace_back(grid.voxels().block_of_voxel(voxels[i]), i);
@@ -89,7 +98,8 @@ std::vector<std::optional<float>> occupancy_of(const EvidenceGrid& grid,
             const float vote =
                 neighborhood.vote_on(unpack(grid.voxels().key(v)), grid[v].evidence, config);
             if (vote == 0.0F && is_unknown(grid[v].evidence)) continue;
-            result[at] = 1.0F / (1.0F + std::exp(steepness * (grid[v].score + vote)));
+            const float occupancy = 1.0F / (1.0F + std::exp(steepness * (grid[v].score + vote)));
+            result[at] = std::min(occupancy, rest_of(grid[v].evidence, scans.instances));
         }
     });
     return result;

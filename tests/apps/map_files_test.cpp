@@ -31,12 +31,14 @@ io::Frame frame_of(io::FieldType type, std::size_t points) {
     return frame;
 }
 
+Verdict with(Labels labels) { return {.labels = std::move(labels), .probability = {}}; }
+
 template <class T>
 void expect_split(io::FieldType type) {
     const test::TemporaryFolder folder;
     MapFiles maps(folder.path(), true, false);
     maps.append(frame_of<T>(type, 4),
-                {Label::static_, Label::dynamic, Label::unknown, Label::static_});
+                with({Label::static_, Label::dynamic, Label::unknown, Label::static_}));
     maps.commit();
     const io::Cloud still = io::read_cloud(folder / "static_map.pcd");
     const io::Cloud dynamic = io::read_cloud(folder / "dynamic_points.pcd");
@@ -58,12 +60,24 @@ TEST(MapFiles, LeaveOutUnknownIfAskedAndPointsThatAreNotFinite) {
     MapFiles maps(folder.path(), false, false);
     io::Frame frame = frame_of<float>(io::FieldType::f32, 3);
     frame.points[0].x() = std::numeric_limits<float>::quiet_NaN();
-    maps.append(frame, {Label::static_, Label::unknown, Label::static_});
+    maps.append(frame, with({Label::static_, Label::unknown, Label::static_}));
     frame.points[2].setZero();
-    maps.append(frame, {Label::static_, Label::unknown, Label::static_});
+    maps.append(frame, with({Label::static_, Label::unknown, Label::static_}));
     maps.commit();
     EXPECT_EQ(io::read_cloud(folder / "static_map.pcd").size(), 1U);
     EXPECT_EQ(io::read_cloud(folder / "dynamic_points.pcd").size(), 0U);
+}
+
+TEST(MapFiles, WhatStaysBelongsToTheStaticMap) {
+    const test::TemporaryFolder folder;
+    MapFiles maps(folder.path(), true, false);
+    Verdict verdict = with({Label::static_, Label::dynamic, Label::dynamic});
+    verdict.stays = {false, true, false};
+    maps.append(frame_of<float>(io::FieldType::f32, 3), verdict);
+    maps.commit();
+    const io::Cloud still = io::read_cloud(folder / "static_map.pcd");
+    EXPECT_EQ(io::values(still, *still.find("ring")), (std::vector<double>{100, 101}));
+    EXPECT_EQ(io::read_cloud(folder / "dynamic_points.pcd").size(), 1U);
 }
 
 TEST(MapFiles, FarFromTheOriginCoordinatesAreDoubles) {
@@ -71,7 +85,7 @@ TEST(MapFiles, FarFromTheOriginCoordinatesAreDoubles) {
     MapFiles maps(folder.path(), true, false);
     io::Frame frame = frame_of<float>(io::FieldType::f32, 2);
     frame.T_world_sensor.translation() = Eigen::Vector3d(5e5, 5e6 + 0.125, 30);
-    maps.append(frame, {Label::static_, Label::static_});
+    maps.append(frame, with({Label::static_, Label::static_}));
     maps.commit();
     const io::Cloud still = io::read_cloud(folder / "static_map.pcd");
     EXPECT_NEAR(io::values(still, *still.find("y"))[1], 5e6 + 2.125, 1e-6);
@@ -82,7 +96,7 @@ TEST(MapFiles, RecordsInTheWorldFrameArePassedOnUnchanged) {
     const test::TemporaryFolder folder;
     MapFiles maps(folder.path(), true, true);
     const io::Frame frame = frame_of<float>(io::FieldType::f32, 3);
-    maps.append(frame, Labels(3, Label::static_));
+    maps.append(frame, with(Labels(3, Label::static_)));
     maps.commit();
     EXPECT_EQ(io::read_cloud(folder / "static_map.pcd").data, frame.cloud.data);
 }
@@ -91,7 +105,7 @@ TEST(MapFiles, LeaveNothingWithoutCommit) {
     const test::TemporaryFolder folder;
     {
         MapFiles maps(folder.path(), true, false);
-        maps.append(frame_of<float>(io::FieldType::f32, 1), {Label::static_});
+        maps.append(frame_of<float>(io::FieldType::f32, 1), with({Label::static_}));
     }
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }

@@ -423,6 +423,62 @@ TEST(ScansObserve, PointsThatAreNoMeasurementsAndUnseenScansAreUnknown) {
     EXPECT_EQ(never_fed.contents().voxels, 0U);
 }
 
+/// A person crosses the room for 10 scans and stands for 30; another crosses at the end.
+std::vector<RoomScan> one_comes_and_stays() {
+    const test::Box room{{-6.03, -5.03, 0.02}, {9.03, 5.03, 3.1}};
+    const auto person = [](double x, double y) {
+        const Eigen::Vector3d half(0.25, 0.25, 0.0), feet(x, y, 0.02);
+        return test::Box{feet - half, feet + half + Eigen::Vector3d(0.0, 0.0, 1.7)};
+    };
+    std::vector<RoomScan> scans;
+    for (std::size_t i = 0; i < 40; ++i) {
+        const auto t = static_cast<double>(i);
+        std::vector<test::Box> people{person(5.5, std::min(0.4 * t - 4.5, -0.5))};
+        if (i > 30) people.push_back(person(-3.5, 0.4 * (t - 35.0)));
+        Pose pose = Pose::Identity();
+        pose.translation() = Eigen::Vector3d(t / 64.0, 0.25, 1.25);
+        scans.push_back(test::scan_room(pose, room, people));
+        scans.back().scan.stamp = 0.5 * t;
+        scans.back().scan.index = i;
+    }
+    return scans;
+}
+
+TEST(ScansObserve, TheLatestMapHoldsWhatCameAndStayed) {
+    const auto scans = one_comes_and_stays();
+    Config latest;
+    latest.map.time = MapTime::latest;
+    const Outcome always = run(scans, Config{}), now = run(scans, latest);
+    int stood = 0, stayed = 0;
+    for (std::size_t s = 0; s < scans.size(); ++s) {
+        EXPECT_EQ(now.final[s].labels, always.final[s].labels);  // what moved has moved
+        EXPECT_TRUE(always.final[s].stays.empty());
+        for (std::size_t i = 0; i < scans[s].truth.size(); ++i) {
+            if (scans[s].truth[i] != Label::dynamic) continue;
+            const bool stays = now.final[s].stays[i];
+            EXPECT_TRUE(!stays || now.final[s].labels[i] == Label::dynamic);
+            EXPECT_FALSE(stays && (s < 9 || scans[s].scan.points[i].x() < 0.0F)) << s;
+            if (s < 20 || now.final[s].labels[i] != Label::dynamic) continue;
+            if (scans[s].scan.points[i].x() < 0.0F) continue;
+            ++stood;
+            stayed += stays ? 1 : 0;
+        }
+    }
+    EXPECT_GT(stood, 400);
+    EXPECT_GT(stayed, 0.8 * stood);
+    const auto voxels_near = [&](const Config& config) {
+        DynamicFilter filter(config);
+        for (const RoomScan& s : scans) filter.push(s.scan);
+        filter.finish();
+        const auto map = filter.static_map();
+        return std::count_if(map.begin(), map.end(), [](const StaticVoxel& v) {
+            return (v.center - Eigen::Vector3d(5.5, -0.5, 1.0)).norm() < 0.6;
+        });
+    };
+    EXPECT_EQ(voxels_near(Config{}), 0);
+    EXPECT_GT(voxels_near(latest), 10);
+}
+
 TEST(ScansObserve, AFootOnTheGroundIsDynamicAndTheGroundIsNot) {
     const auto scans = drive(24, true);
     const Outcome result = run(scans, Config{});

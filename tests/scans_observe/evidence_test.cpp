@@ -15,11 +15,13 @@ void look(Evidence& e, Sight sight, unsigned weight = 1, bool hit = false) {
     record(e, {sight, weight, hit}, kRun);
 }
 
-/// 'o' occupied, 'O' and hit, '-' free, '.' weakly free, ' ' unknown.
+/// 'o' occupied, 'O' and hit, '-' free with a beam through the voxel, '=' without, '.' weakly free,
+/// ' ' unknown.
 void take_in(Evidence& e, std::string_view sights) {
     for (const char c : sights) {
         const Sight sight = c == 'o' || c == 'O' ? Sight::occupied
-                            : c == '-'           ? Sight::free
+                            : c == '-'           ? Sight::passed
+                            : c == '='           ? Sight::free
                             : c == '.'           ? Sight::weak_free
                                                  : Sight::unknown;
         look(e, sight, 1, c == 'O');
@@ -95,6 +97,20 @@ TEST(Record, ALongRunTellsNoMoreThanItsBeginning) {
     EXPECT_EQ(at_once.hits, brief.hits);
 }
 
+TEST(Record, ARunBeginsWithTheFirstPointAfterTheVoxelWasEmpty) {
+    Evidence e;
+    for (const std::uint32_t scan : {3U, 4U}) record_owner(e, scan);
+    EXPECT_EQ(e.since, 3U);
+    look(e, Sight::weak_free);
+    record_owner(e, 5U);
+    EXPECT_EQ(e.since, 3U);  // perhaps it was not empty
+    look(e, Sight::free);
+    EXPECT_TRUE(e.seen_empty);
+    for (const std::uint32_t scan : {9U, 10U}) record_owner(e, scan);
+    EXPECT_EQ(e.since, 9U);
+    EXPECT_FALSE(e.seen_empty);
+}
+
 TEST(IsUnknown, UntilItIsPassedOrSeenTwice) {
     EXPECT_TRUE(is_unknown(after("")));
     EXPECT_TRUE(is_unknown(after("o  ")));
@@ -142,6 +158,18 @@ TEST(DynamicScore, OneLongRunSaysMoreThanTheSameNumberOfShortOnes) {
     EXPECT_EQ(left.n_free, leaf.n_free);
     EXPECT_GT(score(left), 0.0F);  // stood there half of the time, and left
     EXPECT_LT(score(leaf), 0.0F);
+}
+
+// A bar under a ceiling: few scans have a beam at its height, all others see free space.
+TEST(DynamicScore, WhatIsThinIsStatic) {
+    std::string bar, crossed;
+    for (int i = 0; i < 10; ++i) {
+        bar += "==O==-===";
+        crossed += "==-==-==-";
+    }
+    EXPECT_LT(score(after(bar)), 0.0F);
+    EXPECT_GT(score(after(crossed + "OO" + crossed)), 0.5F);
+    EXPECT_GT(score(after("O==========")), 0.0F);  // one hit is too few for that
 }
 
 // A car at a light for five minutes, seen through for 2 s after it left.

@@ -28,7 +28,7 @@ inline EvidenceMap filled(const std::vector<RoomScan>& scans, const Config& conf
 }
 
 inline std::optional<float> probability_of(const EvidenceMap& map, std::uint32_t voxel) {
-    return occupancy_of(map.grid(), {&voxel, 1}, ScansConfig{}.vote)[0];
+    return occupancy_of(map.grid(), {&voxel, 1}, ScansConfig{})[0];
 }
 
 }  // namespace dynamic_filter::test

@@ -26,7 +26,7 @@ TEST(InstantVerdicts, AskedWithoutReserveAreThoseOfTheEvidenceSoFar) {
         EXPECT_EQ(verdict.index, s.scan.index);
         EXPECT_TRUE(verdict.probability.empty());
         for (std::size_t i = 0; i < voxels.size(); i += 17) {
-            const auto occupancy = occupancy_of(map.grid(), {&voxels[i], 1}, config.scans.vote);
+            const auto occupancy = occupancy_of(map.grid(), {&voxels[i], 1}, config.scans);
             EXPECT_EQ(verdict.labels[i], label_of(occupancy[0], config.map.occupancy_threshold));
             known += occupancy[0] ? 1 : 0;
         }

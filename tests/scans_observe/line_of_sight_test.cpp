@@ -106,13 +106,33 @@ TEST(LineOfSight, WhatStoodOnTheGroundIsFreeOnceItIsGone) {
     }
 }
 
+bool is_sure_free(Sight sight) { return is_free(sight) && !is_weak(sight); }
+bool is_weak_free(Sight sight) { return is_free(sight) && is_weak(sight); }
+
 TEST(LineOfSight, IsWeakJustBeforeASurfaceAndAtTheBorderOfTheImage) {
     const BeamImage image = scan(wall(10.0));
-    EXPECT_EQ(sight_of(image, {7.0, 0.3, 0.2}), Sight::free);
-    EXPECT_EQ(sight_of(image, {9.75, 0.3, 0.2}), Sight::weak_free);
+    EXPECT_TRUE(is_sure_free(sight_of(image, {7.0, 0.3, 0.2})));
+    EXPECT_TRUE(is_weak_free(sight_of(image, {9.75, 0.3, 0.2})));
     const Eigen::Vector3d above = ray_to(0.0, 16.2 * kDeg);  // of all beams
-    EXPECT_EQ(sight_of(image, 7.0 * above), Sight::free);
-    EXPECT_EQ(sight_of(image, 9.0 * above), Sight::weak_free);
+    EXPECT_TRUE(is_sure_free(sight_of(image, 7.0 * above)));
+    EXPECT_TRUE(is_weak_free(sight_of(image, 9.0 * above)));
+}
+
+TEST(LineOfSight, KnowsWhetherABeamWentThroughThePlaceItself) {
+    const BeamImage image = scan(wall(30.0));
+    for (double turn = -20.0; turn < 20.0; turn += 0.37) {
+        for (const double range : {2.0, 5.0, 25.0}) {  // beams are 0.05 m apart, and 0.9 m
+            const Sight sight = sight_of(image, range * ray_to(turn * kDeg, 0.4 * turn * kDeg));
+            ASSERT_TRUE(is_free(sight)) << turn << ' ' << range;
+            EXPECT_TRUE(range > 3.0 || is_passed(sight)) << turn;
+        }
+    }
+    int passed = 0, asked = 0;
+    for (double up = -5.0; up < 5.0; up += 0.1, ++asked) {
+        passed += is_passed(sight_of(image, 25.0 * ray_to(0.0, up * kDeg))) ? 1 : 0;
+    }
+    EXPECT_GT(passed, 0);
+    EXPECT_LT(passed, asked / 2);
 }
 
 TEST(LineOfSight, NoWallAlongTheBeamsIsFree) {

@@ -90,7 +90,7 @@ std::vector<std::uint8_t> check_with(const Level& level, const BeamImage& image,
 
 TEST(SightKernel, EveryLevelAgreesWithTheScalarFormAndBitByBitWithTheOthers) {
     test::Random random(5);
-    std::array<int, 7> seen{};
+    std::array<int, 15> seen{};
     for (const auto& [step, view] : {std::pair{1.0, 360.0},
                                      {1.0, 359.0},
                                      {1.0, 357.0},
@@ -120,8 +120,8 @@ TEST(SightKernel, EveryLevelAgreesWithTheScalarFormAndBitByBitWithTheOthers) {
         EXPECT_LE(other, 10) << step;
         for (const int count : kinds) EXPECT_GT(count, 50) << step;
     }
-    for (const Sight sight :
-         {Sight::unknown, Sight::occupied, Sight::free, Sight::weak_occupied, Sight::weak_free}) {
+    for (const Sight sight : {Sight::unknown, Sight::occupied, Sight::free, Sight::weak_occupied,
+                              Sight::weak_free, Sight::passed, Sight::weak_passed}) {
         EXPECT_GT(seen[static_cast<std::size_t>(sight)], 100);
     }
 }

@@ -46,7 +46,7 @@ TEST(OccupancyOf, ProbabilityAddsUpTheVoxelItsCompanyAndItsNeighborhood) {
     const EvidenceMap map = filled(drive(12, true), every_scan());
     std::vector<std::uint32_t> all(map.grid().voxels().size());
     std::iota(all.begin(), all.end(), 0U);
-    const auto together = occupancy_of(map.grid(), all, ScansConfig{}.vote);
+    const auto together = occupancy_of(map.grid(), all, ScansConfig{});
     int compared = 0;
     for (std::uint32_t v = 0; v < map.grid().voxels().size(); v += 11) {
         if (!together[v]) continue;

@@ -55,6 +55,9 @@ struct ScansConfig {
         double occupied_power = 0.37;
         double hit_power = 0.33;
         double offset = 1.0;
+        double thin_flicker = 0.6;
+        double thin_offset = 2.0;
+        double thin_benefit = 0.3;
         double gain = 2.8;
         double enough = 40.0;
         int longest_run = 16;
@@ -71,6 +74,26 @@ struct ScansConfig {
         double steepness = 3.0;
         double ask_again = 0.2;
     } vote;
+
+    /// Clusters of a scan, and their tracks over time: see clusters.hpp and instances.hpp.
+    struct Instances {
+        double every = 0.15;
+        double reach = 60.0;
+        double cell = 0.3;
+        double ground_cell = 1.2;
+        double ground = 0.25;
+        double top = 3.0;
+        double largest = 12.0;
+        int fewest = 3;
+        double overlap = 0.2;
+        double jump = 0.8;
+        double growth = 3.0;
+        double lost = 1.5;
+        double dynamic_share = 0.6;
+        int dynamic_scans = 3;
+        double gone = 0.5;
+        double share = 0.7;
+    } instances;
 
     /// Points on a static surface, below something that moves: see contact.hpp.
     struct Contact {
@@ -170,6 +193,15 @@ void visit_scans(C& scans, F&& f) {
     field("scans.evidence.offset", "1",
           "observations added to both sides, so that one more or less is not everything", 0.01, 100,
           e.offset);
+    field("scans.evidence.thin_flicker", "1",
+          "as flicker, of the keyframes with a beam through the voxel itself: what is thin lies "
+          "between the beams of all others, and looks free to them",
+          0, 10, e.thin_flicker);
+    field("scans.evidence.thin_offset", "1", "as offset, of those keyframes", 0.01, 100,
+          e.thin_offset);
+    field("scans.evidence.thin_benefit", "1",
+          "natural logarithm in favour of what moves, of those keyframes: most things are not thin",
+          0, 10, e.thin_benefit);
     field("scans.evidence.gain", "1", "score per natural logarithm of the ratio of both sides",
           0.01, 100, e.gain);
     field("scans.evidence.enough", "1",
@@ -209,6 +241,50 @@ void visit_scans(C& scans, F&& f) {
           "an instant verdict is made anew when the voxel's score has changed by more: a tenth of "
           "its range",
           0, 2, v.ask_again);
+
+    auto& i = scans.instances;
+    field("scans.instances.every", "s",
+          "clusters are sought in a scan if so much time has passed since the last: things overlap "
+          "where they were then",
+          0.01, 10, i.every);
+    field("scans.instances.reach", "m",
+          "... as far as this from the sensor: beyond, points lie too far apart", 1, 1000, i.reach);
+    field("scans.instances.cell", "m",
+          "seen from above, points in cells of this size that touch each other are one cluster",
+          0.05, 5, i.cell);
+    field("scans.instances.ground_cell", "m",
+          "the ground of a cell of this size is the lowest point in it or beside it", 0.1, 20,
+          i.ground_cell);
+    field("scans.instances.ground", "m",
+          "points less high over the ground are left out, or it would connect everything", 0, 10,
+          i.ground);
+    field("scans.instances.top", "m",
+          "... and so are points higher than this: a canopy or a ceiling", 0.1, 100, i.top);
+    field("scans.instances.largest", "m", "what is longer is no cluster: walls, hedges", 0.5, 1000,
+          i.largest);
+    field("scans.instances.fewest", "1", "voxels of a cluster that is followed", 1, 1000, i.fewest);
+    field("scans.instances.overlap", "1",
+          "share of a cluster's voxels in blocks of voxels where its track was, at least", 0.01, 1,
+          i.overlap);
+    field("scans.instances.jump", "m",
+          "a cluster is not its track if its middle is farther from where that was or would be by "
+          "now: two things that touch are one cluster for a while",
+          0.05, 100, i.jump);
+    field("scans.instances.growth", "1", "... nor if it is so many times larger or smaller", 1, 100,
+          i.growth);
+    field("scans.instances.lost", "s", "a track that was not seen for so long is lost", 0.1, 100,
+          i.lost);
+    field("scans.instances.dynamic_share", "1",
+          "a cluster is dynamic if this share of its voxels is, by instant verdicts", 0.01, 1,
+          i.dynamic_share);
+    field("scans.instances.dynamic_scans", "1",
+          "a track moves if it was dynamic in so many scans: in one, evidence is thin", 1, 1000,
+          i.dynamic_scans);
+    field("scans.instances.gone", "m", "... and has gone this far: leaves stay where they are", 0,
+          100, i.gone);
+    field("scans.instances.share", "1",
+          "a voxel is dynamic if its points were part of what moves in this share of its scans",
+          0.5, 1, i.share);
 
     auto& c = scans.contact;
     field("scans.contact.fewest", "1", "static voxels that make a surface", 3, 100, c.fewest);

@@ -15,17 +15,23 @@ inline constexpr unsigned kWeak = 1, kSure = 8;
 
 /// Counters of one voxel. Before one overflows, all are halved.
 struct Evidence {
-    std::uint16_t n_own = 0;        ///< scans with a point in it
-    std::uint16_t n_occ = 0;        ///< keyframes that saw it occupied
-    std::uint16_t n_free = 0;       ///< keyframes that saw through it
-    std::uint16_t n_switch = 0;     ///< changes between the two, in the order of the keyframes
-    std::uint16_t occupied = 0;     ///< as n_occ, but weighed, and of each run its beginning
-    std::uint16_t free = 0;         ///< as n_free, but weighed
-    std::uint16_t hits = 0;         ///< as n_occ, but of each run its beginning, and with a point
-    std::uint8_t run = 0;           ///< keyframes of the present run, as far as they count
-    Sight last = Sight::unknown;    ///< what the newest keyframe saw: occupied or free
-    std::uint32_t first_owner = 0;  ///< the first scan with a point in it, by their order ...
-    std::uint32_t last_owner = 0;   ///< ... and the last
+    std::uint16_t n_own = 0;      ///< scans with a point in it
+    std::uint16_t n_occ = 0;      ///< keyframes that saw it occupied
+    std::uint16_t n_free = 0;     ///< keyframes that saw through it
+    std::uint16_t n_switch = 0;   ///< changes between the two, in the order of the keyframes
+    std::uint16_t occupied = 0;   ///< as n_occ, but weighed, and of each run its beginning
+    std::uint16_t free = 0;       ///< as n_free, but weighed
+    std::uint16_t hits = 0;       ///< as n_occ, but of each run its beginning, and with a point
+    std::uint16_t passes = 0;     ///< as n_free, but with a beam through the voxel itself
+    std::uint16_t n_flicker = 0;  ///< changes between such keyframes and hits
+    std::uint16_t moved = 0;      ///< scans in which its points were part of what moves
+    std::uint8_t run = 0;         ///< keyframes of the present run, as far as they count
+    Sight last = Sight::unknown;  ///< what the newest keyframe saw: occupied or free
+    Sight last_near = Sight::unknown;  ///< of the newest hit (occupied) or pass (free)
+    bool seen_empty = false;           ///< surely free since the last point in it
+    std::uint32_t since = 0;           ///< the first scan with a point in it since then
+    std::uint32_t first_owner = 0;     ///< the first scan with a point in it, by their order ...
+    std::uint32_t last_owner = 0;      ///< ... and the last
 };
 
 /// What a keyframe saw of a voxel, as if `weight` keyframes like it had seen it. `hit`: its own
@@ -44,6 +50,9 @@ void record(Evidence& evidence, const Observation& observation, unsigned longest
 /// Notes that this scan, by the order of the scans, has a point in the voxel: once a scan.
 void record_owner(Evidence& evidence, std::uint32_t scan);
 
+/// Notes that in so many scans the points in the voxel were part of something that moves.
+void record_moved(Evidence& evidence, unsigned scans);
+
 /// True while none saw through it and fewer than two saw it: one of those is the scan that found
 /// it.
 inline bool is_unknown(const Evidence& e) { return e.n_occ < 2 && e.n_free == 0; }
@@ -54,6 +63,11 @@ inline bool is_unknown(const Evidence& e) { return e.n_occ < 2 && e.n_free == 0;
 /// is compared with what the number of runs and of returns lead one to expect of a static voxel:
 ///     expected = flicker (1 + n_switch)^switch_power occupied^occupied_power hits^hit_power
 ///     gain * log((free + offset) / (expected + offset))
+/// Something thin, as a bar or an awning seen from below, lies between the beams of most scans, and
+/// is static all the same. So the same is asked of those keyframes alone that had a beam through
+/// the voxel itself, and the smaller score counts:
+///     thin = thin_flicker (1 + n_flicker)^switch_power hits^(occupied_power + hit_power)
+///     gain * (log((passes + thin_offset) / (thin + thin_offset)) + thin_benefit)
 /// Where observations are more than `enough`, all counters are scaled down to so many first: the
 /// sum of the exponents is more than one, so without that every busy place would become static once
 /// a recording is long enough. Thread-safe.
@@ -65,11 +79,11 @@ public:
     [[nodiscard]] float expected_free(const Evidence& evidence) const;
 
 private:
-    /// scale * (n + shift)^exponent, from a table in steps of 1/16: pow() would be most of what a
+    /// (n + shift)^exponent, from a table in steps of 1/16: pow() would be most of what a
     /// look costs.
     class Power {
     public:
-        Power(float scale, int shift, float exponent);
+        Power(int shift, float exponent);
         [[nodiscard]] float operator()(float n) const {
             const auto step = static_cast<std::size_t>(kSteps * n + 0.5F);
             return step < values_.size() ? values_[step] : compute(n);
@@ -78,14 +92,16 @@ private:
     private:
         static constexpr float kSteps = 16.0F;
         [[nodiscard]] float compute(float n) const;
-        float scale_, shift_, exponent_;
+        float shift_, exponent_;
         std::vector<float> values_;
     };
     /// By how much counters are scaled down.
     [[nodiscard]] float scale_of(const Evidence& evidence) const;
     [[nodiscard]] float expected(const Evidence& evidence, float scale) const;
+    /// Logarithm of the ratio, of the keyframes with a beam through the voxel.
+    [[nodiscard]] float passed(const Evidence& evidence) const;
     Power by_switches_, by_occupied_, by_hits_;
-    float offset_, gain_, enough_, lowest_;
+    float flicker_, offset_, thin_flicker_, thin_offset_, thin_benefit_, gain_, enough_, lowest_;
 };
 
 /// How much of their time two voxels were there together: the overlap of the spans between their

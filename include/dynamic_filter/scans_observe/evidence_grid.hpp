@@ -29,6 +29,11 @@ public:
     /// scan.
     void record(std::uint32_t voxel, Sight sight, unsigned weight, bool newest);
 
+    /// See evidence.hpp.
+    void record_moved(std::uint32_t voxel, unsigned scans) {
+        dynamic_filter::record_moved(states_[voxel].evidence, scans);
+    }
+
     /// Forgets blocks whose middle lies beyond `radius` [m] of a place, and the farthest ones until
     /// about `most_voxels` are left. Voxels get new numbers. Returns the old number of each.
     std::vector<std::uint32_t> keep_within(const Point& center, float radius,

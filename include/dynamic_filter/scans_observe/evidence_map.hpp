@@ -49,6 +49,7 @@ public:
     /// Scan::index of an owner (Evidence::first_owner, last_owner).
     [[nodiscard]] std::size_t index_of_owner(std::uint32_t owner) const { return indices_[owner]; }
     [[nodiscard]] const EvidenceGrid& grid() const { return grid_; }
+    [[nodiscard]] EvidenceGrid& grid() { return grid_; }
     [[nodiscard]] const Observers& observers() const { return observers_; }
 
 private:

@@ -16,7 +16,7 @@ namespace dynamic_filter {
 class InstantVerdicts {
 public:
     explicit InstantVerdicts(const Config& config)
-        : config_(config.scans.vote), threshold_(config.map.occupancy_threshold) {}
+        : config_(config.scans), threshold_(config.map.occupancy_threshold) {}
 
     /// The verdict on the scan that the grid took in last; `voxels`: of its points.
     Verdict judge(std::size_t index, const PointVoxels& voxels, const EvidenceGrid& grid);
@@ -31,7 +31,7 @@ private:
     };
     [[nodiscard]] bool is_due(const Said& said, const EvidenceGrid::State& state) const;
 
-    ScansConfig::Vote config_;
+    ScansConfig config_;
     double threshold_;
     std::vector<Said> said_;  // by voxel
 };

@@ -6,6 +6,7 @@
 #include "dynamic_filter/method.hpp"
 #include "dynamic_filter/scans_observe/evidence_map.hpp"
 #include "dynamic_filter/scans_observe/final_map.hpp"
+#include "dynamic_filter/scans_observe/instances.hpp"
 #include "dynamic_filter/scans_observe/instant.hpp"
 
 namespace dynamic_filter {
@@ -15,7 +16,10 @@ namespace dynamic_filter {
 class ScansMethod final : public FilterMethod {
 public:
     explicit ScansMethod(const Config& config)
-        : config_(config), evidence_(config), instant_(config) {}
+        : config_(config),
+          evidence_(config),
+          instant_(config),
+          instances_(config.scans.instances) {}
 
     Judged judge(Scan scan) override;
     [[nodiscard]] bool judges_each_scan() const override { return true; }
@@ -34,10 +38,15 @@ public:
     [[nodiscard]] StageTimes times() const override { return times_; }
 
 private:
+    [[nodiscard]] bool stays(std::uint32_t voxel, std::size_t index) const;
+
     Config config_;
     EvidenceMap evidence_;
     InstantVerdicts instant_;
+    Instances instances_;
     std::vector<VoxelDecision> decided_;  // by voxel, after finish()
+    /// By voxel, with `map.time` = latest: see occupied_since().
+    std::vector<std::optional<std::uint32_t>> occupied_since_;
     StageTimes times_;
 };
 
