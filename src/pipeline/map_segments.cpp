@@ -11,7 +11,7 @@ namespace dynamic_filter {
 namespace {
 
 /// Of the map, with what its containers hold in reserve.
-constexpr std::size_t kBytesPerVoxel = 160;
+constexpr std::size_t kBytesPerVoxel = 172;
 
 }  // namespace
 

@@ -76,8 +76,9 @@ void record_owner(Evidence& evidence, std::uint32_t scan) {
 }
 
 void record_moved(Evidence& evidence, unsigned scans) {
-    make_room(evidence, scans);
-    add(evidence.moved, scans);
+    const unsigned most = std::min(scans, kMost / 2);  // hours of rest
+    make_room(evidence, most);
+    add(evidence.moved, most);
 }
 
 DynamicScore::Power::Power(int shift, float exponent)

@@ -392,7 +392,7 @@ TEST(OnlineFilter, BytesBoundTheMapToo) {
     for (const RoomScan& s : scans) {
         filter.push(s.scan);
         filter.flush();
-        EXPECT_LE(filter.contents().voxels, small.max_bytes / 160 + 500);  // and one scan's
+        EXPECT_LE(filter.contents().voxels, small.max_bytes / 172 + 500);  // and one scan's
     }
     filter.finish();
     OnlineFilter submaps(small_windows(), small);

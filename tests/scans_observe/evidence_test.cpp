@@ -111,6 +111,17 @@ TEST(Record, ARunBeginsWithTheFirstPointAfterTheVoxelWasEmpty) {
     EXPECT_FALSE(e.seen_empty);
 }
 
+TEST(Record, HoursOfRestLeaveRoom) {
+    Evidence e;
+    for (std::uint32_t scan = 0; scan < 100; ++scan) record_owner(e, scan);
+    record_moved(e, 50);
+    EXPECT_EQ(e.moved, 50);
+    record_moved(e, 1000000);
+    record_moved(e, 1000000);
+    EXPECT_GT(e.moved, 30000);
+    EXPECT_LT(e.n_own, 100);
+}
+
 TEST(IsUnknown, UntilItIsPassedOrSeenTwice) {
     EXPECT_TRUE(is_unknown(after("")));
     EXPECT_TRUE(is_unknown(after("o  ")));

@@ -30,7 +30,7 @@ namespace dynamic_filter {
 
 /// Usage: push() every scan, finish(), then verdict() of any scan. Single caller, but see judge();
 /// const members may run in several threads while no other runs. Same scans and config give the
-/// same bits for any number of threads. Scans are not kept. Memory: scans observe: about 80 bytes a
+/// same bits for any number of threads. Scans are not kept. Memory: scans observe: about 92 bytes a
 /// voxel, 28 more after finish(), and six a pixel of the newest `scans.max_keyframes` keyframes;
 /// submaps observe: one window of scans and the thinned submaps.
 class DynamicFilter {

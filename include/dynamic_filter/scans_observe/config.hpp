@@ -248,10 +248,10 @@ void visit_scans(C& scans, F&& f) {
           "where they were then",
           0.01, 10, i.every);
     field("scans.instances.reach", "m",
-          "... as far as this from the sensor: beyond, points lie too far apart", 1, 1000, i.reach);
+          "... as far as this from the sensor: beyond, points lie too far apart", 1, 150, i.reach);
     field("scans.instances.cell", "m",
           "seen from above, points in cells of this size that touch each other are one cluster",
-          0.05, 5, i.cell);
+          0.1, 5, i.cell);
     field("scans.instances.ground_cell", "m",
           "the ground of a cell of this size is the lowest point in it or beside it", 0.1, 20,
           i.ground_cell);

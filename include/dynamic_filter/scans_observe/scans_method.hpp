@@ -11,7 +11,7 @@
 
 namespace dynamic_filter {
 
-/// Memory: about 80 bytes a voxel, 28 more after finish(), and six a pixel of the newest
+/// Memory: about 92 bytes a voxel, 28 more after finish(), and six a pixel of the newest
 /// `scans.max_keyframes` keyframes.
 class ScansMethod final : public FilterMethod {
 public:
