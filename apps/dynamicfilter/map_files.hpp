@@ -19,7 +19,7 @@ public:
     MapFiles(std::filesystem::path folder, bool keep_unknown, bool in_world)
         : folder_(std::move(folder)), keep_unknown_(keep_unknown), in_world_(in_world) {}
 
-    /// What stays where it is until the end belongs to the static map, see Verdict::stays.
+    /// What Verdict::stays says belongs to the static map.
     void append(const io::Frame& frame, const Verdict& verdict);
     void commit();
 

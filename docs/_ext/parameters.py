@@ -22,7 +22,7 @@ names the method it belongs to. There are three methods: `scans` (preset `defaul
 
 With the default preset few settings matter to a user: `map.voxel_size` (finer costs time and memory, see [performance](performance.md)), `map.occupancy_threshold` (higher
 removes more), `scans.max_keyframes` (memory), `keyframe.interval` and `keyframe.distance` (how often a scan observes). Three say only what comes out: `map.search_radius` (of
-local maps), `map.keep_unknown` and `map.time` (what is in the static map: what never moved, or what is there at the end). All others of `scans.*` are the constants of the method. They are settings so that an ablation can change them (`script/ablate`) and a run
+local maps), `map.keep_unknown` and `map.time` (what is in the static map: what never moved, or what was there when its place was last seen). All others of `scans.*` are the constants of the method. They are settings so that an ablation can change them (`script/ablate`) and a run
 can tell what was in force; there is no need to tune them.
 
 *Paper*: symbol, section or table there. The code: [`Config`](../include/dynamic_filter/config.hpp).

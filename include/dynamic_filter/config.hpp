@@ -61,8 +61,8 @@ void visit(C& c, F&& f) {
     f(
         Setting{
             "map.time", "", "",
-            "the static map holds what never moved (always), or what is there at the end (latest), "
-            "also if it came; labels are the same",
+            "the static map holds what never moved (always), or what was there when its place was "
+            "last seen (latest), also if it came; labels are the same",
             0, 0, methods_of(Method::scans)},
         c.map.time);
     f(Setting{"keyframe.interval", "s", "III-B",

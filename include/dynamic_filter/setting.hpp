@@ -16,8 +16,8 @@ namespace dynamic_filter {
 /// Removert, the paper's opponent (Table II), which has no back-end.
 enum class Method { scans, submaps, removert };
 
-/// What the static map holds: what never moved, or what is there when the recording ends, so also
-/// what came, or moved, and then stayed.
+/// What the static map holds: what never moved, or what was there when its place was last seen, so
+/// also what came, or moved, and then stayed.
 enum class MapTime { always, latest };
 
 /// A set of methods: one bit each.

@@ -28,8 +28,8 @@ struct Verdict {
                                      ///< unknown (a point that stands on a static surface may be
                                      ///< dynamic all the same); empty in instant verdicts
     std::vector<bool> stays{};       ///< with `map.time` = latest, in final verdicts: true for
-                                     ///< points of what moves that are still there when the
-                                     ///< recording ends; else empty
+                                     ///< points of what moves that were still there when their
+                                     ///< place was last seen; else empty
 };
 
 /// Every point unknown, with probabilities.
