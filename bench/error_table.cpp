@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <string_view>
 #include <vector>
 
@@ -14,6 +13,7 @@
 #include "dynamic_filter/geometry/voxel_index.hpp"
 #include "dynamic_filter/pipeline/dynamic_filter.hpp"
 #include "dynamic_filter/sim/simulation.hpp"
+#include "parse_number.hpp"
 
 namespace {
 
@@ -27,16 +27,6 @@ struct Arguments {
     sim::SimulationOptions scene;
     Config config;
 };
-
-template <class Number>
-Number parse(std::string_view what, std::string_view text) {
-    Number number{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc{} || end != text.data() + text.size()) {
-        throw ConfigError(fmt::format("{} is \"{}\": expected an integer", what, text));
-    }
-    return number;
-}
 
 Arguments read_arguments(const std::vector<std::string_view>& words) {
     if (words.size() < 5) {

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <deque>
 #include <limits>
@@ -16,6 +15,7 @@
 #include "dynamic_filter/geometry/voxel_index.hpp"
 #include "dynamic_filter/pipeline/dynamic_filter.hpp"
 #include "dynamic_filter/sim/simulation.hpp"
+#include "parse_number.hpp"
 
 namespace {
 
@@ -24,16 +24,6 @@ using namespace dynamic_filter;
 constexpr double kVoxel = 0.2;                          // [m] of the scores
 constexpr std::array<double, 4> kDelays{0.5, 1, 2, 5};  // [s] beside at once, and in the end
 constexpr std::size_t kMoments = kDelays.size() + 2;
-
-template <class Number>
-Number parse(std::string_view what, std::string_view text) {
-    Number number{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc{} || end != text.data() + text.size()) {
-        throw ConfigError(fmt::format("{} is \"{}\": expected a number", what, text));
-    }
-    return number;
-}
 
 sim::SimulationOptions read_arguments(const std::vector<std::string_view>& words) {
     if (words.size() != 6) {

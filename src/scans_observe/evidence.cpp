@@ -39,6 +39,8 @@ void record_pass(Evidence& e, const Observation& o, unsigned weight) {
     e.last_near = now;
 }
 
+float observations_of(const Evidence& e) { return static_cast<float>(e.occupied + e.free) / kSure; }
+
 }  // namespace
 
 void record(Evidence& e, const Observation& o, unsigned longest_run) {
@@ -103,37 +105,40 @@ DynamicScore::DynamicScore(const ScansConfig::Evidence& config)
       enough_(static_cast<float>(config.enough)),
       lowest_(-static_cast<float>(config.static_limit)) {}
 
-float DynamicScore::scale_of(const Evidence& e) const {
-    const float observations = static_cast<float>(e.occupied + e.free) / kSure;
+float DynamicScore::scale_of(float observations) const {
     return observations > enough_ ? enough_ / observations : 1.0F;
+}
+
+float DynamicScore::expected(float flicker, float switches, float occupied, float hits) const {
+    return flicker * by_switches_(switches) * by_occupied_(std::max(occupied, 1.0F)) *
+           by_hits_(std::max(hits, 1.0F));
 }
 
 float DynamicScore::expected(const Evidence& e, float scale) const {
     const float occupied = static_cast<float>(e.occupied) / kSure;
-    return flicker_ * by_switches_(scale * e.n_switch) *
-           by_occupied_(std::max(scale * occupied, 1.0F)) *
-           by_hits_(std::max(scale * e.hits, 1.0F));
+    return expected(flicker_, scale * e.n_switch, scale * occupied, scale * e.hits);
 }
 
 float DynamicScore::expected_free(const Evidence& e) const {
-    const float scale = scale_of(e);
+    const float scale = scale_of(observations_of(e));
     return expected(e, scale) / scale;
 }
 
+float DynamicScore::seen(const Evidence& e) const {
+    const float scale = scale_of(observations_of(e));
+    const float free = scale * static_cast<float>(e.free) / kSure;
+    return std::log((free + offset_) / (expected(e, scale) + offset_));
+}
+
 float DynamicScore::passed(const Evidence& e) const {
-    const auto observations = static_cast<float>(e.hits + e.passes);
-    const float scale = observations > enough_ ? enough_ / observations : 1.0F;
-    const float hits = std::max(scale * e.hits, 1.0F);
-    const float thin =
-        thin_flicker_ * by_switches_(scale * e.n_flicker) * by_occupied_(hits) * by_hits_(hits);
+    const float scale = scale_of(static_cast<float>(e.hits + e.passes));
+    const float hits = scale * e.hits;
+    const float thin = expected(thin_flicker_, scale * e.n_flicker, hits, hits);
     return std::log((scale * e.passes + thin_offset_) / (thin + thin_offset_)) + thin_benefit_;
 }
 
 float DynamicScore::operator()(const Evidence& e) const {
-    const float scale = scale_of(e);
-    const float free = scale * static_cast<float>(e.free) / kSure;
-    const float seen = std::log((free + offset_) / (expected(e, scale) + offset_));
-    return std::clamp(gain_ * std::min(seen, passed(e)), lowest_, 1.0F);
+    return std::clamp(gain_ * std::min(seen(e), passed(e)), lowest_, 1.0F);
 }
 
 float co_presence(const Evidence& a, const Evidence& b) {

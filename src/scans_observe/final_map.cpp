@@ -64,12 +64,15 @@ std::vector<VoxelDecision> decide_voxels(const EvidenceGrid& grid, const Config&
     return decided;
 }
 
-std::vector<std::optional<std::uint32_t>> occupied_since(const EvidenceGrid& grid,
-                                                         const ScansConfig::Evidence& config) {
+std::vector<std::optional<std::uint32_t>> occupied_since(const std::vector<VoxelDecision>& decided,
+                                                         const EvidenceGrid& grid,
+                                                         const Config& config) {
     std::vector<std::optional<std::uint32_t>> since(grid.size());
-    for (std::uint32_t v = 0; v < grid.size(); ++v) {
+    const auto longest = static_cast<std::uint32_t>(config.scans.evidence.longest_run);
+    for (std::uint32_t v = 0; v < decided.size(); ++v) {
+        const Label label = label_of(decided[v].probability, config.map.occupancy_threshold);
+        if (label != Label::dynamic) continue;
         const Evidence& e = grid[v].evidence;
-        const auto longest = static_cast<std::uint32_t>(config.longest_run);
         const bool is_seen = e.last == Sight::occupied && e.run >= longest && !e.seen_empty;
         const bool has_points = e.last_owner - e.since + 1 >= longest;  // else it is but near one
         if (is_seen && has_points) since[v] = e.since;

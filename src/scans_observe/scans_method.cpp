@@ -33,7 +33,7 @@ std::vector<Verdict> ScansMethod::finish() {
     timed(times_, "finish", [&] {
         decided_ = decide_voxels(evidence_.grid(), config_);
         if (config_.map.time == MapTime::latest) {
-            occupied_since_ = occupied_since(evidence_.grid(), config_.scans.evidence);
+            occupied_since_ = occupied_since(decided_, evidence_.grid(), config_);
         }
     });
     return {};
@@ -49,11 +49,10 @@ void ScansMethod::decide(const LocatedScan& scan, Verdict& verdict) const {
     }
 }
 
-/// A point of a dynamic voxel belongs to what is still there in the end.
+/// A point in it belongs to something that came and is still there.
 bool ScansMethod::stays(std::uint32_t voxel, std::size_t index) const {
     const auto since = occupied_since_[voxel];
-    return since && index >= evidence_.index_of_owner(*since) &&
-           label_of(decided_[voxel].probability, config_.map.occupancy_threshold) == Label::dynamic;
+    return since && index >= evidence_.index_of_owner(*since);
 }
 
 void ScansMethod::settle(const LocatedScan& scan, Verdict& verdict) const {
@@ -100,7 +99,7 @@ std::vector<VoxelOccupancy> ScansMethod::static_map() const {
         const bool is_there = v < occupied_since_.size() && occupied_since_[v];
         if (label_of(probability, config_.map.occupancy_threshold) == Label::static_) {
             result.push_back({v, *probability});
-        } else if (probability && is_there) {
+        } else if (is_there) {
             result.push_back({v, 1.0F});  // seen there until the end
         }
     }

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace dynamic_filter {
 namespace {
@@ -44,7 +43,6 @@ struct Followed {
     Instances instances{ScansConfig{}.instances};
     PointVoxels voxels;
     Labels labels;
-    std::uint32_t scans = 0;
 
     /// The instant verdicts call the person dynamic, or not.
     void see(const Glance& sight, bool person_is_dynamic) {
@@ -54,7 +52,6 @@ struct Followed {
             if (sight.person[i] && person_is_dynamic) labels[i] = Label::dynamic;
         }
         instances.update(sight.scan, voxels, grid, labels);
-        ++scans;
     }
     /// The least and the greatest share of scans in which voxels of the points moved.
     [[nodiscard]] std::pair<float, float> moved(const Glance& sight,

@@ -95,10 +95,14 @@ private:
         float shift_, exponent_;
         std::vector<float> values_;
     };
-    /// By how much counters are scaled down.
-    [[nodiscard]] float scale_of(const Evidence& evidence) const;
+    /// By how much counters are scaled down, with so many observations.
+    [[nodiscard]] float scale_of(float observations) const;
+    /// How often a static voxel is seen free, by counters that are scaled down already.
+    [[nodiscard]] float expected(float flicker, float switches, float occupied, float hits) const;
+    /// The same for the evidence of all keyframes.
     [[nodiscard]] float expected(const Evidence& evidence, float scale) const;
-    /// Logarithm of the ratio, of the keyframes with a beam through the voxel.
+    /// Logarithms of the ratio: of all keyframes, and of those with a beam through the voxel.
+    [[nodiscard]] float seen(const Evidence& evidence) const;
     [[nodiscard]] float passed(const Evidence& evidence) const;
     Power by_switches_, by_occupied_, by_hits_;
     float flicker_, offset_, thin_flicker_, thin_offset_, thin_benefit_, gain_, enough_, lowest_;

@@ -21,11 +21,12 @@ struct VoxelDecision {
 /// Decides every voxel of the grid. In parallel.
 std::vector<VoxelDecision> decide_voxels(const EvidenceGrid& grid, const Config& config);
 
-/// By voxel: the first scan, by their order, from which on it is occupied until the end, for as
-/// many keyframes as count of one run (see record()), with points in as many scans; empty: it is
-/// not.
-std::vector<std::optional<std::uint32_t>> occupied_since(const EvidenceGrid& grid,
-                                                         const ScansConfig::Evidence& config);
+/// By dynamic voxel: the first scan, by their order, from which on it is occupied until the end,
+/// for as many keyframes as count of one run (see record()), with points in as many scans; empty:
+/// it is not.
+std::vector<std::optional<std::uint32_t>> occupied_since(const std::vector<VoxelDecision>& decided,
+                                                         const EvidenceGrid& grid,
+                                                         const Config& config);
 
 /// Fills in the labels and probabilities of a scan's points. A point of a static voxel is dynamic
 /// if it lies above the static surface of its voxel while, in this very scan, something dynamic
