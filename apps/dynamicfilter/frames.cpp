@@ -53,7 +53,14 @@ io::Sequence open(const DataOptions& options) {
     if (!options.format.empty()) how.format = format_of(options.format);
     how.pose_fix = pose_fix_of(options.pose_fix);
     how.time_unit = seconds_of(options.time_unit);
-    return io::open_sequence(options.data, how);
+    // A file of that name would be meant by ./none.
+    if (how.poses == std::filesystem::path("none")) {
+        how.poses.reset();
+        how.without_poses = true;
+    }
+    io::Sequence sequence = io::open_sequence(options.data, how);
+    sequence.wants_times = !sequence.has_poses;
+    return sequence;
 }
 
 void for_each_frame(const io::Sequence& sequence, const std::vector<std::size_t>& scans,
@@ -92,7 +99,8 @@ void for_each_frame(const io::Sequence& sequence, const std::vector<std::size_t>
 }
 
 Scan take_scan(io::Frame& frame, std::size_t index) {
-    return {std::move(frame.points), frame.T_world_sensor, frame.stamp, index};
+    return {std::move(frame.points), frame.T_world_sensor, frame.stamp,
+            index,                   frame.has_pose,       std::move(frame.times)};
 }
 
 Points shifted_world(const io::Frame& frame, const Eigen::Vector3d& origin) {

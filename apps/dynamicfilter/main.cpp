@@ -36,7 +36,7 @@ void add_config_options(CLI::App& command, ConfigOptions& o) {
 }
 
 void add_reading_options(CLI::App& command, DataOptions& o) {
-    command.add_option("--poses", o.open.poses, "pose file (default: the recording's own poses)");
+    command.add_option("--poses", o.open.poses, "pose file, or none: find them by odometry (default: the recording's own)");
     command.add_option("--format", o.format,
                        "kitti, benchmark, folder or bag (default: recognised)");
     command.add_option("--topic", o.open.topic, "of a bag's scans (default: the only one)");

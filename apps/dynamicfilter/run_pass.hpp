@@ -13,13 +13,14 @@ namespace dynamic_filter::app {
 
 /// Lives from the first pass over the scans to the reports.
 struct Pass {
-    const io::Sequence& sequence;
+    io::Sequence sequence;  ///< once all is filtered, with the poses that were found or refined
     const Config& config;
     const Pace& pace;
     const OutputFolder& output;
     const Watchers& watchers;
     RunSummary summary{};
     std::vector<bool> accepted = std::vector<bool>(sequence.size());
+    std::vector<std::optional<Tracked>> tracked{};  ///< by scan; if poses are found or refined
     std::vector<Labels> instant{};  ///< by scan; of those that are scored or shown
     std::vector<ScanNote> scan_notes{};
     std::mutex notices_lock{};
@@ -37,11 +38,13 @@ struct Pass {
     OnlineCallbacks callbacks() {
         return {.instant =
                     [this](const Verdict& verdict) {
+                        tracked[verdict.index] = verdict.tracked;
                         if (sequence.has_truth() || is_shown(verdict.index, sequence.size())) {
                             instant[verdict.index] = verdict.labels;
                         }
                         if (watchers.live) {
-                            watchers.live->feed().judged(verdict.index, verdict.labels);
+                            watchers.live->feed().judged(verdict.index, verdict.labels,
+                                                         verdict.tracked);
                         }
                     },
                 .settled = {},

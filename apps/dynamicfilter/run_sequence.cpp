@@ -68,10 +68,18 @@ void keep_pace(const Pass& pass, Clock::time_point start, double stamp) {
     }
 }
 
+/// The poses that were found or refined are the recording's from now on.
+void take_poses(Pass& pass) {
+    const auto was_tracked = [](const auto& tracked) { return tracked.has_value(); };
+    if (std::none_of(pass.tracked.begin(), pass.tracked.end(), was_tracked)) return;
+    io::use_poses(pass.sequence, pass.tracked);
+}
+
 /// First pass: every usable scan goes through the filter.
 void filter_scans(Pass& pass) {
     Progress progress("filter", pass.sequence.size(), pass.watchers.quiet);
     pass.instant.resize(pass.sequence.size());
+    pass.tracked.resize(pass.sequence.size());
     std::vector<io::Field> fields;
     std::optional<Clock::time_point> start;
     const auto use = [&](std::size_t i, MaybeFrame& maybe) {
@@ -100,6 +108,7 @@ void filter_scans(Pass& pass) {
     for_each_frame(pass.sequence, all_scans(pass.sequence), {}, use);
     pass.filter.finish();
     take_notices(pass);
+    take_poses(pass);
     const bool none =
         std::find(pass.accepted.begin(), pass.accepted.end(), true) == pass.accepted.end();
     if (none && !pass.summary.interrupted) {

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "dynamic_filter/keyframe.hpp"
+#include "dynamic_filter/odometry/config.hpp"
 #include "dynamic_filter/scans_observe/config.hpp"
 #include "dynamic_filter/setting.hpp"
 #include "dynamic_filter/submaps_observe/config.hpp"
@@ -35,6 +36,7 @@ struct MapConfig {
 struct Config {
     Method method = Method::scans;
     MapConfig map;
+    OdometryConfig odometry;
     KeyframeConfig keyframe;
     ScansConfig scans;         ///< of the method "scans"
     SubmapConfig submap;       ///< of the method "submaps"
@@ -65,6 +67,7 @@ void visit(C& c, F&& f) {
             "last seen (latest), also if it came; labels are the same",
             0, 0, methods_of(Method::scans)},
         c.map.time);
+    visit_odometry(c.odometry, f);
     f(Setting{"keyframe.interval", "s", "III-B",
               "a scan this long after the last keyframe becomes one", 0, 3600},
       c.keyframe.interval);

@@ -16,6 +16,7 @@
 #include <optional>
 #include <vector>
 
+#include "dynamic_filter/odometry/odometry.hpp"
 #include "dynamic_filter/types.hpp"
 
 namespace dynamic_filter {
@@ -30,6 +31,9 @@ struct Verdict {
     std::vector<bool> stays{};       ///< with `map.time` = latest, in final verdicts: true for
                                      ///< points of what moves that were still there when their
                                      ///< place was last seen; else empty
+    /// In instant verdicts, where the filter found or refined the pose: which it is, and how the
+    /// sensor moved. The world is then the first scan's sensor frame, or that of the given poses.
+    std::optional<Tracked> tracked{};
 };
 
 /// Every point unknown, with probabilities.

@@ -127,8 +127,11 @@ PoseSource from_topic(const std::string& name, const PoseTopic& topic, const Fra
                                name, topic.child, sensor)};
 }
 
-PoseSource choose_poses(const BagContents& contents, const CloudTopic& clouds,
-                        const std::filesystem::path& data, const OpenOptions& options) {
+/// Empty, and a note that says why: there are none.
+std::optional<PoseSource> choose_poses(const BagContents& contents, const CloudTopic& clouds,
+                                       const OpenOptions& options,
+                                       std::vector<std::string>& notes) {
+    if (options.without_poses) return std::nullopt;
     const FrameTree& frames = contents.frames;
     const bool by_frames = frames.moves(clouds.frame);
     const auto named = contents.poses.find(options.pose_topic);
@@ -145,11 +148,11 @@ PoseSource choose_poses(const BagContents& contents, const CloudTopic& clouds,
     }
     if (by_frames) return from_frames(frames, clouds.frame);
     if (contents.poses.empty()) {
-        throw InputError(
-            data, "",
-            fmt::format("has no poses of the frame '{}' (looked for /tf that leads to it, "
-                        "nav_msgs/Odometry, geometry_msgs/PoseStamped); give a file with --poses",
+        notes.push_back(
+            fmt::format("no poses of the frame '{}' found; looked for /tf that leads to it, "
+                        "nav_msgs/Odometry, geometry_msgs/PoseStamped",
                         clouds.frame));
+        return std::nullopt;
     }
     PoseSource first = source(*contents.poses.begin());
     if (contents.poses.size() > 1) {
@@ -230,12 +233,12 @@ Sequence open_bag(const std::filesystem::path& data, const OpenOptions& options)
     scans->topic = clouds.topic;
     if (options.poses) {
         assign_file_poses(sequence, *options.poses);
-    } else {
-        const PoseSource source = choose_poses(contents, clouds, data, options);
-        assign_poses(sequence, source);
-        sequence.points_in_world = source.points_in_world;
+    } else if (const auto source = choose_poses(contents, clouds, options, sequence.notes)) {
+        assign_poses(sequence, *source);
+        sequence.points_in_world = source->points_in_world;
     }
-    refuse_if_all_lost(sequence, data);
+    sequence.has_poses = !sequence.T_world_sensor.empty();
+    if (sequence.has_poses) refuse_if_all_lost(sequence, data);
     const std::size_t digits =
         std::max<std::size_t>(6, fmt::format("{}", scans->messages.size()).size());
     for (std::size_t i = 0; i < scans->messages.size(); ++i) {

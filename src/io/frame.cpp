@@ -127,7 +127,10 @@ Frame read_frame(const Sequence& sequence, std::size_t i) {
     Frame frame;
     frame.cloud = read_scan(sequence, i);
     if (frame.cloud.size() == 0) throw InputError(file, "", "has no points");
-    if (sequence.T_world_sensor.empty()) {
+    frame.has_pose = sequence.has_poses;
+    if (!sequence.has_poses) {
+        frame.T_world_sensor = Pose::Identity();
+    } else if (sequence.T_world_sensor.empty()) {
         frame.T_world_sensor =
             fixed(sequence.pose_fix, frame.cloud.viewpoint.value_or(Pose::Identity()));
         refuse_absurd(frame.T_world_sensor, file);
@@ -143,6 +146,14 @@ Frame read_frame(const Sequence& sequence, std::size_t i) {
     if (sequence.deskew) {
         undo_motion(frame.points, point_times(frame.cloud, frame.stamp), frame.stamp,
                     sequence.trajectory);
+    }
+    if (sequence.wants_times || !sequence.velocities.empty()) {
+        frame.times = point_times(frame.cloud, frame.stamp);
+    }
+    if (!sequence.velocities.empty() && !frame.times.empty()) {
+        frame.points =
+            dynamic_filter::undo_motion(frame.points, frame.times, sequence.velocities[i]);
+        frame.times.clear();
     }
     add_truth(frame, sequence, i);
     return frame;

@@ -57,9 +57,13 @@ std::optional<fs::path> if_exists(const fs::path& path) {
 void refuse_inner_folder(const fs::path& data, const OpenOptions& options) {
     const std::string name = without_slash(data).filename().string();
     if (options.format || (name != "velodyne" && name != "pcd") || find_pose_file(data)) return;
+    const fs::path above = parent_of(data);
+    if (!find_pose_file(above) && !present(above / "labels") && !present(above / "calib.txt")) {
+        return;
+    }
     throw InputError(data, "",
                      "is the scan folder inside a recording; give the folder above it (" +
-                         parent_of(data).string() + "), or force --format folder");
+                         above.string() + "), or force --format folder");
 }
 
 void require_folder(const fs::path& data) {
@@ -148,7 +152,7 @@ std::optional<fs::path> find_beside(const Paths& folders, const char* name) {
 
 void find_poses(Layout& layout, const Paths& folders, const OpenOptions& options) {
     layout.poses = options.poses;
-    if (layout.poses || layout.format == Format::benchmark) return;
+    if (layout.poses || options.without_poses || layout.format == Format::benchmark) return;
     std::string looked;
     for (const fs::path& folder : folders) {
         layout.poses = layout.format == Format::kitti ? if_exists(folder / "poses.txt")
@@ -161,9 +165,7 @@ void find_poses(Layout& layout, const Paths& folders, const OpenOptions& options
         names += ", " + pose_names()[i];
     }
     if (layout.format == Format::folder) names += ", *.tum";
-    throw InputError(
-        layout.scan_folder, "",
-        "no pose file found; looked for " + names + " in " + looked + "; give one with --poses");
+    layout.notes.push_back("no pose file found; looked for " + names + " in " + looked);
 }
 
 }  // namespace

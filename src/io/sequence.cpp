@@ -13,6 +13,7 @@
 #include "frame.hpp"
 #include "layout.hpp"
 #include "matching.hpp"
+#include "rigid.hpp"
 
 namespace dynamic_filter::io {
 namespace {
@@ -156,7 +157,10 @@ Sequence open_folder(const std::filesystem::path& data, const OpenOptions& optio
     sequence.notes = layout.notes;
     sequence.label_files = find_labels(layout, sequence.notes);
     assign_stamps(sequence, assign_poses(sequence, layout));
-    if (layout.format == Format::benchmark && !layout.poses) require_viewpoints(sequence);
+    const bool in_files = layout.format == Format::benchmark && !layout.poses;
+    if (options.without_poses) sequence.T_world_sensor.clear();
+    sequence.has_poses = !options.without_poses && (in_files || !sequence.T_world_sensor.empty());
+    if (in_files && sequence.has_poses) require_viewpoints(sequence);
     select(sequence, options);
     if (layout.format == Format::benchmark) find_intensity_truth(sequence, layout);
     return sequence;
@@ -178,6 +182,14 @@ void apply_fixes(Sequence& sequence, const OpenOptions& options) {
     for (auto* stamps : {&sequence.stamps, &sequence.trajectory.stamps}) {
         for (double& stamp : *stamps) stamp *= unit;
     }
+}
+
+/// Without poses, nobody knows where in the world the sensor was.
+void refuse_world_frame(const Sequence& sequence, const std::filesystem::path& data) {
+    if (!sequence.points_in_world) return;
+    throw InputError(data, "",
+                     "its points are in the world's frame, so poses are needed to tell what each "
+                     "scan saw; give them with --poses");
 }
 
 bool is_bag(const std::filesystem::path& data, const OpenOptions& options) {
@@ -214,9 +226,21 @@ Sequence open_sequence(const std::filesystem::path& data, const OpenOptions& opt
     if (options.points_in_world || sequence.format == Format::benchmark) {
         sequence.points_in_world = true;
     }
+    if (!sequence.has_poses) refuse_world_frame(sequence, data);
     apply_fixes(sequence, options);
     if (options.deskew) prepare_deskew(sequence);
     return sequence;
+}
+
+void use_poses(Sequence& sequence, const std::vector<std::optional<Tracked>>& tracked) {
+    sequence.has_poses = true;
+    sequence.T_world_sensor.assign(sequence.size(), lost_pose());
+    sequence.velocities.assign(sequence.size(), Twist::Zero());
+    for (std::size_t i = 0; i < sequence.size(); ++i) {
+        if (!tracked[i]) continue;
+        sequence.T_world_sensor[i] = tracked[i]->T_world_sensor;
+        sequence.velocities[i] = tracked[i]->velocity;
+    }
 }
 
 std::string stem(const Sequence& sequence, std::size_t i) {

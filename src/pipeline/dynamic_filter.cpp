@@ -8,6 +8,7 @@
 #include "dynamic_filter/method.hpp"
 #include "dynamic_filter/scans_observe/scans_method.hpp"
 #include "dynamic_filter/submaps_observe/submaps_method.hpp"
+#include "pose_tracker.hpp"
 
 namespace dynamic_filter {
 
@@ -25,7 +26,9 @@ std::unique_ptr<FilterMethod> make_method(const Config& config) {
 /// A method, and where its map lies in the world.
 struct DynamicFilter::Impl {
     explicit Impl(const Config& config)
-        : voxel_size(config.map.voxel_size), method(make_method(config)) {}
+        : voxel_size(config.map.voxel_size),
+          method(make_method(config)),
+          tracker(config.odometry) {}
 
     [[nodiscard]] Pose to_map_frame(const Pose& T_world_sensor) const {
         Pose shifted = T_world_sensor;
@@ -37,6 +40,7 @@ struct DynamicFilter::Impl {
 
     double voxel_size;
     std::unique_ptr<FilterMethod> method;
+    PoseTracker tracker;
     std::optional<Eigen::Vector3d> origin;  // of the map frame, in the world
     bool finished = false;
 };
@@ -79,16 +83,22 @@ std::vector<Verdict> DynamicFilter::push(Scan scan) {
 
 Judged DynamicFilter::judge(Scan scan) {
     if (impl_->finished) throw Error("push() after finish(): make another filter");
+    const bool tracked = impl_->tracker.track(scan);
     if (!impl_->origin) impl_->origin = nearby_origin(scan.T_world_sensor, impl_->voxel_size);
     scan.T_world_sensor = impl_->to_map_frame(scan.T_world_sensor);
-    return impl_->method->judge(std::move(scan));
+    Judged judged = impl_->method->judge(std::move(scan));
+    const Labels labels = impl_->tracker.attach(judged.verdicts);
+    if (tracked) impl_->tracker.learn(labels);
+    return judged;
 }
 
 bool DynamicFilter::judges_each_scan() const { return impl_->method->judges_each_scan(); }
 
 std::vector<Verdict> DynamicFilter::finish() {
     if (std::exchange(impl_->finished, true)) return {};
-    return impl_->method->finish();
+    std::vector<Verdict> due = impl_->method->finish();
+    impl_->tracker.attach(due);
+    return due;
 }
 
 Verdict DynamicFilter::verdict(const Scan& scan) const {
@@ -129,7 +139,11 @@ std::vector<StaticVoxel> DynamicFilter::static_map() const {
     return impl_->in_world(impl_->method->static_map());
 }
 
-StageTimes DynamicFilter::times() const { return impl_->method->times(); }
+StageTimes DynamicFilter::times() const {
+    StageTimes times = impl_->method->times();
+    if (impl_->tracker.times().count() > 0) times["odometry"] = impl_->tracker.times();
+    return times;
+}
 
 MapContents DynamicFilter::contents() const {
     MapContents contents = impl_->method->contents();

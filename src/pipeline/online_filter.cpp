@@ -10,6 +10,7 @@
 #include "dynamic_filter/parallel.hpp"
 #include "dynamic_filter/pipeline/pose_jump.hpp"
 #include "map_segments.hpp"
+#include "pose_tracker.hpp"
 #include "scan_queue.hpp"
 #include "two_stages.hpp"
 
@@ -28,6 +29,12 @@ OnlineOptions checked(OnlineOptions options) {
                           "; expected 0 (all cores) to " + std::to_string(kMost));
     }
     return options;
+}
+
+/// Of the maps: their scans have poses that are not to be refined again.
+Config with_given_poses(Config config) {
+    config.odometry.refine = false;
+    return config;
 }
 
 void answer(QueuedScan& scan, std::optional<Verdict> verdict) {
@@ -78,6 +85,7 @@ struct OnlineFilter::Engine {
     std::mutex notice_lock, finish_lock;  // one at a time
 
     // Of the first thread.
+    PoseTracker tracker;
     std::uint64_t run = 0;
     std::optional<StampedPose> before_last, last;
     Durations latency;
@@ -89,8 +97,9 @@ OnlineFilter::Engine::Engine(const Config& config, OnlineOptions options_of_all,
                              OnlineCallbacks call)
     : options(checked(options_of_all)),
       callbacks(std::move(call)),
-      maps(config, options),
+      maps(with_given_poses(config), options),
       judges_each_scan(maps.newest().judges_each_scan()),
+      tracker(config.odometry),
       stages({.take = [this] { return next_job(); },
               .has_job = [this] { return queue.size() > 0; },
               .give_up = [this] { drop_waiting(); },
@@ -179,8 +188,10 @@ TwoStages::Rest OnlineFilter::Engine::judge_or_tell(QueuedScan& next) {
 }
 
 TwoStages::Rest OnlineFilter::Engine::judge(QueuedScan& next) {
-    begin_map_if_broken(next);
     stages.wait_for_second(judges_each_scan ? 0 : 1);
+    if (next.run != run) tracker.restart();
+    const bool tracked = tracker.track(next.scan);
+    begin_map_if_broken(next);
     const StampedPose now{next.scan.T_world_sensor, next.scan.stamp};
     const std::size_t index = next.scan.index;
     std::optional<Scan> unsettled;
@@ -192,8 +203,10 @@ TwoStages::Rest OnlineFilter::Engine::judge(QueuedScan& next) {
         judged = maps.newest().judge(std::move(next.scan));
     }
     before_last = std::exchange(last, now);
+    const Labels labels = tracker.attach(judged.verdicts);
     latency.add(seconds_since(next.since));
     deliver(judged.verdicts, index, next);
+    if (tracked) tracker.learn(labels);
     TwoStages::Rest rest;
     if (judged.integrate) {
         rest = [this, integrating = std::move(judged.integrate), unsettled = std::move(unsettled),
@@ -208,17 +221,21 @@ TwoStages::Rest OnlineFilter::Engine::judge(QueuedScan& next) {
 void OnlineFilter::Engine::begin_map_if_broken(const QueuedScan& next) {
     const StampedPose now{next.scan.T_world_sensor, next.scan.stamp};
     const bool restarts = next.run != run;
-    const auto jump = restarts ? std::nullopt : pose_jump(before_last, last, now);
+    const bool lost = tracker.begins_anew();
+    const auto jump = restarts || lost ? std::nullopt : pose_jump(before_last, last, now);
     run = next.run;
-    if (!restarts && !jump) return;
+    if (!restarts && !jump && !lost) return;
     stages.wait_for_second(0);
     end_map([&] { return maps.begin(next.scan.index); });
     before_last = last = std::nullopt;
-    tell(restarts ? Notice{NoticeKind::restart, next.scan.index,
-                           "stamps went back by more than a second; a new map begins"}
-                  : Notice{NoticeKind::jump, next.scan.index,
-                           "the pose is " + std::to_string(std::lround(*jump)) +
-                               " m from where the poses before led; a new map begins"});
+    Notice notice{restarts ? NoticeKind::restart : NoticeKind::jump, next.scan.index,
+                  "stamps went back by more than a second; a new map begins"};
+    if (lost) notice.text = "the odometry lost its way some scans ago; a new map begins";
+    if (jump) {
+        notice.text = "the pose is " + std::to_string(std::lround(*jump)) +
+                      " m from where the poses before led; a new map begins";
+    }
+    tell(notice);
 }
 
 void OnlineFilter::Engine::deliver(std::vector<Verdict>& verdicts, std::size_t index,
@@ -251,6 +268,7 @@ void OnlineFilter::Engine::end_map(const std::function<std::vector<Verdict>()>& 
         const std::lock_guard hold(map_lock);
         due = end();
     }
+    tracker.attach(due);
     for (const Verdict& verdict : due) {
         if (callbacks.instant) callbacks.instant(verdict);
     }
@@ -322,6 +340,8 @@ std::vector<StaticVoxel> OnlineFilter::static_map() const { return engine_->maps
 StageTimes OnlineFilter::times() const {
     StageTimes times = engine_->maps.times();
     times["latency"] = engine_->latency;
+    const Durations& odometry = engine_->tracker.times();
+    if (odometry.count() > 0) times["odometry"] = odometry;
     return times;
 }
 

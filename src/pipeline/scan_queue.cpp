@@ -38,7 +38,7 @@ std::optional<Notice> ScanQueue::refusal(const Scan& scan) const {
     if (!std::isfinite(scan.stamp)) {
         return because(NoticeKind::invalid, "its stamp is not a number");
     }
-    if (!is_rigid(scan.T_world_sensor)) {
+    if (scan.has_pose && !is_rigid(scan.T_world_sensor)) {
         return because(NoticeKind::invalid,
                        "its pose is not a rigid motion; is the quaternion normalised?");
     }

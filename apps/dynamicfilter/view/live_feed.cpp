@@ -48,33 +48,34 @@ void LiveFeed::expect(const Points& points, const Pose& T_world_sensor, double s
     Expected expected;
     expected.chosen = chosen_of(points, index);
     expected.stamp = stamp;
+    expected.T_world_sensor = T_world_sensor;
+    for (const std::uint32_t i : expected.chosen) expected.points.push_back(points[i]);
     const std::lock_guard hold(lock_);
-    if (!origin_) origin_ = T_world_sensor.translation();
-    Pose T_view_sensor = T_world_sensor;
-    T_view_sensor.translation() -= *origin_;
-    const Eigen::Isometry3f T_near = T_view_sensor.cast<float>();
-    for (const std::uint32_t i : expected.chosen) {
-        expected.in_view.push_back(T_near * points[i]);
-    }
-    expected.sensor = T_view_sensor.translation().cast<float>();
     expected_.insert_or_assign(index, std::move(expected));
 }
 
-void LiveFeed::judged(std::size_t index, const Labels& labels) {
+void LiveFeed::judged(std::size_t index, const Labels& labels,
+                      const std::optional<Tracked>& tracked) {
     std::array<std::uint32_t, 3> counts{};  // static, dynamic, unknown
     for (const Label label : labels) ++counts[(verdict_code(label) + 2U) % 3U];
     const std::lock_guard hold(lock_);
     const auto it = expected_.find(index);
     if (it == expected_.end()) return;
     const Expected& e = it->second;
+    Pose T_view_sensor = tracked ? tracked->T_world_sensor : e.T_world_sensor;
+    if (!origin_) origin_ = T_view_sensor.translation();
+    T_view_sensor.translation() -= *origin_;
+    const Eigen::Isometry3f T_near = T_view_sensor.cast<float>();
     std::string body;
     put(body, static_cast<std::uint32_t>(index));
     put(body, e.stamp);
-    for (int axis = 0; axis < 3; ++axis) put(body, e.sensor[axis]);
+    for (int axis = 0; axis < 3; ++axis) put(body, T_near.translation()[axis]);
     for (const std::uint32_t count : counts) put(body, count);
     put(body, static_cast<std::uint32_t>(e.chosen.size()));
-    static_assert(sizeof(Point) == 3 * sizeof(float));
-    body.append(reinterpret_cast<const char*>(e.in_view.data()), e.in_view.size() * sizeof(Point));
+    for (const Point& p : e.points) {
+        const Point in_view = T_near * p;  // [m] from the first sensor
+        for (int axis = 0; axis < 3; ++axis) put(body, in_view[axis]);
+    }
     for (const std::uint32_t i : e.chosen) {
         const unsigned code = verdict_code(labels[i]);
         body += static_cast<char>(code | kNoTruth | code << 4U);

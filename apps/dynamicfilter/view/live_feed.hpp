@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "dynamic_filter/odometry/odometry.hpp"
 #include "dynamic_filter/types.hpp"
 
 namespace dynamic_filter::app {
@@ -18,8 +19,10 @@ class LiveFeed {
 public:
     /// A scan that is about to be judged.
     void expect(const Points& points, const Pose& T_world_sensor, double stamp, std::size_t index);
-    /// Its instant verdict. Scans expected before it and not judged are forgotten.
-    void judged(std::size_t index, const Labels& labels);
+    /// Its instant verdict, and its pose if that was not known before. Scans expected before it and
+    /// not judged are forgotten.
+    void judged(std::size_t index, const Labels& labels,
+                const std::optional<Tracked>& tracked = {});
     /// Its final verdict; the same points and index as before.
     void corrected(std::size_t index, const Points& points, const Labels& labels);
 
@@ -30,8 +33,8 @@ public:
 private:
     struct Expected {
         std::vector<std::uint32_t> chosen;  ///< places among the scan's points
-        Points in_view;                     ///< [m] from the first sensor
-        Point sensor = Point::Zero();
+        Points points;                      ///< of those places, sensor frame
+        Pose T_world_sensor = Pose::Identity();
         double stamp = 0.0;
     };
     void add(std::uint32_t kind, std::string body);

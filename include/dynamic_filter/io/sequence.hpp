@@ -20,6 +20,7 @@
 #include "dynamic_filter/io/cloud.hpp"
 #include "dynamic_filter/io/pose_fix.hpp"
 #include "dynamic_filter/io/trajectory.hpp"
+#include "dynamic_filter/odometry/odometry.hpp"
 #include "dynamic_filter/types.hpp"
 
 namespace dynamic_filter::io {
@@ -35,6 +36,7 @@ struct BagScans;
 struct OpenOptions {
     std::optional<Format> format;                ///< empty: recognised by looking at the folder
     std::optional<std::filesystem::path> poses;  ///< empty: the format's usual place
+    bool without_poses = false;                  ///< leave the recording's poses alone
     std::size_t first = 0;                       ///< index of the first scan used
     std::optional<std::size_t> last;             ///< index of the last scan used; empty: the end
     std::size_t stride = 1;                      ///< every so many scans
@@ -55,6 +57,10 @@ struct Sequence {
     std::vector<std::filesystem::path> label_files;  ///< parallel to scan_files (empty path: none),
                                                      ///< or empty
     std::vector<Pose> T_world_sensor;  ///< parallel; empty for `benchmark` (poses are in the files)
+    bool has_poses = true;             ///< false: nobody knows them, and T_world_sensor is empty
+    bool wants_times = false;          ///< frames get the times of their points
+    /// Parallel, or empty: how the sensor moved, to undo the motion during each scan.
+    std::vector<Twist> velocities;
     std::vector<double> stamps;        ///< parallel [s]; made up at 10 Hz where not measured
     bool measured_stamps = false;      ///< they come from the recording
     Trajectory trajectory;  ///< poses as dense in time as the recording has them; may be empty
@@ -79,15 +85,22 @@ struct Frame {
     Cloud cloud;    ///< as in the file (`benchmark`: x y z in the world frame)
     Points points;  ///< sensor frame, same order, their motion undone if that was asked for
     Pose T_world_sensor = Pose::Identity();  ///< at `stamp`
+    bool has_pose = true;                    ///< false: T_world_sensor means nothing
     double stamp = 0.0;                      ///< [s]
+    std::vector<float> times;  ///< [s] of the points from `stamp`; empty: unknown, or not wanted
     Labels truth;             ///< empty without ground truth; otherwise one per point
     std::string truth_fault;  ///< why this scan's truth cannot be used; the scan itself can
 };
 
-/// Recognises the layout, checks that scans, poses and stamps agree in number.
-/// Throws InputError (nothing there, counts that differ, pose file missing, bad rotation) and
+/// Recognises the layout, checks that scans, poses and stamps agree in number. Where no poses are
+/// found, a note says what was looked for.
+/// Throws InputError (nothing there, counts that differ, bad rotation) and
 /// ConfigError (topics to choose from).
 Sequence open_sequence(const std::filesystem::path& data, const OpenOptions& options = {});
+
+/// Gives the recording poses that were found or refined, a scan each; empty: not known. The scans'
+/// motion is undone accordingly from now on.
+void use_poses(Sequence& sequence, const std::vector<std::optional<Tracked>>& tracked);
 
 /// Reads scan i. Throws InputError if the scan cannot be used (truncated, no points, a non-finite
 /// pose): the caller may count it as rejected and go on. Thread-safe.

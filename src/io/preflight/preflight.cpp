@@ -284,7 +284,7 @@ Preflight check_recording(const Sequence& sequence, Depth depth) {
     const Samples samples = read_samples(sequence, pairs, unusable);
     for (const auto& [i, why] : unusable) result.unusable.push_back(stem(sequence, i) + ": " + why);
     result.scans = samples.size();
-    result.overlays = compare(samples, pairs);
+    if (sequence.has_poses) result.overlays = compare(samples, pairs);
     judge_stamps(result, sequence);
     judge_points(result, samples);
     if (result.overlays.empty()) return result;

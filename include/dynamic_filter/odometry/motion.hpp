@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Rigid motion at a constant rate, and what it does to the points of a sweep.
+///
+/// - Units: [m], [rad], [s]; a Twist is a velocity if it is per second, a displacement if not.
+/// - Frames: a twist is given in the moving frame.
+/// - Shapes: times are parallel to points.
+/// - Threads: pure functions; thread-safe.
+/// - Errors: none.
+#pragma once
+
+#include <span>
+
+#include "dynamic_filter/types.hpp"
+
+namespace dynamic_filter {
+
+/// Translation [m] or [m/s] first, then the rotation vector [rad] or [rad/s].
+using Twist = Eigen::Matrix<double, 6, 1>;
+
+/// The displacement after moving at a constant twist: the exponential map of SE(3).
+Pose exp(const Twist& twist);
+/// The inverse of exp(), for rotations of less than pi.
+Twist log(const Pose& displacement);
+
+/// The points of a sweep as if all had been measured at one moment: each was measured `times` [s]
+/// after it, by a sensor that moved at `velocity` in its own frame. Points without a finite time
+/// stay where they are.
+Points undo_motion(const Points& points, std::span<const float> times, const Twist& velocity);
+
+}  // namespace dynamic_filter

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+#include "dynamic_filter/odometry/odometry.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "dynamic_filter/geometry/pose.hpp"
+#include "dynamic_filter/odometry/coarse_search.hpp"
+#include "dynamic_filter/odometry/registration.hpp"
+#include "scan_sample.hpp"
+
+namespace dynamic_filter {
+namespace {
+
+constexpr double kLeastShift = 0.01;            // [m] by which any expectation may be off
+constexpr double kLeastTurn = 0.002;            // [rad]
+constexpr double kFastestTurn = 1.5;            // [rad/s] of a sensor whose motion is not known
+constexpr double kNarrow = 0.2, kWide = 2.0;    // [m] reach of the registration
+constexpr std::size_t kCandidates = 6;          // of a search
+constexpr SearchWindow kSmallest{2.0, 0.1}, kLargest{20.0, 0.6};
+constexpr double kHabit = 0.2;                  // weight of a scan in the usual share
+constexpr int kGiveUp = 10;                     // lost scans in a row: a new map begins
+constexpr double kMapRadius = 1.5;              // in ranges of the sensor
+constexpr double kForgetEvery = 20.0;           // [m]
+constexpr double kFarFromOrigin = 1000.0;       // [m] where floats are still fine enough
+
+Points moved(const Points& points, const Pose& T) {
+    const Eigen::Isometry3f Tf = T.cast<float>();
+    Points out(points.size());
+    std::transform(points.begin(), points.end(), out.begin(),
+                   [&](const Point& p) { return Tf * p; });
+    return out;
+}
+
+/// In the direction in which the points say least about the place, do they say less than the motion
+/// before?
+bool is_weak(const Registration& found, const PosePrior& prior) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(
+        found.information.topLeftCorner<3, 3>());
+    return axes.eigenvalues()[0] < prior.information(0, 0);
+}
+
+}  // namespace
+
+/// One step: where the sensor is expected, and what may be off about it.
+struct Step {
+    PosePrior prior;
+    double dt = 0.0;         // [s] since the scan before
+    double shift = 0.0;      // [m] that the expected place may be off
+    ScanSample sample;       // for registration
+};
+
+struct Odometry::Impl {
+    explicit Impl(const OdometryConfig& c) : config(c), map(c.voxel) {}
+
+    [[nodiscard]] Step expect(double dt, const std::optional<Pose>& guess) const;
+    [[nodiscard]] Registration register_from(const Pose& start, const Step& step,
+                                             double reach) const;
+    [[nodiscard]] Registration search(const Step& step, Registration best) const;
+    [[nodiscard]] Tracked tracked(const Step& step, const Registration& found) const;
+    Tracked go_on_lost(const Step& step);
+    [[nodiscard]] Twist velocity_of(const Pose& T_map_sensor, double dt) const {
+        return log(T_map_last.inverse() * T_map_sensor) / dt;
+    }
+    void forget_far();
+
+    OdometryConfig config;
+    SurfaceMap map;
+    Eigen::Vector3d origin = Eigen::Vector3d::Zero();  // of the map frame, in the world
+    Pose T_map_last = Pose::Identity();
+    double stamp = 0.0;
+    Twist velocity = Twist::Zero();
+    bool velocity_known = false;
+    double usual_inliers = 0.0;
+    int lost_in_a_row = 0;
+    ScanSample newest;  // for the map
+    Eigen::Vector3d forgot_at = Eigen::Vector3d::Zero();
+};
+
+/// The motion goes on, if the sensor accelerates and turns no harder than the settings say; at the
+/// start it may be as fast as they say.
+Step Odometry::Impl::expect(double dt, const std::optional<Pose>& guess) const {
+    Step step;
+    step.dt = dt;
+    const bool known = velocity_known || guess;
+    const double degree = std::numbers::pi / 180.0;
+    step.shift = known ? std::max(kLeastShift, config.acceleration * dt * dt) : config.speed * dt;
+    const double turn =
+        known ? std::max(kLeastTurn, config.angular_acceleration * degree * dt * dt)
+              : kFastestTurn * dt;
+    step.prior.T_map_sensor = T_map_last * (guess ? *guess : exp(velocity * dt));
+    step.prior.information.diagonal().head<3>().setConstant(1.0 / (step.shift * step.shift));
+    step.prior.information.diagonal().tail<3>().setConstant(1.0 / (turn * turn));
+    return step;
+}
+
+/// Registers, and once more with the motion during the scan that follows from the result.
+Registration Odometry::Impl::register_from(const Pose& start, const Step& step,
+                                           double reach) const {
+    const Points at_stamp = step.sample.at_stamp(velocity_of(start, step.dt));
+    const Registration found = register_points(map, at_stamp, start, step.prior, reach);
+    if (step.sample.times.empty()) return found;
+    const Points again = step.sample.at_stamp(velocity_of(found.T_map_sensor, step.dt));
+    return register_points(map, again, found.T_map_sensor, step.prior, kNarrow);
+}
+
+/// The best of the places that look like the map from above, and of `best`.
+Registration Odometry::Impl::search(const Step& step, Registration best) const {
+    const SearchWindow window{
+        std::clamp(config.speed * step.dt, kSmallest.distance, kLargest.distance),
+        std::clamp(kFastestTurn * step.dt, kSmallest.turn, kLargest.turn)};
+    const Pose& expected = step.prior.T_map_sensor;
+    const Points around = moved(map.places(), expected.inverse());
+    for (const Pose& displacement :
+         search_displacements(around, newest.points, window, kCandidates)) {
+        const Registration found = register_from(expected * displacement, step, 0.5 * kWide);
+        if (found.inliers > best.inliers) best = found;
+    }
+    return best;
+}
+
+Tracked Odometry::Impl::tracked(const Step& step, const Registration& found) const {
+    Tracked result;
+    result.T_world_sensor = Eigen::Translation3d(origin) * T_map_last;
+    result.velocity = velocity;
+    result.inliers = found.inliers;
+    if (is_weak(found, step.prior)) result.status = TrackStatus::weak;
+    const Information both = found.information + step.prior.information;
+    result.covariance = both.ldlt().solve(Information::Identity());
+    return result;
+}
+
+Tracked Odometry::Impl::go_on_lost(const Step& step) {
+    T_map_last = step.prior.T_map_sensor;
+    Tracked result = tracked(step, {});
+    result.status = TrackStatus::lost;
+    result.begins_anew = ++lost_in_a_row == kGiveUp;
+    if (result.begins_anew) {
+        map = SurfaceMap(config.voxel);
+        velocity_known = false;
+        lost_in_a_row = 0;
+    }
+    return result;
+}
+
+void Odometry::Impl::forget_far() {
+    const Eigen::Vector3d here = T_map_last.translation();
+    if ((origin + here - forgot_at).norm() < kForgetEvery) return;
+    forgot_at = origin + here;
+    map.keep_within(here.cast<float>(), static_cast<float>(kMapRadius * config.farthest));
+    if (here.norm() < kFarFromOrigin) return;
+    const Eigen::Vector3d shift = nearby_origin(T_map_last, static_cast<double>(map.coarsest()));
+    map.move_origin(shift.cast<float>());
+    origin += shift;
+    T_map_last.translation() -= shift;
+}
+
+Odometry::Odometry(const OdometryConfig& config) : impl_(std::make_unique<Impl>(config)) {}
+Odometry::Odometry(Odometry&&) noexcept = default;
+Odometry& Odometry::operator=(Odometry&&) noexcept = default;
+Odometry::~Odometry() = default;
+
+Tracked Odometry::track(const Points& points, std::span<const float> times, double stamp,
+                        const std::optional<Pose>& guess) {
+    constexpr double kShortest = 1e-3;  // [s]
+    Impl& o = *impl_;
+    const double dt = std::max(kShortest, stamp - std::exchange(o.stamp, stamp));
+    o.newest = sample_for_map(points, times, o.config);
+    if (o.map.empty()) {
+        if (guess) o.T_map_last = o.T_map_last * *guess;
+        Tracked first;
+        first.T_world_sensor = Eigen::Translation3d(o.origin) * o.T_map_last;
+        return first;
+    }
+    Step step = o.expect(dt, guess);
+    step.sample = sample_for_registration(o.newest, o.config);
+    const double reach = std::clamp(3.0 * step.shift, kNarrow, kWide);
+    Registration found = o.register_from(step.prior.T_map_sensor, step, reach);
+    const double enough = std::max(o.config.lost_below, o.config.usual_share * o.usual_inliers);
+    if ((!o.velocity_known && !guess) || found.inliers < enough) found = o.search(step, found);
+    if (found.inliers < o.config.lost_below) return o.go_on_lost(step);
+
+    o.lost_in_a_row = 0;
+    o.velocity = o.velocity_of(found.T_map_sensor, dt);
+    o.velocity_known = true;
+    o.T_map_last = found.T_map_sensor;
+    o.usual_inliers += kHabit * (found.inliers - o.usual_inliers);
+    return o.tracked(step, found);
+}
+
+void Odometry::learn(const Labels& labels) {
+    Impl& o = *impl_;
+    if (o.lost_in_a_row > 0) return;
+    const ScanSample kept = without_dynamic(o.newest, labels);
+    o.map.insert(moved(kept.at_stamp(o.velocity), o.T_map_last));
+    o.forget_far();
+}
+
+}  // namespace dynamic_filter
