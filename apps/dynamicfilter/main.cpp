@@ -36,7 +36,8 @@ void add_config_options(CLI::App& command, ConfigOptions& o) {
 }
 
 void add_reading_options(CLI::App& command, DataOptions& o) {
-    command.add_option("--poses", o.open.poses, "pose file, or none: find them by odometry (default: the recording's own)");
+    command.add_option("--poses", o.open.poses,
+                       "pose file, or none: find them by odometry (default: the recording's own)");
     command.add_option("--format", o.format,
                        "kitti, benchmark, folder or bag (default: recognised)");
     command.add_option("--topic", o.open.topic, "of a bag's scans (default: the only one)");
@@ -131,6 +132,10 @@ void add_simulate(CLI::App& app, std::function<int()>& chosen) {
         ->check(CLI::Range(0.0, 100.0));
     c.add_option("--rounds", s.rounds, "of the robot, in crowd (default: 2)")
         ->check(CLI::Range(1, 100));
+    c.add_flag(
+        "--sweep", s.sweep,
+        "measure points one after the other while all moves on, as a real sensor does; scans "
+        "are PCD files then, with the time of each point");
     c.add_option("--pose-noise", s.pose_noise_m, "standard deviation of each axis [m]")
         ->check(CLI::Range(0.0, 10.0));
     c.add_option("--pose-noise-deg", s.pose_noise_deg, "standard deviation of each axis [deg]")

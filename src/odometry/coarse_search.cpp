@@ -12,11 +12,11 @@
 namespace dynamic_filter {
 namespace {
 
-constexpr float kCell = 0.5F;               // [m] of the raster
-constexpr int kHalf = 120;                  // cells from its middle to its border
-constexpr float kTall = 0.5F;               // [m] what stands upright
-constexpr double kTurnStep = 0.0175;        // [rad] a degree
-constexpr std::size_t kMostPoints = 500;    // of the scan
+constexpr float kCell = 0.5F;             // [m] of the raster
+constexpr int kHalf = 120;                // cells from its middle to its border
+constexpr float kTall = 0.5F;             // [m] what stands upright
+constexpr double kTurnStep = 0.0175;      // [rad] a degree
+constexpr std::size_t kMostPoints = 500;  // of the scan
 constexpr std::size_t kFewestPoints = 30;
 
 using Flat = std::vector<Eigen::Vector2f>;
@@ -109,8 +109,7 @@ Pose displacement(const Candidate& c) {
     Pose pose = Pose::Identity();
     pose.linear() =
         Eigen::AngleAxisd(c.turn * kTurnStep, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-    pose.translation() =
-        Eigen::Vector3d(c.x, c.y, 0.0) * static_cast<double>(kCell);
+    pose.translation() = Eigen::Vector3d(c.x, c.y, 0.0) * static_cast<double>(kCell);
     return pose;
 }
 
@@ -133,9 +132,8 @@ std::vector<Pose> search_displacements(const Points& map, const Points& scan,
     };
     const std::size_t looked_at = std::min<std::size_t>(found.size(), 2000);
     std::partial_sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(looked_at),
-                      found.end(), [&](const Candidate& a, const Candidate& b) {
-                          return least(a) < least(b);
-                      });
+                      found.end(),
+                      [&](const Candidate& a, const Candidate& b) { return least(a) < least(b); });
     std::vector<Candidate> best;
     for (std::size_t i = 0; i < looked_at && best.size() < count; ++i) {
         const auto same = [&](const Candidate& c) { return alike(c, found[i]); };

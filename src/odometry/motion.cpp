@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "dynamic_filter/odometry/motion.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace dynamic_filter {
@@ -42,6 +43,14 @@ Twist log(const Pose& displacement) {
     twist.head<3>() =
         left_jacobian(twist.tail<3>()).partialPivLu().solve(displacement.translation());
     return twist;
+}
+
+Points moved(const Points& points, const Pose& T_to_from) {
+    const Eigen::Isometry3f transform = T_to_from.cast<float>();
+    Points out(points.size());
+    std::transform(points.begin(), points.end(), out.begin(),
+                   [&](const Point& p) { return transform * p; });
+    return out;
 }
 
 Points undo_motion(const Points& points, std::span<const float> times, const Twist& velocity) {

@@ -16,25 +16,17 @@
 namespace dynamic_filter {
 namespace {
 
-constexpr double kLeastShift = 0.01;            // [m] by which any expectation may be off
-constexpr double kLeastTurn = 0.002;            // [rad]
-constexpr double kFastestTurn = 1.5;            // [rad/s] of a sensor whose motion is not known
-constexpr double kNarrow = 0.2, kWide = 2.0;    // [m] reach of the registration
-constexpr std::size_t kCandidates = 6;          // of a search
+constexpr double kLeastShift = 0.01;          // [m] by which any expectation may be off
+constexpr double kLeastTurn = 0.002;          // [rad]
+constexpr double kFastestTurn = 1.5;          // [rad/s] of a sensor whose motion is not known
+constexpr double kNarrow = 0.2, kWide = 2.0;  // [m] reach of the registration
+constexpr std::size_t kCandidates = 6;        // of a search
 constexpr SearchWindow kSmallest{2.0, 0.1}, kLargest{20.0, 0.6};
-constexpr double kHabit = 0.2;                  // weight of a scan in the usual share
-constexpr int kGiveUp = 10;                     // lost scans in a row: a new map begins
-constexpr double kMapRadius = 1.5;              // in ranges of the sensor
-constexpr double kForgetEvery = 20.0;           // [m]
-constexpr double kFarFromOrigin = 1000.0;       // [m] where floats are still fine enough
-
-Points moved(const Points& points, const Pose& T) {
-    const Eigen::Isometry3f Tf = T.cast<float>();
-    Points out(points.size());
-    std::transform(points.begin(), points.end(), out.begin(),
-                   [&](const Point& p) { return Tf * p; });
-    return out;
-}
+constexpr double kHabit = 0.2;             // weight of a scan in the usual share
+constexpr int kGiveUp = 10;                // lost scans in a row: a new map begins
+constexpr double kMapRadius = 1.5;         // in ranges of the sensor
+constexpr double kForgetEvery = 20.0;      // [m]
+constexpr double kFarFromOrigin = 1000.0;  // [m] where floats are still fine enough
 
 /// In the direction in which the points say least about the place, do they say less than the motion
 /// before?
@@ -49,9 +41,9 @@ bool is_weak(const Registration& found, const PosePrior& prior) {
 /// One step: where the sensor is expected, and what may be off about it.
 struct Step {
     PosePrior prior;
-    double dt = 0.0;         // [s] since the scan before
-    double shift = 0.0;      // [m] that the expected place may be off
-    ScanSample sample;       // for registration
+    double dt = 0.0;     // [s] since the scan before
+    double shift = 0.0;  // [m] that the expected place may be off
+    ScanSample sample;   // for registration
 };
 
 struct Odometry::Impl {
@@ -60,6 +52,7 @@ struct Odometry::Impl {
     [[nodiscard]] Step expect(double dt, const std::optional<Pose>& guess) const;
     [[nodiscard]] Registration register_from(const Pose& start, const Step& step,
                                              double reach) const;
+    Registration begin_again(const Step& step, const Registration& found);
     [[nodiscard]] Registration search(const Step& step, Registration best) const;
     [[nodiscard]] Tracked tracked(const Step& step, const Registration& found) const;
     Tracked go_on_lost(const Step& step);
@@ -78,6 +71,7 @@ struct Odometry::Impl {
     double usual_inliers = 0.0;
     int lost_in_a_row = 0;
     ScanSample newest;  // for the map
+    ScanSample first;   // of a map, until the velocity is known: its motion was not undone
     Eigen::Vector3d forgot_at = Eigen::Vector3d::Zero();
 };
 
@@ -89,9 +83,8 @@ Step Odometry::Impl::expect(double dt, const std::optional<Pose>& guess) const {
     const bool known = velocity_known || guess;
     const double degree = std::numbers::pi / 180.0;
     step.shift = known ? std::max(kLeastShift, config.acceleration * dt * dt) : config.speed * dt;
-    const double turn =
-        known ? std::max(kLeastTurn, config.angular_acceleration * degree * dt * dt)
-              : kFastestTurn * dt;
+    const double turn = known ? std::max(kLeastTurn, config.angular_acceleration * degree * dt * dt)
+                              : kFastestTurn * dt;
     step.prior.T_map_sensor = T_map_last * (guess ? *guess : exp(velocity * dt));
     step.prior.information.diagonal().head<3>().setConstant(1.0 / (step.shift * step.shift));
     step.prior.information.diagonal().tail<3>().setConstant(1.0 / (turn * turn));
@@ -121,6 +114,15 @@ Registration Odometry::Impl::search(const Step& step, Registration best) const {
         if (found.inliers > best.inliers) best = found;
     }
     return best;
+}
+
+/// The first scan moved as the second did: the map of it is made anew, its motion undone.
+Registration Odometry::Impl::begin_again(const Step& step, const Registration& found) {
+    const Twist moved_at = velocity_of(found.T_map_sensor, step.dt);
+    map = SurfaceMap(config.voxel);
+    map.insert(moved(first.at_stamp(moved_at), T_map_last));
+    first = {};
+    return register_from(found.T_map_sensor, step, kNarrow);
 }
 
 Tracked Odometry::Impl::tracked(const Step& step, const Registration& found) const {
@@ -183,6 +185,7 @@ Tracked Odometry::track(const Points& points, std::span<const float> times, doub
     const double enough = std::max(o.config.lost_below, o.config.usual_share * o.usual_inliers);
     if ((!o.velocity_known && !guess) || found.inliers < enough) found = o.search(step, found);
     if (found.inliers < o.config.lost_below) return o.go_on_lost(step);
+    if (!o.first.times.empty()) found = o.begin_again(step, found);
 
     o.lost_in_a_row = 0;
     o.velocity = o.velocity_of(found.T_map_sensor, dt);
@@ -196,6 +199,7 @@ void Odometry::learn(const Labels& labels) {
     Impl& o = *impl_;
     if (o.lost_in_a_row > 0) return;
     const ScanSample kept = without_dynamic(o.newest, labels);
+    if (o.map.empty()) o.first = kept;
     o.map.insert(moved(kept.at_stamp(o.velocity), o.T_map_last));
     o.forget_far();
 }

@@ -50,6 +50,24 @@ Sums linearise(const SurfaceMap& map, const Points& points, const Pose& T, doubl
 
 }  // namespace
 
+double blur_on_map(const SurfaceMap& map, const Points& points, const Pose& T_map_sensor) {
+    constexpr double kNowhere = 0.5;  // [m] of points where the map knows no surface
+    if (points.empty()) return kNowhere;
+    const Eigen::Isometry3f T = T_map_sensor.cast<float>();
+    double sum = 0.0;
+    for (const Point& p : points) {
+        const Point q = T * p;
+        const Surface* surface = map.at(q);
+        double square = kNowhere * kNowhere;
+        if (surface != nullptr) {
+            const auto off = static_cast<double>(surface->normal.dot(q - surface->point));
+            square = std::min(square, static_cast<double>(surface->variance_at(q)) + off * off);
+        }
+        sum += std::log(square);
+    }
+    return std::exp(0.5 * sum / static_cast<double>(points.size()));
+}
+
 Registration register_points(const SurfaceMap& map, const Points& points, const Pose& start,
                              const PosePrior& prior, double reach) {
     Registration result;

@@ -81,9 +81,8 @@ ScanSample sample_for_registration(const ScanSample& of_map, const OdometryConfi
 
 ScanSample without_dynamic(const ScanSample& sample, const Labels& labels) {
     if (labels.empty()) return sample;
-    return some_of(sample, [&](std::size_t i) {
-        return labels[sample.chosen[i]] != Label::dynamic;
-    });
+    return some_of(sample,
+                   [&](std::size_t i) { return labels[sample.chosen[i]] != Label::dynamic; });
 }
 
 }  // namespace dynamic_filter

@@ -7,13 +7,13 @@
 namespace dynamic_filter {
 namespace {
 
-constexpr float kFewest = 5.0F;    // points of a plane
-constexpr float kMost = 1000.0F;   // points: what was mapped first is drifted least
-constexpr float kSpread = 0.1F;    // of the voxel's size: a plane is spread by more both ways
-constexpr float kNoise = 0.01F;     // [m] least roughness of a surface
-constexpr float kRoughest = 0.5F;   // [m] of a surface, with the uncertainty of its place
-constexpr float kIndependent = 0.1F; // share of the points: neighbours of one scan err alike
-constexpr float kGrowth = 1.25F;   // a plane is fitted anew when it has so many times the points
+constexpr float kFewest = 5.0F;       // points of a plane
+constexpr float kMost = 1000.0F;      // points: what was mapped first is drifted least
+constexpr float kSpread = 0.1F;       // of the voxel's size: a plane is spread by more both ways
+constexpr float kNoise = 0.01F;       // [m] least roughness of a surface
+constexpr float kRoughest = 0.5F;     // [m] of a surface, with the uncertainty of its place
+constexpr float kIndependent = 0.1F;  // share of the points: neighbours of one scan err alike
+constexpr float kGrowth = 1.25F;      // a plane is fitted anew when it has so many times the points
 
 Point corner_of(VoxelKey key, float size) { return unpack(key).cast<float>() * size; }
 

@@ -17,6 +17,7 @@ namespace {
 
 constexpr int most_pedestrians = 1000;
 constexpr int most_rounds = 100;
+constexpr double longest_sweep = 0.2;  // [s]
 
 template <typename Entry>
 std::vector<std::string> names(const std::vector<Entry>& table) {
@@ -165,6 +166,20 @@ struct Simulation::World {
         for (const Vehicle& vehicle : scene.vehicles) place_vehicle(vehicle, t, out);
         return out;
     }
+
+    [[nodiscard]] double sweep_duration() const { return std::min(1.0 / rate_hz, longest_sweep); }
+
+    /// Scan i, which is taken or begins at t [s].
+    Returns returns(std::size_t i, double t, const Pose& pose) {
+        if (!options.sweep) {
+            caster.place(placements(t));
+            return sense(caster, sensor, pose, options.seed, i);
+        }
+        const auto time = [&](double share) { return t + share * sweep_duration(); };
+        return dynamic_filter::sim::sweep(
+            caster, sensor, [&](double share) { return true_pose(scene, time(share)); },
+            [&](double share) { caster.place(placements(time(share))); }, options.seed, i);
+    }
 };
 
 std::vector<std::string> scene_names() { return names(scene_table()); }
@@ -193,16 +208,21 @@ std::size_t Simulation::size() const { return world_->scans; }
 
 SimulatedScan Simulation::scan(std::size_t i) {
     const double t = static_cast<double>(i) / world_->rate_hz;
-    world_->caster.place(world_->placements(t));
     const Pose pose = true_pose(world_->scene, t);
-    Returns returns = sense(world_->caster, world_->sensor, pose, world_->options.seed, i);
+    Returns returns = world_->returns(i, t, pose);
+    std::vector<float> times;
+    if (world_->options.sweep) {
+        const auto duration = static_cast<float>(world_->sweep_duration());
+        for (const float share : returns.shares) times.push_back(share * duration);
+    }
     return {.points = std::move(returns.points),
             .intensity = std::move(returns.intensity),
             .labels = std::move(returns.labels),
             .kinds = std::move(returns.kinds),
             .T_world_sensor = Eigen::Translation3d(0.0, 0.0, world_->scene.floor) *
                               noisy_pose(pose, world_->options, i),
-            .stamp = t};
+            .stamp = t,
+            .times = std::move(times)};
 }
 
 }  // namespace dynamic_filter::sim

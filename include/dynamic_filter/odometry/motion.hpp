@@ -23,6 +23,9 @@ Pose exp(const Twist& twist);
 /// The inverse of exp(), for rotations of less than pi.
 Twist log(const Pose& displacement);
 
+/// The points in another frame.
+Points moved(const Points& points, const Pose& T_to_from);
+
 /// The points of a sweep as if all had been measured at one moment: each was measured `times` [s]
 /// after it, by a sensor that moved at `velocity` in its own frame. Points without a finite time
 /// stay where they are.

@@ -39,4 +39,8 @@ struct Registration {
 Registration register_points(const SurfaceMap& map, const Points& points, const Pose& start,
                              const PosePrior& prior, double reach);
 
+/// [m] How far the points lie off the surfaces of the map, and how rough those are: the geometric
+/// mean of both together.
+double blur_on_map(const SurfaceMap& map, const Points& points, const Pose& T_map_sensor);
+
 }  // namespace dynamic_filter

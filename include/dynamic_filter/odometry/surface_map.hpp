@@ -47,7 +47,8 @@ public:
 
     void insert(const Points& in_map);
 
-    /// The surface at a place; null where nothing is known, or nothing flat; valid until the map changes.
+    /// The surface at a place; null where nothing is known, or nothing flat; valid until the map
+    /// changes.
     [[nodiscard]] const Surface* at(const Point& place) const;
 
     /// Forgets what is farther than `radius` [m] from a place.

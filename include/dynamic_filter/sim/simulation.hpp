@@ -33,17 +33,22 @@ struct SimulationOptions {
     double rate_hz = 0.0;               ///< [Hz] scans per second; 0: the scene's own
     double pose_noise_m = 0.0;          ///< [m] standard deviation of each axis of the written pose
     double pose_noise_deg = 0.0;        ///< [deg] standard deviation of each rotation axis
+    /// Points are measured one after the other, in the time between two scans (0.2 s at most),
+    /// while the sensor and all else move on: as a real sensor measures. Otherwise all at once.
+    bool sweep = false;
     int rounds = 0;  ///< of the robot, where it goes in rounds; 0: the scene's own
 };
 
 /// One sweep, with all that is known of it.
 struct SimulatedScan {
-    Points points;                 ///< [m] sensor frame, returns only
+    Points points;                 ///< [m] sensor frame (of a sweep: where the sensor was when
+                                   ///< it measured the point), returns only
     std::vector<float> intensity;  ///< 0..1, parallel
     Labels labels;                 ///< exact, parallel: still or dynamic
     std::vector<Kind> kinds;       ///< parallel
     Pose T_world_sensor;           ///< as a SLAM would report it (with pose noise, if asked)
-    double stamp = 0.0;            ///< [s] since the scene began
+    double stamp = 0.0;            ///< [s] since the scene began; a sweep begins then
+    std::vector<float> times;      ///< of a sweep: [s] from the stamp, parallel; else empty
 };
 
 std::vector<std::string> scene_names();   ///< what SimulationOptions::scene may be

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// What the scans of a recording say about how the sensor moved, beside what its poses say.
+///
+/// - Units: [m], [rad], [s].
+/// - Frames: poses T_world_sensor; displacements in the sensor frame.
+/// - Shapes: lists, an entry a scan where they say so.
+/// - Ownership: values; the sequence is borrowed.
+/// - Threads: thread-safe.
+/// - Errors: none of their own; scans that cannot be read are passed over.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "dynamic_filter/io/sequence.hpp"
+#include "dynamic_filter/odometry/odometry.hpp"
+#include "dynamic_filter/odometry/sweep_times.hpp"
+
+namespace dynamic_filter::io {
+
+/// Poses of all scans by odometry alone; empty for those that cannot be read. `after` is called
+/// after each scan, and stops the work by returning false.
+std::vector<std::optional<Tracked>> track_scans(const Sequence& sequence,
+                                                const OdometryConfig& config,
+                                                const std::function<bool()>& after = {});
+
+/// How a turning sensor turns, if scans overlay clearly better when each point is taken for
+/// measured at the time that follows from its azimuth; empty if not: the motion during the scans is
+/// undone already, there was none, or the sensor does not turn. Reads a few scans in a row at some
+/// places of the recording.
+std::optional<Sweep> find_sweep(const Sequence& sequence, const OdometryConfig& config);
+
+/// How far the poses of scans so far apart are off what the scans show: medians.
+struct PoseError {
+    std::size_t apart = 0;  ///< scans
+    double way = 0.0;       ///< [m] between them
+    double shift = 0.0;     ///< [m]
+    double turn = 0.0;      ///< [rad]
+};
+
+/// How well the poses of a recording fit its scans.
+struct PoseQuality {
+    std::vector<PoseError> errors;  ///< of scans 1, 5, 10 and 20 apart, as far as there are
+    double overlay = 0.0;           ///< [m] overlay_blur() at these poses
+    double best = 0.0;              ///< [m] ... and at those that the odometry finds
+
+    /// Whether scans overlay clearly better at other poses.
+    [[nodiscard]] bool is_bad() const;
+};
+
+/// Reads 21 scans in a row at each of some places of the recording.
+PoseQuality measure_poses(const Sequence& sequence, const OdometryConfig& config);
+
+}  // namespace dynamic_filter::io

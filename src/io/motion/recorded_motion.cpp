@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+#include "dynamic_filter/io/recorded_motion.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/odometry/overlay_blur.hpp"
+#include "dynamic_filter/parallel.hpp"
+
+namespace dynamic_filter::io {
+namespace {
+
+constexpr std::size_t kPlaces = 3, kInARow = 21;  // scans that are looked at
+constexpr std::array<std::size_t, 4> kApart = {1, 5, 10, 20};
+
+/// Scans in a row, as the odometry takes them.
+struct Piece {
+    std::vector<Scan> scans;
+};
+
+std::optional<Scan> read(const Sequence& sequence, std::size_t i) {
+    try {
+        Frame frame = read_frame(sequence, i);
+        return Scan{std::move(frame.points), frame.T_world_sensor,  frame.stamp, i,
+                    frame.has_pose,          std::move(frame.times)};
+    } catch (const InputError&) {
+        return std::nullopt;
+    }
+}
+
+std::vector<Piece> read_pieces(const Sequence& sequence, std::size_t in_a_row) {
+    std::vector<Piece> pieces;
+    const std::size_t n = sequence.size();
+    const std::size_t places = std::clamp<std::size_t>(n / (2 * in_a_row), 1, kPlaces);
+    for (std::size_t k = 0; k < places; ++k) {
+        const std::size_t room = n > in_a_row ? n - in_a_row : 0;
+        const std::size_t first = places > 1 ? k * room / (places - 1) : room / 2;
+        Piece piece;
+        for (std::size_t i = first; i < std::min(n, first + in_a_row); ++i) {
+            if (auto scan = read(sequence, i)) piece.scans.push_back(*std::move(scan));
+        }
+        pieces.push_back(std::move(piece));
+    }
+    return pieces;
+}
+
+std::vector<Tracked> track(const Piece& piece, const OdometryConfig& config) {
+    Odometry odometry(config);
+    std::vector<Tracked> tracked;
+    for (const Scan& scan : piece.scans) {
+        tracked.push_back(odometry.track(scan.points, scan.times, scan.stamp));
+        odometry.learn({});
+    }
+    return tracked;
+}
+
+double median(std::vector<double> values) {
+    if (values.empty()) return 0.0;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+/// [m] How much the scans blur at the poses that the odometry finds.
+double blur(const Piece& piece, const std::vector<Tracked>& tracked, const OdometryConfig& config) {
+    std::vector<Pose> poses;
+    for (const Tracked& t : tracked) poses.push_back(t.T_world_sensor);
+    return overlay_blur(piece.scans, poses, config);
+}
+
+/// [m] that the sensor's motion shifts points by during a scan, at a range of 10 m.
+double distortion(const std::vector<Tracked>& tracked, double duration) {
+    std::vector<double> shifts;
+    for (const Tracked& t : tracked) {
+        shifts.push_back(duration *
+                         (t.velocity.head<3>().norm() + 10.0 * t.velocity.tail<3>().norm()));
+    }
+    return median(std::move(shifts));
+}
+
+std::vector<Sweep> all_sweeps(double duration) {
+    std::vector<Sweep> sweeps;
+    for (const bool clockwise : {false, true}) {
+        for (int quarter = 0; quarter < 4; ++quarter) {
+            sweeps.push_back({clockwise, quarter * 0.5 * std::numbers::pi, duration});
+        }
+    }
+    return sweeps;
+}
+
+/// The poses of a piece, as given and as its scans show them.
+struct Compared {
+    std::vector<Pose> given, shown;
+    double overlay = 0.0, best = 0.0;
+};
+
+Compared compare(const Piece& piece, const OdometryConfig& config) {
+    Compared compared;
+    for (const Scan& scan : piece.scans) compared.given.push_back(scan.T_world_sensor);
+    for (const Tracked& t : track(piece, config)) {
+        compared.shown.push_back(t.T_world_sensor);
+    }
+    compared.overlay = overlay_blur(piece.scans, compared.given, config);
+    compared.best = overlay_blur(piece.scans, compared.shown, config);
+    return compared;
+}
+
+std::optional<PoseError> error_of(const std::vector<Compared>& pieces, std::size_t apart) {
+    std::vector<double> ways, shifts, turns;
+    for (const auto& [given, shown, overlay, best] : pieces) {
+        for (std::size_t i = apart; i < shown.size(); ++i) {
+            const Pose moved = shown[i - apart].inverse() * shown[i];
+            const Twist off = log(moved.inverse() * given[i - apart].inverse() * given[i]);
+            ways.push_back(moved.translation().norm());
+            shifts.push_back(off.head<3>().norm());
+            turns.push_back(off.tail<3>().norm());
+        }
+    }
+    if (ways.empty()) return std::nullopt;
+    return PoseError{apart, median(ways), median(shifts), median(turns)};
+}
+
+double usual_step(const Sequence& sequence) {
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < sequence.size(); ++i) {
+        steps.push_back(sequence.stamps[i] - sequence.stamps[i - 1]);
+    }
+    return median(std::move(steps));
+}
+
+}  // namespace
+
+std::vector<std::optional<Tracked>> track_scans(const Sequence& sequence,
+                                                const OdometryConfig& config,
+                                                const std::function<bool()>& after) {
+    std::vector<std::optional<Tracked>> tracked(sequence.size());
+    Odometry odometry(config);
+    for (std::size_t i = 0; i < sequence.size(); ++i) {
+        if (const auto scan = read(sequence, i)) {
+            tracked[i] = odometry.track(scan->points, scan->times, scan->stamp);
+            odometry.learn({});
+        }
+        if (after && !after()) break;
+    }
+    return tracked;
+}
+
+std::optional<Sweep> find_sweep(const Sequence& sequence, const OdometryConfig& given) {
+    OdometryConfig config = given;
+    config.points = std::min(config.points, 1500);  // it takes long as it is
+    constexpr double kLongest = 0.25;               // [s] of a turn; who is slower leaves scans out
+    constexpr double kLeast = 0.3;                  // [m] of distortion, or it does not matter
+    constexpr double kClearly = 0.988;              // of the blur
+    const double duration = usual_step(sequence);
+    if (!(duration > 0.0) || duration > kLongest) return std::nullopt;
+    const Piece* fastest = nullptr;
+    double most_distorted = kLeast, as_it_is = 0.0;
+    std::vector<Piece> pieces = read_pieces(sequence, kInARow);
+    for (Piece& piece : pieces) {
+        if (piece.scans.size() < 2) continue;
+        for (Scan& scan : piece.scans) scan.times.clear();
+        const std::vector<Tracked> tracked = track(piece, config);
+        const double distorted = distortion(tracked, duration);
+        if (distorted < most_distorted) continue;
+        most_distorted = distorted;
+        fastest = &piece;
+        as_it_is = blur(piece, tracked, config);
+    }
+    if (fastest == nullptr) return std::nullopt;
+    const std::vector<Sweep> sweeps = all_sweeps(duration);
+    std::vector<double> blurs(sweeps.size());
+    parallel_for(sweeps.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+            Piece piece = *fastest;
+            for (Scan& scan : piece.scans) scan.times = sweep_times(scan.points, sweeps[k]);
+            blurs[k] = blur(piece, track(piece, config), config);
+        }
+    });
+    const auto best = std::min_element(blurs.begin(), blurs.end());
+    if (*best > as_it_is * kClearly) return std::nullopt;
+    return sweeps[static_cast<std::size_t>(best - blurs.begin())];
+}
+
+PoseQuality measure_poses(const Sequence& sequence, const OdometryConfig& config) {
+    const std::vector<Piece> pieces = read_pieces(sequence, kInARow);
+    std::vector<Compared> compared(pieces.size());
+    parallel_for(pieces.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) compared[k] = compare(pieces[k], config);
+    });
+    PoseQuality quality;
+    double pieces_compared = 0.0;
+    for (const Compared& piece : compared) {
+        if (piece.given.size() < 2) continue;
+        quality.overlay += piece.overlay;
+        quality.best += piece.best;
+        pieces_compared += 1.0;
+    }
+    if (pieces_compared == 0.0) return quality;
+    quality.overlay /= pieces_compared;
+    quality.best /= pieces_compared;
+    for (const std::size_t apart : kApart) {
+        if (const auto error = error_of(compared, apart)) quality.errors.push_back(*error);
+    }
+    return quality;
+}
+
+bool PoseQuality::is_bad() const {
+    constexpr double kClearly = 1.1;
+    return overlay > kClearly * best;
+}
+
+}  // namespace dynamic_filter::io
