@@ -78,7 +78,9 @@ Match match_poses(const Layout& layout, const PoseFile& file, const std::vector<
     const std::size_t scans = layout.scans.size();
     if (file.poses.size() == scans) {
         const std::string note = fmt::format("{} scans matched to poses by order", scans);
-        if (file.stamps.empty()) return {file.poses, times, note};
+        if (file.stamps.empty()) {
+            return {file.poses, times.empty() ? growing_times_in_names(layout.scans) : times, note};
+        }
         const std::vector<double> own = times.empty() ? times_in_names(layout.scans) : times;
         if (own.empty()) return {file.poses, file.stamps, note};
         return {file.poses, own, note, file.stamps};
