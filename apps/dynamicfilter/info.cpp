@@ -18,9 +18,8 @@ namespace {
 constexpr const char* kTypeNames[] = {"int8",   "uint8", "int16",  "uint16",  "int32",
                                       "uint32", "int64", "uint64", "float32", "float64"};
 
-void describe_cloud(const std::filesystem::path& file) {
-    const io::Cloud cloud = io::read_cloud(file);
-    fmt::print("{}\n  points  {}\n", file.string(), cloud.size());
+void describe_cloud(const std::filesystem::path& name, const io::Cloud& cloud) {
+    fmt::print("{}\n  points  {}\n", name.string(), cloud.size());
     for (const io::Field& field : cloud.fields) {
         double low = INFINITY, high = -INFINITY;
         std::size_t finite = 0;
@@ -42,25 +41,79 @@ void describe_cloud(const std::filesystem::path& file) {
     }
 }
 
-void describe_sequence(const std::filesystem::path& folder) {
-    const io::Sequence s = io::open_sequence(folder);
-    fmt::print("{}\n  format  {}\n  scans   {}\n", folder.string(), io::to_string(s.format),
-               s.size());
+/// From one pose that is known to the next.
+double path_of(const std::vector<Pose>& poses) {
+    double length = 0.0;
+    const Pose* last = nullptr;
+    for (const Pose& pose : poses) {
+        if (!pose.matrix().allFinite()) continue;
+        if (last != nullptr) length += (pose.translation() - last->translation()).norm();
+        last = &pose;
+    }
+    return length;
+}
+
+void describe_poses(const io::Sequence& s) {
+    if (!s.has_poses) {
+        fmt::print("  poses   none: the odometry finds them\n");
+        return;
+    }
+    const std::vector<Pose>& poses = s.T_world_sensor;
+    if (poses.empty()) {
+        fmt::print("  poses   in the scans' files (VIEWPOINT)\n");
+        return;
+    }
+    const auto known = std::count_if(poses.begin(), poses.end(),
+                                     [](const Pose& p) { return p.matrix().allFinite(); });
+    fmt::print(
+        "  poses   of {} scans{}\n  path    {:.1f} m\n",
+        static_cast<std::size_t>(known) == s.size() ? "all" : fmt::format("{} of the", known),
+        s.pose_source.empty() ? "" : ", from " + s.pose_source.string(), path_of(poses));
+}
+
+/// What a run would use of it.
+void describe_scans(const io::Sequence& s) {
+    fmt::print("  scans   {}\n", s.size());
     if (s.size() > 1) {
         fmt::print("  stamps  {:.3f} .. {:.3f} s{}\n", s.stamps.front(), s.stamps.back(),
                    s.measured_stamps ? "" : " (made up at 10 Hz)");
     }
-    if (!s.T_world_sensor.empty()) {
-        double length = 0.0;
-        for (std::size_t i = 1; i < s.size(); ++i) {
-            length +=
-                (s.T_world_sensor[i].translation() - s.T_world_sensor[i - 1].translation()).norm();
-        }
-        fmt::print("  path    {:.1f} m\n", length);
-    }
+    describe_poses(s);
     fmt::print("  truth   {}\n", s.has_truth() ? "yes" : "none");
     for (const std::string& note : s.notes) fmt::print("  note    {}\n", note);
-    describe_cloud(s.scan_files.front());
+}
+
+/// The first scan that can be read stands for all, whether it has a pose or not.
+void describe_first(io::Sequence s) {
+    constexpr std::size_t kTried = 5;
+    s.T_world_sensor.clear();
+    s.has_poses = s.points_in_world = false;
+    for (std::size_t i = 0; i < std::min(s.size(), kTried); ++i) {
+        try {
+            describe_cloud(s.scan_files[i], io::read_frame(s, i).cloud);
+            return;
+        } catch (const InputError& error) {
+            fmt::print("  note    {}\n", error.what());
+        }
+    }
+}
+
+void describe_sequence(const std::filesystem::path& folder) {
+    const io::Sequence s = io::open_sequence(folder);
+    fmt::print("{}\n  format  {}\n", folder.string(), io::to_string(s.format));
+    describe_scans(s);
+    describe_first(s);
+}
+
+/// Its topics are told before: several of clouds, or none, are no mistake here.
+void describe_scans_of_bag(const std::filesystem::path& path) {
+    try {
+        const io::Sequence s = io::open_sequence(path);
+        describe_scans(s);
+        describe_first(s);
+    } catch (const Error& error) {
+        fmt::print("  note    {}\n", error.what());
+    }
 }
 
 void describe_bag(const std::filesystem::path& path) {
@@ -93,11 +146,13 @@ void describe_bag(const std::filesystem::path& path) {
 }  // namespace
 
 int info(const std::filesystem::path& file) {
-    if (!std::filesystem::exists(file)) throw InputError(file, "", "does not exist");
     if (io::Bag::recognises(file)) {
         describe_bag(file);
+        describe_scans_of_bag(file);
+    } else if (std::filesystem::is_regular_file(file)) {
+        describe_cloud(file, io::read_cloud(file));
     } else {
-        std::filesystem::is_directory(file) ? describe_sequence(file) : describe_cloud(file);
+        describe_sequence(file);  // also a scene that is named behind its folder
     }
     return kDone;
 }

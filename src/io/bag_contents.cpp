@@ -5,6 +5,7 @@
 
 #include "io/byte_reader.hpp"
 #include "io/ros/messages.hpp"
+#include "io/ros/packets.hpp"
 
 namespace dynamic_filter::io {
 
@@ -44,6 +45,9 @@ void take(BagContents& contents, const Message& message) {
             break;
         }
         case MessageKind::other:
+            if (!driver_of(message.topic.type).empty()) {
+                contents.packets.emplace(message.topic.name, message.topic.type);
+            }
             break;
     }
 }

@@ -32,6 +32,7 @@ struct PoseTopic {
 struct BagContents {
     std::map<std::string, CloudTopic> clouds;
     std::map<std::string, PoseTopic> poses;
+    std::map<std::string, std::string> packets;  // types of topics that a driver makes clouds of
     FrameTree frames;
     std::vector<std::string> notes, losses;
 };

@@ -13,6 +13,7 @@
 #include "io/byte_reader.hpp"
 #include "io/rigid.hpp"
 #include "io/ros/messages.hpp"
+#include "io/ros/packets.hpp"
 
 namespace dynamic_filter::io {
 namespace {
@@ -35,20 +36,34 @@ bool is_part_of_another(const std::string& name, const std::map<std::string, Clo
     return false;
 }
 
+/// "; /velodyne_packets is velodyne_msgs/VelodyneScan..." for what a driver has yet to decode.
+std::string tell_packets(const BagContents& contents) {
+    std::string told;
+    for (const auto& [name, type] : contents.packets) {
+        told += fmt::format(
+            "; {} holds raw packets ({}): play the bag to the driver's node {} and record the "
+            "sensor_msgs/PointCloud2 that it publishes",
+            name, type, driver_of(type));
+    }
+    return told;
+}
+
 const CloudTopic& choose_clouds(const BagContents& contents, const std::filesystem::path& data,
                                 const OpenOptions& options) {
     const auto& clouds = contents.clouds;
     if (!options.topic.empty()) {
         const auto found = clouds.find(options.topic);
         if (found != clouds.end()) return found->second;
-        throw ConfigError(fmt::format("no point clouds on topic {}; there are: {}", options.topic,
-                                      clouds.empty() ? "none" : names_of(clouds)));
+        throw ConfigError(fmt::format("no point clouds on topic {}; there are: {}{}", options.topic,
+                                      clouds.empty() ? "none" : names_of(clouds),
+                                      tell_packets(contents)));
     }
     if (clouds.empty()) {
         const auto& known = contents.losses.empty() ? contents.notes : contents.losses;
         const std::string why = known.empty() ? "" : " (" + known.front() + ")";
-        throw InputError(
-            data, "", "holds no point clouds (sensor_msgs/PointCloud2 or Livox's CustomMsg)" + why);
+        throw InputError(data, "",
+                         "holds no point clouds (sensor_msgs/PointCloud2 or Livox's CustomMsg)" +
+                             why + tell_packets(contents));
     }
     std::vector<const CloudTopic*> whole;
     for (const auto& [name, topic] : clouds) {

@@ -23,6 +23,12 @@ bool present(const fs::path& path) {
 
 std::string extension_of(const fs::path& path) { return to_lower(path.extension().string()); }
 
+fs::path whole_path(const fs::path& path) {
+    std::error_code ignored;
+    const fs::path whole = fs::absolute(path, ignored).lexically_normal();
+    return whole.has_filename() ? whole : whole.parent_path();
+}
+
 Paths list_files(const fs::path& folder, const std::set<std::string>& extensions,
                  std::error_code& error) {
     Paths files;

@@ -14,6 +14,9 @@ namespace dynamic_filter::io {
 bool is_folder(const std::filesystem::path& path);
 bool present(const std::filesystem::path& path);
 std::string extension_of(const std::filesystem::path& path);  ///< in small letters
+/// Absolute and without "." and "..", nor a slash at its end: its name and its parent are real
+/// ones.
+std::filesystem::path whole_path(const std::filesystem::path& path);
 
 /// Visible files with one of the extensions, in natural order.
 Paths list_files(const std::filesystem::path& folder, const std::set<std::string>& extensions,

@@ -11,6 +11,7 @@
 #include "folders.hpp"
 #include "input.hpp"
 #include "layouts/layouts.hpp"
+#include "layouts/pose_notes.hpp"
 
 namespace dynamic_filter::io {
 namespace {
@@ -27,13 +28,6 @@ fs::path parent_of(const fs::path& folder) {
     const fs::path parent = without_slash(folder).parent_path();
     if (!parent.empty() && folder.filename() != "." && folder.filename() != "..") return parent;
     return without_slash(fs::absolute(folder, ignored)).parent_path();
-}
-
-const std::vector<std::string>& pose_names() {
-    static const std::vector<std::string> names = {"poses.txt", "optimized_poses.txt",
-                                                   "poses.csv", "poses_lidar2body.csv",
-                                                   "traj.txt",  "trajectory.txt"};
-    return names;
 }
 
 std::optional<fs::path> find_pose_file(const fs::path& folder) {
@@ -137,10 +131,16 @@ void find_scans(Layout& layout, const fs::path& data) {
     }
 }
 
-/// The folders that may hold what accompanies the scans.
-Paths companions(const Layout& layout, const fs::path& data) {
+/// The folders that may hold what accompanies the scans: of scans found below `top`, all up to it.
+Paths companions(const Layout& layout, const fs::path& data, const fs::path& top) {
     if (layout.format != Format::folder) return {data};
-    return {layout.scan_folder, parent_of(layout.scan_folder)};
+    Paths folders = {layout.scan_folder, parent_of(layout.scan_folder)};
+    const fs::path last = whole_path(top);
+    for (fs::path at = whole_path(folders.back());
+         data != top && at != last && at != at.root_path(); at = at.parent_path()) {
+        folders.push_back(parent_of(folders.back()));
+    }
+    return folders;
 }
 
 std::optional<fs::path> find_beside(const Paths& folders, const char* name) {
@@ -165,7 +165,60 @@ void find_poses(Layout& layout, const Paths& folders, const OpenOptions& options
         names += ", " + pose_names()[i];
     }
     if (layout.format == Format::folder) names += ", *.tum";
-    layout.notes.push_back("no pose file found; looked for " + names + " in " + looked);
+    layout.notes.push_back("no pose file found; looked for " + names + " in " + looked +
+                           offer_poses(layout.scans.size(), folders));
+}
+
+using Finder = std::optional<Layout> (*)(const fs::path& data, const OpenOptions& options);
+
+/// Those that bring their poses along, unless others are given.
+std::optional<Layout> find_by_contents(const fs::path& data, const OpenOptions& options) {
+    for (const Finder find : {find_kitti_360, find_kitti_raw, find_apollo}) {
+        if (auto layout = find(data, options)) return layout;
+    }
+    if (options.poses) return std::nullopt;
+    for (const auto find : {find_pairs, find_glim, find_mulran}) {
+        if (auto layout = find(data)) return layout;
+    }
+    return std::nullopt;
+}
+
+Layout find_at(const fs::path& data, const fs::path& top, const OpenOptions& options);
+
+/// The only scans below, if `data` has none in the usual places.
+std::optional<Layout> find_elsewhere(const fs::path& data, const OpenOptions& options) {
+    if (has_scans(data)) return std::nullopt;
+    refuse_argoverse(data);
+    refuse_several_recordings(data);
+    auto folder = find_below(data, scan_kinds());
+    if (!folder) return std::nullopt;
+    const auto& usual = scan_folders();
+    const fs::path above = folder->parent_path();
+    const bool is_usual =
+        std::find(usual.begin(), usual.end(), folder->filename().string()) != usual.end();
+    if (is_usual && whole_path(above) != whole_path(data)) folder = above;
+    Layout layout = find_at(*folder, data, options);
+    layout.notes.insert(layout.notes.begin(), "no scans in " + data.string() + " itself, but in " +
+                                                  layout.scan_folder.string());
+    return layout;
+}
+
+Layout find_at(const fs::path& data, const fs::path& top, const OpenOptions& options) {
+    refuse_inner_folder(data, options);
+    if (!options.format) {
+        if (auto layout = find_by_contents(data, options)) return *std::move(layout);
+        if (auto layout = find_elsewhere(data, options)) return *std::move(layout);
+    }
+    Layout layout;
+    layout.format = options.format.value_or(recognise(data));
+    find_scans(layout, data);
+    const Paths folders = companions(layout, data, top);
+    find_poses(layout, folders, options);
+    layout.times = find_beside(folders, "times.txt");
+    layout.labels = find_beside(folders, "labels");
+    if (layout.format == Format::kitti) layout.calib = if_exists(data / "calib.txt");
+    if (layout.format == Format::benchmark) layout.truth_map = if_exists(data / "gt_cloud.pcd");
+    return layout;
 }
 
 }  // namespace
@@ -183,23 +236,7 @@ Layout find_layout(const fs::path& data, const OpenOptions& options) {
         if (auto layout = find_nuscenes(without_slash(data))) return *std::move(layout);
     }
     require_folder(data);
-    refuse_inner_folder(data, options);
-    if (!options.format && !options.poses) {
-        if (auto layout = find_pairs(data)) return *std::move(layout);
-        if (auto layout = find_glim(data)) return *std::move(layout);
-        if (auto layout = find_mulran(data)) return *std::move(layout);
-    }
-    if (!options.format && !has_scans(data)) refuse_several_recordings(data);
-    Layout layout;
-    layout.format = options.format.value_or(recognise(data));
-    find_scans(layout, data);
-    const Paths folders = companions(layout, data);
-    find_poses(layout, folders, options);
-    layout.times = find_beside(folders, "times.txt");
-    layout.labels = find_beside(folders, "labels");
-    if (layout.format == Format::kitti) layout.calib = if_exists(data / "calib.txt");
-    if (layout.format == Format::benchmark) layout.truth_map = if_exists(data / "gt_cloud.pcd");
-    return layout;
+    return find_at(data, data, options);
 }
 
 Paths find_labels(const Layout& layout, std::vector<std::string>& notes) {

@@ -16,9 +16,10 @@ using Paths = std::vector<std::filesystem::path>;
 struct Layout {
     Format format = Format::folder;
     std::filesystem::path scan_folder;
-    Paths scans;                       ///< in natural order; never empty
-    std::vector<Pose> T_world_sensor;  ///< of the scans, where the layout itself says; else empty
-    std::vector<double> stamps;        ///< [s] likewise
+    Paths scans;                        ///< in natural order; never empty
+    std::vector<Pose> T_world_sensor;   ///< of the scans, where the layout itself says; else empty
+    std::vector<double> stamps;         ///< [s] likewise
+    std::filesystem::path pose_source;  ///< where T_world_sensor is from
     std::optional<std::filesystem::path> poses, times, calib, labels, truth_map;
     std::vector<std::string> notes;
 };

@@ -68,17 +68,26 @@ Match match_by_time(const Layout& layout, const PoseFile& file, std::vector<doub
 
 }  // namespace
 
+std::vector<double> growing_times_in_names(const Paths& scans) {
+    std::vector<double> times = times_in_names(scans);
+    if (!std::is_sorted(times.begin(), times.end())) times.clear();
+    return times;
+}
+
 Match match_poses(const Layout& layout, const PoseFile& file, const std::vector<double>& times) {
     const std::size_t scans = layout.scans.size();
     if (file.poses.size() == scans) {
         const std::string note = fmt::format("{} scans matched to poses by order", scans);
-        if (file.stamps.empty()) return {file.poses, times, note};
+        if (file.stamps.empty()) {
+            return {file.poses, times.empty() ? growing_times_in_names(layout.scans) : times, note};
+        }
         const std::vector<double> own = times.empty() ? times_in_names(layout.scans) : times;
         if (own.empty()) return {file.poses, file.stamps, note};
         return {file.poses, own, note, file.stamps};
     }
     if (!file.stamps.empty()) {
-        if (times.size() == scans) return match_by_time(layout, file, times, "times.txt");
+        const char* source = layout.times ? "times.txt" : "the recording's stamps";
+        if (times.size() == scans) return match_by_time(layout, file, times, source);
         const std::vector<double> named = times_in_names(layout.scans);
         if (!named.empty()) return match_by_time(layout, file, named, "file names");
     }

@@ -18,6 +18,9 @@ struct Match {
     std::vector<double> pose_stamps{};  ///< [s] where matched by order though both have stamps
 };
 
+/// Stamps [s] of scans whose names are times; empty if they are not, or are in another order.
+std::vector<double> growing_times_in_names(const Paths& scans);
+
 /// By order if the numbers agree; otherwise by time, from `times` (may be empty) or from file names
 /// that are time stamps, within 0.05 s. Throws InputError with both numbers.
 Match match_poses(const Layout& layout, const PoseFile& file, const std::vector<double>& times);

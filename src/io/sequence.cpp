@@ -59,12 +59,13 @@ void from_camera_poses(Sequence& sequence, const std::filesystem::path& calib) {
 
 /// Fills the poses, and returns the stamps as far as the recording has them.
 std::vector<double> assign_poses(Sequence& sequence, const Layout& layout) {
+    sequence.pose_source = layout.poses.value_or(layout.pose_source);
     if (!layout.T_world_sensor.empty()) {
         sequence.T_world_sensor = layout.T_world_sensor;
         return layout.stamps;
     }
-    std::vector<double> times = times_of(layout);
-    if (!layout.poses) return times;
+    std::vector<double> times = layout.stamps.empty() ? times_of(layout) : layout.stamps;
+    if (!layout.poses) return times.empty() ? growing_times_in_names(layout.scans) : times;
     const PoseFile file = read_poses(*layout.poses);
     Match match = match_poses(layout, file, times);
     sequence.T_world_sensor = std::move(match.poses);

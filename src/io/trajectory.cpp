@@ -6,6 +6,8 @@
 #include <limits>
 #include <numeric>
 
+#include "io/time_field.hpp"
+
 namespace dynamic_filter::io {
 namespace {
 
@@ -18,14 +20,6 @@ Pose between(const Pose& a, const Pose& b, double share) {
     pose.linear() = (from * Eigen::Quaterniond(part)).normalized().toRotationMatrix();
     pose.translation() = (1.0 - share) * a.translation() + share * b.translation();
     return pose;
-}
-
-const Field* time_field(const Cloud& cloud) {
-    for (const char* name : {"t", "time", "timestamp", "offset_time", "time_offset", "timeOffset",
-                             "time_stamp", "ts"}) {
-        if (const Field* field = cloud.find(name)) return field;
-    }
-    return nullptr;
 }
 
 struct Span {
@@ -53,6 +47,14 @@ std::optional<double> unit_of(double duration) {
 }
 
 }  // namespace
+
+const Field* time_field(const Cloud& cloud) {
+    for (const char* name : {"t", "time", "timestamp", "offset_time", "time_offset", "timeOffset",
+                             "time_stamp", "ts"}) {
+        if (const Field* field = cloud.find(name)) return field;
+    }
+    return nullptr;
+}
 
 void put_in_order(Trajectory& trajectory) {
     std::vector<std::size_t> order(trajectory.stamps.size());

@@ -2,6 +2,7 @@
 // check on copies of a simulated recording, each with a mistake that users make.
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <functional>
 
 #include "dynamic_filter/io/preflight.hpp"
@@ -169,6 +170,45 @@ TEST_F(Check, NamesStampsOfPosesThatAreNotThoseOfTheScans) {
     expect_only(with(1e9, 1e9, 0.0), "the poses' stamps are in ns", "in seconds");
     expect_only(with(1e9, 1e3, 0.0), "the poses' stamps are in ms", "in seconds");
     expect_only(with(1e9, 1e-3, 0.0), "the scans' stamps are in ms", "--time-unit ms");
+}
+
+/// Scans with absolute times, one every 0.1 s, under the names that `name_of` gives them.
+std::unique_ptr<test::TemporaryFolder> write_timed(
+    const std::function<std::string(std::size_t)>& name_of, double beginning) {
+    auto folder = std::make_unique<test::TemporaryFolder>();
+    std::filesystem::create_directories(folder->path() / "scans");
+    for (std::size_t i = 0; i < 12; ++i) {
+        Cloud cloud;
+        for (const char* axis : {"x", "y", "z"}) add_field(cloud, axis, FieldType::f32);
+        add_field(cloud, "timestamp", FieldType::f64);
+        for (std::size_t p = 0; p < 5; ++p) {
+            const float place[3] = {3.0F + static_cast<float>(p), 1.0F, 0.5F};
+            const double time =
+                beginning + 0.1 * static_cast<double>(i) + 0.01 * static_cast<double>(p);
+            cloud.data.resize(cloud.data.size() + sizeof place + sizeof time);
+            std::byte* end = cloud.data.data() + cloud.data.size();
+            std::memcpy(end - sizeof time - sizeof place, place, sizeof place);
+            std::memcpy(end - sizeof time, &time, sizeof time);
+        }
+        write_pcd(folder->path() / "scans" / (name_of(i) + ".pcd"), cloud);
+    }
+    return folder;
+}
+
+TEST_F(Check, NamesScansWhoseNamesAreInNoOrderOfTime) {
+    const auto in_order = [](std::size_t i) { return "scan" + std::to_string(i); };
+    const auto turned_round = [](std::size_t i) {
+        return "scan" + std::to_string(i < 6 ? i + 6 : i - 6);
+    };
+    const auto findings = [](const test::TemporaryFolder& recording) {
+        return check_recording(open_sequence(recording.path()), Depth::quick);
+    };
+    EXPECT_TRUE(findings(*write_timed(in_order, 1.5e9)).findings.empty());
+    EXPECT_TRUE(findings(*write_timed(turned_round, 0.0)).findings.empty())
+        << "no clock of the world";
+    const Preflight result = findings(*write_timed(turned_round, 1.5e9));
+    expect_only(result, "was taken", "rename");
+    expect_only(result, "which comes first by its name", "rename");
 }
 
 TEST_F(Check, ListsTheScansThatARunRejects) {

@@ -266,8 +266,6 @@ TEST_F(Command, InputThatIsNotThereOrContradictsItselfExitsWithThree) {
     const std::string poses = slurp(data / "poses.txt");
     spill(data / "poses.txt", poses.substr(0, poses.size() / 2));
     EXPECT_EQ(run("run data -o out"), 3);
-    fs::remove(data / "poses.txt");
-    EXPECT_EQ(run("run data -o out"), 3);
     expect_said("poses");
     spill(data / "poses.txt", poses + poses);
     EXPECT_EQ(run("run data -o out"), 3);
@@ -370,6 +368,24 @@ TEST_F(Command, InfoDescribesFilesAndFolders) {
     expect_said("is a ROS 1 bag; force --format bag");
     EXPECT_EQ(run("check recording.data --format bag"), 0) << said();
     EXPECT_EQ(run("convert recording.data b.mcap --format bag"), 0) << said();
+}
+
+TEST_F(Command, InfoSaysWhetherThereArePoses) {
+    EXPECT_EQ(run("info " + recording().string()), 0) << said();
+    expect_said("poses   of all scans, from " + (recording() / "poses.txt").string());
+    expect_said("path    ");
+    const fs::path data = copy();
+    fs::remove(data / "poses.txt");
+    EXPECT_EQ(run("info data"), 0) << said();
+    expect_said("poses   none: the odometry finds them");
+    expect_said("intensity");
+    ASSERT_EQ(run("convert " + recording().string() + " told.mcap"), 0);
+    EXPECT_EQ(run("info told.mcap"), 0) << said();
+    expect_said("/points");
+    expect_said("poses   of all scans");
+    ASSERT_EQ(run("convert " + recording().string() + " bench --to benchmark"), 0);
+    EXPECT_EQ(run("info bench"), 0) << said();
+    expect_said("poses   in the scans' files");
 }
 
 TEST_F(Command, ConfigPrintsWhatRunReads) {

@@ -1,9 +1,11 @@
-foreach(unit bag bag_scans bag_writer benchmark cloud cloud_writers file frame frame_tree las layout layouts lzf
-             matching mcap messages natural_order npy pcd pcd_header ply ply_header png pose_fix pose_table poses
+foreach(unit bag bag_scans bag_writer benchmark cloud cloud_writers file frame frame_tree las layout layouts
+             layouts/apollo layouts/below layouts/kitti_360 layouts/kitti_raw lzf matching mcap
+             messages natural_order npy packets pcd pcd_header ply ply_header png pose_fix pose_table poses
              records rigid rosbag1 rosbag2 sequence text text_cloud trajectory writers)
   df_test(io/${unit} dynamic_filter_io)
   # Units behind the public headers are tested too.
-  target_include_directories(io_${unit}_test PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  string(REPLACE "/" "_" name ${unit})
+  target_include_directories(io_${name}_test PRIVATE ${PROJECT_SOURCE_DIR}/src)
 endforeach()
 target_link_libraries(io_png_test PRIVATE PNG::PNG)
 

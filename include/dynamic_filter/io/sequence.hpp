@@ -57,12 +57,14 @@ struct Sequence {
     std::vector<std::filesystem::path> label_files;  ///< parallel to scan_files (empty path: none),
                                                      ///< or empty
     std::vector<Pose> T_world_sensor;  ///< parallel; empty for `benchmark` (poses are in the files)
-    bool has_poses = true;             ///< false: nobody knows them, and T_world_sensor is empty
-    bool wants_times = false;          ///< frames get the times of their points
+    std::filesystem::path pose_source;  ///< what they were read from; empty: the scans' own files,
+                                        ///< the bag, or nothing
+    bool has_poses = true;              ///< false: nobody knows them, and T_world_sensor is empty
+    bool wants_times = false;           ///< frames get the times of their points
     /// Parallel, or empty: how the sensor moved, to undo the motion during each scan.
     std::vector<Twist> velocities;
-    std::vector<double> stamps;        ///< parallel [s]; made up at 10 Hz where not measured
-    bool measured_stamps = false;      ///< they come from the recording
+    std::vector<double> stamps;    ///< parallel [s]; made up at 10 Hz where not measured
+    bool measured_stamps = false;  ///< they come from the recording
     Trajectory trajectory;  ///< poses as dense in time as the recording has them; may be empty
     bool deskew = false;    ///< as asked for
     bool points_in_world = false;         ///< as asked for
@@ -88,8 +90,8 @@ struct Frame {
     bool has_pose = true;                    ///< false: T_world_sensor means nothing
     double stamp = 0.0;                      ///< [s]
     std::vector<float> times;  ///< [s] of the points from `stamp`; empty: unknown, or not wanted
-    Labels truth;             ///< empty without ground truth; otherwise one per point
-    std::string truth_fault;  ///< why this scan's truth cannot be used; the scan itself can
+    Labels truth;              ///< empty without ground truth; otherwise one per point
+    std::string truth_fault;   ///< why this scan's truth cannot be used; the scan itself can
 };
 
 /// Recognises the layout, checks that scans, poses and stamps agree in number. Where no poses are

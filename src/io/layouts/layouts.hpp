@@ -4,6 +4,8 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
+#include <string>
 
 #include "io/layout.hpp"
 
@@ -32,8 +34,35 @@ std::optional<Layout> find_mulran(const std::filesystem::path& data);
 /// chosen, and for tables that contradict each other.
 std::optional<Layout> find_nuscenes(const std::filesystem::path& data);
 
-/// Throws InputError with their names if the folders below are recordings (velodyne/ in each), as
-/// are HeLiMOS's sensors and SemanticKITTI's sequences.
+/// A raw drive of KITTI: velodyne_points/data/*.bin with timestamps.txt, and oxts/data/*.txt, from
+/// which the poses come; the folder itself or its velodyne_points. Without oxts a note says so.
+/// A scan without its file there has a pose that is not finite. Empty if it is no such folder;
+/// InputError for rows that are none, and if no scan gets a pose.
+std::optional<Layout> find_kitti_raw(const std::filesystem::path& data, const OpenOptions& options);
+
+/// A drive of KITTI-360, below data_3d_raw; data_poses and calibration lie beside that. Poses are
+/// the vehicle's, of some scans only: between these they are interpolated, up to a second.
+/// Otherwise as find_kitti_raw.
+std::optional<Layout> find_kitti_360(const std::filesystem::path& data, const OpenOptions& options);
+
+/// pcds/1.pcd, 2.pcd... with poses.txt, rows "index stamp x y z qx qy qz qw", as Apollo's samples
+/// have them. Empty if it is no such folder; InputError for rows that are none, and if no scan gets
+/// a pose.
+std::optional<Layout> find_apollo(const std::filesystem::path& data, const OpenOptions& options);
+
+/// Throws InputError if the scans are Argoverse 2's, which are not read; it says what to do.
+void refuse_argoverse(const std::filesystem::path& data);
+
+/// Throws InputError with the recordings' names.
+[[noreturn]] void refuse_several(const std::filesystem::path& data, const Paths& recordings);
+
+/// Throws InputError with their names if several of the folders below are recordings (velodyne/ in
+/// each), as are HeLiMOS's sensors and SemanticKITTI's sequences.
 void refuse_several_recordings(const std::filesystem::path& data);
+
+/// The only folder, at most two below `data`, that holds files of one of the kinds or a drive.
+/// Empty if there is none; InputError with their names if there are several.
+std::optional<std::filesystem::path> find_below(const std::filesystem::path& data,
+                                                const std::set<std::string>& kinds);
 
 }  // namespace dynamic_filter::io

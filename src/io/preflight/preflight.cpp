@@ -261,6 +261,24 @@ void judge_stamps(Preflight& result, const Sequence& sequence) {
                                "look at the stamps; they should be in seconds"});
 }
 
+/// "10.pcd" is read behind "9.pcd"; names that were given otherwise are in no order of time.
+void judge_order(Preflight& result, const Sequence& sequence, const Samples& samples) {
+    const auto unknown = [](const auto& sample) { return !sample.second.began; };
+    if (sequence.bag || std::any_of(samples.begin(), samples.end(), unknown)) return;
+    const auto back = std::adjacent_find(
+        samples.begin(), samples.end(),
+        [](const auto& a, const auto& b) { return *b.second.began < *a.second.began; });
+    if (back == samples.end()) return;
+    const auto next = std::next(back);
+    result.findings.push_back(
+        {fmt::format("the order of the names is not that in time: by its points {} was taken "
+                     "{:.3g} s before {}, which comes first by its name",
+                     sequence.scan_files[next->first].filename().string(),
+                     *back->second.began - *next->second.began,
+                     sequence.scan_files[back->first].filename().string()),
+         "rename the scans, and their labels, so that their names sort by time"});
+}
+
 /// Of all scans, what shows without reading them.
 std::map<std::size_t, std::string> find_unusable(const Sequence& sequence) {
     std::map<std::size_t, std::string> unusable;
@@ -286,6 +304,7 @@ Preflight check_recording(const Sequence& sequence, Depth depth) {
     result.scans = samples.size();
     if (sequence.has_poses) result.overlays = compare(samples, pairs);
     judge_stamps(result, sequence);
+    judge_order(result, sequence, samples);
     judge_points(result, samples);
     if (result.overlays.empty()) return result;
     judge_poses(result, sequence, samples, pairs);

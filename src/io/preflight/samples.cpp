@@ -10,6 +10,7 @@
 
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/geometry/voxel.hpp"
+#include "io/time_field.hpp"
 
 namespace dynamic_filter::io {
 namespace {
@@ -80,10 +81,25 @@ std::size_t count_near(const Points& points, const Point& place) {
         [&](const Point& p) { return is_measured(p) && (p - place).norm() < kNear; }));
 }
 
+/// Seconds since 1970, or nanoseconds in a field that has room for them; smaller numbers are from
+/// some beginning that other scans need not have.
+std::optional<double> began_of(const Cloud& cloud) {
+    constexpr double kLeast = 1e8, kMost = 1e10, kNanosecond = 1e-9;
+    const Field* field = time_field(cloud);
+    if (field == nullptr || size_of(field->type) < 8) return std::nullopt;
+    std::optional<double> began;
+    for (const double raw : values(cloud, *field)) {
+        const double time = raw > kMost ? raw * kNanosecond : raw;
+        if (time > kLeast && time < kMost) began = std::min(time, began.value_or(time));
+    }
+    return began;
+}
+
 Sample sample_of(const Frame& frame) {
     const Point said = frame.T_world_sensor.translation().cast<float>();
-    return {upright(frame.points), frame.T_world_sensor, share_of_doubles(frame.points),
-            count_near(frame.points, Point::Zero()), count_near(frame.points, said)};
+    return {upright(frame.points),          frame.T_world_sensor,
+            share_of_doubles(frame.points), count_near(frame.points, Point::Zero()),
+            count_near(frame.points, said), began_of(frame.cloud)};
 }
 
 }  // namespace

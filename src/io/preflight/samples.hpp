@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct Sample {
     double doubled = 0.0;
     /// Points within a few metres of the frame's origin, and of where the pose says the sensor is.
     std::size_t near_origin = 0, near_pose = 0;
+    std::optional<double> began;  ///< [s] the earliest point's, if the points have absolute times
 };
 using Samples = std::map<std::size_t, Sample>;  ///< by the scan's index
 

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/io/file.hpp"
+#include "dynamic_filter/io/trajectory.hpp"
+#include "io/folders.hpp"
+#include "io/layouts/drive.hpp"
+#include "io/layouts/layouts.hpp"
+#include "io/layouts/numbers.hpp"
+#include "io/layouts/pose_notes.hpp"
+#include "io/rigid.hpp"
+
+namespace dynamic_filter::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* scans_name = "data_3d_raw";
+
+/// The drive that is given, or the only one below data_3d_raw.
+std::optional<fs::path> find_drive(const fs::path& data) {
+    if (const auto drive = drive_of(data)) {
+        const bool is_one = whole_path(*drive).parent_path().filename() == scans_name;
+        return is_one ? std::optional(whole_path(*drive)) : std::nullopt;
+    }
+    const fs::path root = whole_path(data).filename() == scans_name ? data : data / scans_name;
+    Paths drives;
+    for (const fs::path& drive : list_folders(root)) {
+        if (is_drive(drive)) drives.push_back(drive);
+    }
+    if (drives.empty()) return std::nullopt;
+    if (drives.size() > 1) refuse_several(root, drives);
+    return whole_path(drives[0]);
+}
+
+/// The row behind `name`, or of a file without names the first one.
+Pose read_calibration(const fs::path& file, std::string_view name) {
+    const std::string text = read_file(file);
+    Lines lines(text, file);
+    while (lines.next()) {
+        std::string_view rest = trim(lines.line());
+        if (rest.empty() || (!name.empty() && take_token(rest) != name)) continue;
+        const Pose pose = read_pose_row(rest, lines);
+        if (!pose.matrix().allFinite()) lines.fail("has numbers that are not finite");
+        return pose;
+    }
+    throw InputError(file, "",
+                     name.empty() ? "holds no matrix" : fmt::format("has no line '{}'", name));
+}
+
+/// Where the sensor is on the vehicle, by way of the left camera.
+Pose read_T_pose_velo(const fs::path& calibration) {
+    const Pose T_velo_cam = read_calibration(calibration / "calib_cam_to_velo.txt", "");
+    const Pose T_pose_cam = read_calibration(calibration / "calib_cam_to_pose.txt", "image_00:");
+    return T_pose_cam * T_velo_cam.inverse();
+}
+
+/// Over the scans' numbers in place of time: rows "number, 3x4 matrix".
+Trajectory read_trajectory(const fs::path& file) {
+    const std::string text = read_file(file);
+    Lines lines(text, file);
+    Trajectory trajectory;
+    while (lines.next()) {
+        std::string_view rest = lines.line();
+        const std::string_view token = take_token(rest);
+        if (token.empty()) continue;
+        const auto number = parse_count(token);
+        if (!number) lines.fail(quote(token) + " is no number of a scan");
+        const auto at = static_cast<double>(*number);
+        if (!trajectory.stamps.empty() && at <= trajectory.stamps.back()) {
+            lines.fail(fmt::format("scan {} comes behind {}; expected growing numbers", at,
+                                   trajectory.stamps.back()));
+        }
+        const Pose pose = read_pose_row(rest, lines);
+        if (!pose.matrix().allFinite()) continue;
+        trajectory.stamps.push_back(at);
+        trajectory.poses.push_back(pose);
+    }
+    if (trajectory.stamps.empty()) throw InputError(file, "", "holds no pose");
+    return trajectory;
+}
+
+void add_poses(Layout& layout, const fs::path& file, const Pose& T_pose_velo) {
+    constexpr double longest_gap = 10.0;  // scans: the sensor turns ten times a second
+    const Trajectory trajectory = read_trajectory(file);
+    std::size_t found = 0;
+    for (const fs::path& scan : layout.scans) {
+        const auto number = index_of(scan);
+        if (!number) throw InputError(scan, "", "its name is no number, as poses.txt refers to");
+        const auto pose = pose_at(trajectory, static_cast<double>(*number), longest_gap);
+        layout.T_world_sensor.push_back(pose ? *pose * T_pose_velo : lost_pose());
+        found += pose ? 1 : 0;
+    }
+    if (found == 0) {
+        throw InputError(file, "", "has no pose of any scan in " + layout.scan_folder.string());
+    }
+    layout.pose_source = file;
+    layout.notes.push_back("vehicle poses from " + file.string() +
+                           ", interpolated between the scans that have one, and the sensor's place "
+                           "on the vehicle from calibration/");
+    note_lost(layout);
+}
+
+/// Why there are no poses; empty if there are.
+std::string what_is_missing(const fs::path& poses, const fs::path& calibration) {
+    if (!present(poses)) return "no poses found; looked for " + poses.string();
+    for (const char* name : {"calib_cam_to_velo.txt", "calib_cam_to_pose.txt"}) {
+        if (present(calibration / name)) continue;
+        return "no poses: those of " + poses.string() + " are the vehicle's, and without " +
+               (calibration / name).string() + " nothing says where the sensor is on it";
+    }
+    return "";
+}
+
+}  // namespace
+
+std::optional<Layout> find_kitti_360(const fs::path& data, const OpenOptions& options) {
+    const auto drive = find_drive(data);
+    if (!drive) return std::nullopt;
+    Layout layout = scans_of_drive(*drive);
+    if (needs_no_poses(layout, options)) return layout;
+    const fs::path root = drive->parent_path().parent_path();
+    const fs::path poses = root / "data_poses" / drive->filename() / "poses.txt";
+    if (const std::string missing = what_is_missing(poses, root / "calibration");
+        !missing.empty()) {
+        layout.notes.push_back(missing + offer_poses(layout.scans.size(), {*drive}));
+        return layout;
+    }
+    add_poses(layout, poses, read_T_pose_velo(root / "calibration"));
+    return layout;
+}
+
+}  // namespace dynamic_filter::io

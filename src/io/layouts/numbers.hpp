@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "dynamic_filter/types.hpp"
+#include "io/text.hpp"
+
+namespace dynamic_filter::io {
+
+/// The numbers of `text`, a part of the current line, parted by blanks. Throws InputError.
+std::vector<double> read_numbers(std::string_view text, const Lines& where);
+
+/// The 12 numbers of `text` as the rows of a rigid motion; one that is not finite becomes
+/// lost_pose(). Throws InputError.
+Pose read_pose_row(std::string_view text, const Lines& where);
+
+/// 12 for "0000000012.bin"; empty if the name is no number.
+std::optional<std::size_t> index_of(const std::filesystem::path& scan);
+
+}  // namespace dynamic_filter::io

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "io/layouts/pose_notes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/io/file.hpp"
+#include "io/folders.hpp"
+#include "io/text.hpp"
+
+namespace dynamic_filter::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A row of a pose file has seven columns or more; a header and comments do not begin with numbers.
+bool is_row(std::string_view line) {
+    const bool commas = line.find(',') != std::string_view::npos;
+    const auto cells = commas ? split_at(line, ',') : split_tokens(line);
+    return cells.size() >= 7 && parse_real(cells.front()).has_value();
+}
+
+/// How many rows look like poses; 0 for what is far too long to be the poses of so many scans.
+std::size_t count_rows(const fs::path& file, std::size_t scans) {
+    constexpr std::size_t longest_row = 1000;  // [bytes]
+    std::error_code error;
+    const auto size = fs::file_size(file, error);
+    if (error || size > longest_row * (scans + 10)) return 0;
+    const std::string text = read_file(file);
+    Lines lines(text, file);
+    std::size_t rows = 0;
+    while (lines.next()) rows += is_row(lines.line()) ? 1 : 0;
+    return rows;
+}
+
+bool looks_like_poses(const fs::path& file, std::size_t scans) {
+    const auto& names = pose_names();
+    if (std::find(names.begin(), names.end(), file.filename().string()) != names.end()) return true;
+    try {
+        return count_rows(file, scans) == scans;
+    } catch (const InputError&) {
+        return false;
+    }
+}
+
+}  // namespace
+
+const std::vector<std::string>& pose_names() {
+    static const std::vector<std::string> names = {"poses.txt", "optimized_poses.txt",
+                                                   "poses.csv", "poses_lidar2body.csv",
+                                                   "traj.txt",  "trajectory.txt"};
+    return names;
+}
+
+void note_lost(Layout& layout) {
+    const auto lost = std::count_if(layout.T_world_sensor.begin(), layout.T_world_sensor.end(),
+                                    [](const Pose& pose) { return !pose.matrix().allFinite(); });
+    if (lost == 0) return;
+    layout.notes.push_back(
+        fmt::format("{} of {} scans have no pose", lost, layout.T_world_sensor.size()));
+}
+
+std::string offer_poses(std::size_t scans, const Paths& folders) {
+    constexpr std::size_t most = 100;  // a text file beside each scan is no pose file
+    std::string offer;
+    for (const fs::path& folder : folders) {
+        std::error_code ignored;
+        const Paths files = list_files(folder, {".txt", ".csv", ".tum"}, ignored);
+        if (files.size() > most) continue;
+        for (const fs::path& file : files) {
+            if (!looks_like_poses(file, scans)) continue;
+            offer += (offer.empty() ? "; try --poses " : " or --poses ") + file.string();
+        }
+    }
+    return offer;
+}
+
+}  // namespace dynamic_filter::io
