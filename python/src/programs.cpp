@@ -151,15 +151,17 @@ void bind_programs(py::module_& module) {
         "simulate",
         [](const std::string& scene, const fs::path& output, const std::string& sensor,
            int pedestrians, std::uint64_t seed, std::optional<std::size_t> frames, double rate,
-           double pose_noise, double pose_noise_deg, int rounds, bool overwrite, bool quiet) {
+           double pose_noise, double pose_noise_deg, bool sweep, int rounds, bool overwrite,
+           bool quiet) {
             return simulate({scene, sensor, pedestrians, seed, frames, rate, pose_noise,
-                             pose_noise_deg, rounds},
+                             pose_noise_deg, sweep, rounds},
                             output, overwrite, quiet);
         },
         py::arg("scene"), py::arg("output"), py::kw_only(), py::arg("sensor") = "vlp16",
         py::arg("pedestrians") = -1, py::arg("seed") = 1, py::arg("frames") = py::none(),
         py::arg("rate") = 0.0, py::arg("pose_noise") = 0.0, py::arg("pose_noise_deg") = 0.0,
-        py::arg("rounds") = 0, py::arg("overwrite") = false, py::arg("quiet") = true,
+        py::arg("sweep") = false, py::arg("rounds") = 0, py::arg("overwrite") = false,
+        py::arg("quiet") = true,
         R"(Makes a recording with exact labels, in KITTI's layout, in the folder `output`.
 
 scene: crowd, street, square, hall, jam or platform; sensor: see `dynamicfilter simulate --help`;

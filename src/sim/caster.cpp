@@ -23,6 +23,14 @@ void attach_mesh(RTCDevice device, RTCScene scene, const Mesh& mesh) {
     rtcReleaseGeometry(geometry);
 }
 
+void attach_copy(RTCDevice device, RTCScene scene, RTCScene of) {
+    const RTCGeometry instance = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(instance, of);
+    rtcCommitGeometry(instance);
+    rtcAttachGeometry(scene, instance);
+    rtcReleaseGeometry(instance);
+}
+
 RTCScene new_scene(RTCDevice device) {
     const RTCScene scene = rtcNewScene(device);
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
@@ -39,24 +47,25 @@ Caster::Caster(const Mesh& still, std::vector<Mesh> prototypes, std::vector<Part
       normal_to_world_(parts_.size(), Eigen::Matrix3f::Identity()),
       device_(rtcNewDevice(nullptr)),
       scene_(new_scene(device_)) {
-    attach_mesh(device_, scene_, still);  // gets id 0; the parts follow as 1, 2, ...
+    // What stands still is a scene of its own, too: it is not built again when things move.
+    still_scene_ = new_scene(device_);
+    attach_mesh(device_, still_scene_, still);
+    rtcCommitScene(still_scene_);
+    attach_copy(device_, scene_, still_scene_);  // gets id 0; the parts follow as 1, 2, ...
     for (const Mesh& mesh : prototypes_) {
         prototype_scenes_.push_back(new_scene(device_));
         attach_mesh(device_, prototype_scenes_.back(), mesh);
         rtcCommitScene(prototype_scenes_.back());
     }
     for (const Part& part : parts_) {
-        const RTCGeometry instance = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
-        rtcSetGeometryInstancedScene(instance, prototype_scenes_[part.prototype]);
-        rtcCommitGeometry(instance);
-        rtcAttachGeometry(scene_, instance);
-        rtcReleaseGeometry(instance);
+        attach_copy(device_, scene_, prototype_scenes_[part.prototype]);
     }
     rtcCommitScene(scene_);
 }
 
 Caster::~Caster() {
     rtcReleaseScene(scene_);
+    rtcReleaseScene(still_scene_);
     for (const RTCScene scene : prototype_scenes_) rtcReleaseScene(scene);
     rtcReleaseDevice(device_);
 }
@@ -93,7 +102,7 @@ Hit Caster::cast(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction
 
     Hit hit{.range = query.ray.tfar, .found = true};
     Eigen::Vector3f normal(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
-    if (query.hit.instID[0] == RTC_INVALID_GEOMETRY_ID) {
+    if (query.hit.instID[0] == 0) {
         hit.reflectivity = still_materials_[query.hit.primID].reflectivity;
         hit.kind = still_materials_[query.hit.primID].kind;
     } else {

@@ -56,6 +56,7 @@ private:
     std::vector<Eigen::Matrix3f> normal_to_world_;  // inverse transpose of the parts' linear maps
     RTCDevice device_ = nullptr;
     RTCScene scene_ = nullptr;
+    RTCScene still_scene_ = nullptr;
     std::vector<RTCScene> prototype_scenes_;
 };
 
