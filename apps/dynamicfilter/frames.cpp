@@ -58,9 +58,8 @@ io::Sequence open(const DataOptions& options) {
         how.poses.reset();
         how.without_poses = true;
     }
-    io::Sequence sequence = io::open_sequence(options.data, how);
-    sequence.wants_times = !sequence.has_poses;
-    return sequence;
+    how.deskew = options.deskew == "on";
+    return io::open_sequence(options.data, how);
 }
 
 void for_each_frame(const io::Sequence& sequence, const std::vector<std::size_t>& scans,

@@ -149,6 +149,9 @@ Frame read_frame(const Sequence& sequence, std::size_t i) {
     }
     if (sequence.wants_times || !sequence.velocities.empty()) {
         frame.times = point_times(frame.cloud, frame.stamp);
+        if (frame.times.empty() && sequence.sweep) {
+            frame.times = sweep_times(frame.points, *sequence.sweep);
+        }
     }
     if (!sequence.velocities.empty() && !frame.times.empty()) {
         frame.points =
