@@ -128,6 +128,11 @@ std::vector<std::string> choose_motion(io::Sequence& sequence, Config& config,
         return notes;
     }
     sequence.wants_times = false;
+    if (choice.deskew == "on" && !timed) {
+        add(notes, choose_deskew(sequence, config.odometry, choice, timed, false));
+        sequence.wants_times = false;
+        if (sequence.sweep) io::prepare_deskew(sequence);
+    }
     if (choice.deskew == "auto" && quality.given.is_distorted()) {
         io::prepare_deskew(sequence);
         notes.push_back(fmt::format(

@@ -224,7 +224,7 @@ void prepare_deskew(Sequence& sequence) {
         return;
     }
     const Cloud first = read_scan(sequence, 0);
-    if (point_times(first, sequence.stamps.front()).empty()) {
+    if (!sequence.sweep && point_times(first, sequence.stamps.front()).empty()) {
         sequence.notes.push_back(
             "the points have no times of their own (no field t, time, timestamp or offset_time "
             "that varies): the scans' motion is not undone");

@@ -12,6 +12,7 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "dynamic_filter/io/sequence.hpp"
@@ -63,5 +64,9 @@ struct MotionQuality {
 /// Reads 21 scans in a row at each of some places of the recording, with the times of their points
 /// if the sequence wants_times.
 MotionQuality measure_motion(const Sequence& sequence, const OdometryConfig& config);
+
+/// What is wrong with the poses, if scans overlay clearly better at others: one sentence, with
+/// figures; empty if nothing is. Reads up to 180 scans.
+std::string find_pose_mistake(const Sequence& sequence, const OdometryConfig& config);
 
 }  // namespace dynamic_filter::io

@@ -10,6 +10,7 @@
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/odometry/overlay_blur.hpp"
 #include "dynamic_filter/parallel.hpp"
+#include "pose_mistakes.hpp"
 
 namespace dynamic_filter::io {
 namespace {
@@ -110,6 +111,7 @@ std::vector<Sweep> all_sweeps(double duration) {
 
 /// The poses of a piece, as given and as its scans show them.
 struct Compared {
+    std::vector<double> stamps;
     std::vector<Pose> given, shown;
     Blur at_given, at_shown;
 };
@@ -119,7 +121,10 @@ Compared compare(Piece piece, const OdometryConfig& config) {
     const bool has_times = std::all_of(piece.scans.begin(), piece.scans.end(),
                                        [](const Scan& scan) { return !scan.times.empty(); });
     const bool has_poses = piece.scans.front().has_pose;
-    for (const Scan& scan : piece.scans) compared.given.push_back(scan.T_world_sensor);
+    for (const Scan& scan : piece.scans) {
+        compared.stamps.push_back(scan.stamp);
+        compared.given.push_back(scan.T_world_sensor);
+    }
     const auto look = [&](double Blur::*which) {
         const std::vector<Pose> shown = poses_of(track(piece, config));
         compared.at_shown.*which = overlay_blur(piece.scans, shown, config);
@@ -157,6 +162,35 @@ double usual_step(const Sequence& sequence) {
         steps.push_back(sequence.stamps[i] - sequence.stamps[i - 1]);
     }
     return median(std::move(steps));
+}
+
+std::vector<Compared> compare_places(const Sequence& sequence, std::size_t in_a_row,
+                                     const OdometryConfig& config) {
+    std::vector<Piece> pieces = read_pieces(sequence, in_a_row);
+    std::erase_if(pieces, [](const Piece& piece) { return piece.scans.size() < 2; });
+    std::vector<Compared> compared(pieces.size());
+    parallel_for(pieces.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+            compared[k] = compare(std::move(pieces[k]), config);
+        }
+    });
+    return compared;
+}
+
+MotionQuality quality_of(const std::vector<Compared>& compared, bool has_poses) {
+    MotionQuality quality;
+    const double share = 1.0 / static_cast<double>(compared.size());
+    for (const Compared& piece : compared) {
+        for (double Blur::*which : {&Blur::as_measured, &Blur::undone}) {
+            quality.given.*which += share * piece.at_given.*which;
+            quality.found.*which += share * piece.at_shown.*which;
+        }
+    }
+    for (const std::size_t apart : kApart) {
+        if (!has_poses) break;
+        if (const auto error = error_of(compared, apart)) quality.errors.push_back(*error);
+    }
+    return quality;
 }
 
 }  // namespace
@@ -227,27 +261,18 @@ bool MotionQuality::has_bad_poses() const {
 }
 
 MotionQuality measure_motion(const Sequence& sequence, const OdometryConfig& config) {
-    std::vector<Piece> pieces = read_pieces(sequence, kInARow);
-    std::erase_if(pieces, [](const Piece& piece) { return piece.scans.size() < 2; });
-    std::vector<Compared> compared(pieces.size());
-    parallel_for(pieces.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k < end; ++k) {
-            compared[k] = compare(std::move(pieces[k]), config);
-        }
-    });
-    MotionQuality quality;
-    const double share = 1.0 / static_cast<double>(compared.size());
-    for (const Compared& piece : compared) {
-        for (double Blur::*which : {&Blur::as_measured, &Blur::undone}) {
-            quality.given.*which += share * piece.at_given.*which;
-            quality.found.*which += share * piece.at_shown.*which;
-        }
+    return quality_of(compare_places(sequence, kInARow, config), sequence.has_poses);
+}
+
+std::string find_pose_mistake(const Sequence& sequence, const OdometryConfig& config) {
+    constexpr std::size_t kLong = 60;  // scans in a row: their motion has to vary
+    std::vector<Compared> compared = compare_places(sequence, kLong, config);
+    if (!quality_of(compared, sequence.has_poses).has_bad_poses()) return "";
+    std::vector<TwoTracks> tracks;
+    for (Compared& piece : compared) {
+        tracks.push_back({std::move(piece.stamps), std::move(piece.given), std::move(piece.shown)});
     }
-    for (const std::size_t apart : kApart) {
-        if (!sequence.has_poses) break;
-        if (const auto error = error_of(compared, apart)) quality.errors.push_back(*error);
-    }
-    return quality;
+    return name_mistake(tracks);
 }
 
 }  // namespace dynamic_filter::io
