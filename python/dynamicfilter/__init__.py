@@ -32,8 +32,9 @@ def run(data, output=None, **options):
     data: bag or folder; output: folder, by default results/<UTC stamp>.
     Options: config and threads as of DynamicFilter, overwrite, resume, online (times the sensor's
     rate; 0: as fast as it can), quiet (False: progress, notes and the closing table on stderr and
-    stdout, as the command has them), and how to read the recording, as of open_recording(); with
-    poses="none" they are found from the scans.
+    stdout, as the command has them), refine (poses), and how to read the recording, as of
+    open_recording(); with poses="none" they are found from the scans. refine and deskew: True, False, or
+    "auto", the default: where scans overlay better then.
     Returns {"output": folder, "metrics": as in metrics.json, "timing": as in timing.json [s, ms]};
     labels are in its folder `labels`, N uint32 a scan. Scans that were rejected or dropped raise
     nothing: they are in metrics["rejected"], ["dropped"] and ["lost"].

@@ -8,6 +8,7 @@ from typing_extensions import Unpack
 
 _Path = Union[str, PathLike[str]]
 _Config = Union[None, str, PathLike[str], Mapping[str, Any]]
+_Switch = Union[None, bool, Literal["auto", "on", "off"]]
 
 __version__: str
 UNKNOWN: int
@@ -71,7 +72,7 @@ class _Reading(TypedDict, total=False):
     pose_fix: str
     points_in_world: bool
     time_unit: str
-    deskew: bool
+    deskew: _Switch
     first: int
     last: Optional[int]
     stride: int
@@ -79,6 +80,7 @@ class _Reading(TypedDict, total=False):
 class _Running(_Reading, total=False):
     config: _Config
     threads: int
+    refine: _Switch
     overwrite: bool
     resume: bool
     online: Optional[float]

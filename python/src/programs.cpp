@@ -54,6 +54,7 @@ app::RunOptions run_options(const fs::path& data, const std::optional<fs::path>&
     o.output = output ? *output : app::default_output();
     o.config = config_options(options.attr("pop")("config", py::none()));
     take(options, "threads", o.threads);
+    take_switch(options, "refine", o.refine);
     take(options, "overwrite", o.overwrite);
     take(options, "resume", o.resume);
     o.catches = false;

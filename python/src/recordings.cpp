@@ -116,7 +116,7 @@ poses: pose file, T_world_sensor [m] (otherwise the format's usual place), or "n
 own are left alone, and DynamicFilter finds them. topic, pose_topic: of a bag.
 pose_fix: none, inverse, camera, lidar, wxyz, xyzw or mm, as `dynamicfilter check` advises.
 points_in_world: scans are in the poses' frame. time_unit: s, ms, us or ns, of the stamps.
-deskew: undoes the sensor's motion during each scan. first, last, stride: which scans.
+deskew: True undoes the sensor's motion during each scan, by the poses and the points' times. first, last, stride: which scans.
 Returns a sequence of Frame: points N x 3 float32 [m] in the sensor's frame, pose 4 x 4
 T_world_sensor [m] or None, stamp [s], times N float32 [s] or None, truth N uint8 or None, fields
 N records. Raises InputError, ConfigError

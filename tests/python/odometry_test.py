@@ -56,12 +56,12 @@ class ScansAlone(unittest.TestCase):
         np.testing.assert_array_equal(filter.pose(0), np.eye(4))
 
     def test_labels_are_those_of_the_command(self):
-        for name, folder, config in (("default", crowd(), None),
-                                     ("sweep", crowd(sweep=True), None),
-                                     ("sweep-paper", crowd(sweep=True), PAPER)):
+        for name, folder, config, deskew in (("default", crowd(), None, False),
+                                             ("sweep", crowd(sweep=True), None, True),
+                                             ("sweep-paper", crowd(sweep=True), PAPER, True)):
             filter = push_alone(df.DynamicFilter(config), folder)
             filter.finish()
-            self.same_labels(filter, labels_of_run(name, folder, poses="none", config=config))
+            self.same_labels(filter, labels_of_run(name, folder, poses="none", config=config, deskew=deskew))
 
     def test_the_motion_during_the_scans_is_undone(self):
         folder = crowd(sweep=True)
@@ -138,7 +138,7 @@ class GivenPoses(unittest.TestCase):
                  for poses in (filter.poses(), np.array(given))]
         self.assertLess(steps[0], 0.2 * steps[1])
         filter.finish()
-        expected = labels_of_run("refined", folder, config={"odometry.refine": True})
+        expected = labels_of_run("refined", folder, refine=True, deskew=False)
         for i, labels in enumerate(expected):
             np.testing.assert_array_equal(filter.labels(i), labels)
 
@@ -225,6 +225,14 @@ class Programs(unittest.TestCase):
         self.assertEqual(df.check(crowd(), poses="none")["findings"], [])
         result = df.run(crowd(), scratch("alone"), poses="none")
         self.assertGreater(result["metrics"]["voxel"]["majority"]["f1"], 0.8)
+        scores = df.evaluate(crowd(), labels=result["output"], poses="none")
+        self.assertGreater(scores["voxel"]["majority"]["f1"], 0.8)
+
+    def test_switches(self):
+        self.assertRaisesRegex(df.ConfigError, "refine: 'maybe' is none of", df.run, crowd(), scratch("x"), refine="maybe")
+        self.assertRaisesRegex(TypeError, "deskew: ", df.open_recording, crowd(), deskew=1.5)
+        for deskew in (None, False, "off", "auto"):
+            self.assertIsNotNone(df.open_recording(crowd(sweep=True), deskew=deskew)[1].times)
 
 
 if __name__ == "__main__":
