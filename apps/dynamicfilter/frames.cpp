@@ -98,8 +98,8 @@ void for_each_frame(const io::Sequence& sequence, const std::vector<std::size_t>
 }
 
 Scan take_scan(io::Frame& frame, std::size_t index) {
-    return {std::move(frame.points), frame.T_world_sensor, frame.stamp,
-            index,                   frame.has_pose,       std::move(frame.times)};
+    return {std::move(frame.points), frame.T_world_sensor,  frame.stamp, index,
+            frame.has_pose,          std::move(frame.times)};
 }
 
 Points shifted_world(const io::Frame& frame, const Eigen::Vector3d& origin) {

@@ -84,8 +84,8 @@ Track summary_of(const std::vector<std::optional<Tracked>>& tracked) {
 std::string to_text(const Track& track) {
     std::string text = fmt::format("the odometry went {:.1f} m", track.way);
     if (track.weak > 0) {
-        text += fmt::format("; {} scans do not show how far they went in some direction",
-                            track.weak);
+        text +=
+            fmt::format("; {} scans do not show how far they went in some direction", track.weak);
     }
     if (track.lost > 0) {
         text += fmt::format("; {} scans do not fit those before, so their poses are guesses",
@@ -123,8 +123,8 @@ std::vector<std::string> choose_motion(io::Sequence& sequence, Config& config,
         notes.emplace_back("there are no poses, so they are found by odometry");
     }
     if (!sequence.has_poses || config.odometry.refine) {
-        add(notes, choose_deskew(sequence, config.odometry, choice, timed,
-                                 quality.found.is_distorted()));
+        add(notes,
+            choose_deskew(sequence, config.odometry, choice, timed, quality.found.is_distorted()));
         return notes;
     }
     sequence.wants_times = false;

@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "dynamic_filter/error.hpp"
-#include "dynamic_filter/io/recorded_motion.hpp"
 #include "dynamic_filter/io/pose_fix.hpp"
+#include "dynamic_filter/io/recorded_motion.hpp"
 #include "overlay.hpp"
 #include "samples.hpp"
 
