@@ -52,7 +52,7 @@ struct Odometry::Impl {
     [[nodiscard]] Step expect(double dt, const std::optional<Pose>& guess) const;
     [[nodiscard]] Registration register_from(const Pose& start, const Step& step,
                                              double reach) const;
-    Registration begin_again(const Step& step, const Registration& found);
+    Registration begin_again(const Step& step, Registration found);
     [[nodiscard]] Registration search(const Step& step, Registration best) const;
     [[nodiscard]] Tracked tracked(const Step& step, const Registration& found) const;
     Tracked go_on_lost(const Step& step);
@@ -116,13 +116,18 @@ Registration Odometry::Impl::search(const Step& step, Registration best) const {
     return best;
 }
 
-/// The first scan moved as the second did: the map of it is made anew, its motion undone.
-Registration Odometry::Impl::begin_again(const Step& step, const Registration& found) {
-    const Twist moved_at = velocity_of(found.T_map_sensor, step.dt);
-    map = SurfaceMap(config.voxel);
-    map.insert(moved(first.at_stamp(moved_at), T_map_last));
-    first = {};
-    return register_from(found.T_map_sensor, step, kNarrow);
+/// The first scan moved as the second did: the map of it is made anew, its motion undone. That
+/// changes where the second one fits, and so how both moved.
+Registration Odometry::Impl::begin_again(const Step& step, Registration found) {
+    constexpr int kTimes = 3;
+    const ScanSample sample = std::exchange(first, {});
+    for (int i = 0; i < kTimes; ++i) {
+        const Twist moving = velocity_of(found.T_map_sensor, step.dt);
+        map = SurfaceMap(config.voxel);
+        map.insert(moved(sample.at_stamp(moving), T_map_last));
+        found = register_from(found.T_map_sensor, step, kNarrow);
+    }
+    return found;
 }
 
 Tracked Odometry::Impl::tracked(const Step& step, const Registration& found) const {
@@ -191,7 +196,8 @@ Tracked Odometry::track(const Points& points, std::span<const float> times, doub
     o.velocity = o.velocity_of(found.T_map_sensor, dt);
     o.velocity_known = true;
     o.T_map_last = found.T_map_sensor;
-    o.usual_inliers += kHabit * (found.inliers - o.usual_inliers);
+    const double habit = o.usual_inliers > 0.0 ? kHabit : 1.0;
+    o.usual_inliers += habit * (found.inliers - o.usual_inliers);
     return o.tracked(step, found);
 }
 
