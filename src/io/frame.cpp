@@ -153,7 +153,7 @@ Frame read_frame(const Sequence& sequence, std::size_t i) {
     if (sequence.deskew) {
         undo_motion(frame.points, times_of(sequence, frame), frame.stamp, sequence.trajectory);
     }
-    if (sequence.wants_times || !sequence.velocities.empty()) {
+    if (sequence.wants_times) {
         frame.times = times_of(sequence, frame);
     }
     if (!sequence.velocities.empty() && !frame.times.empty()) {

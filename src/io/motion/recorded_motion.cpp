@@ -251,7 +251,7 @@ double Blur::least() const {
 }
 
 bool Blur::is_distorted() const {
-    constexpr double kClearly = 0.97;
+    constexpr double kClearly = 0.995;
     return undone > 0.0 && undone < kClearly * as_measured;
 }
 
