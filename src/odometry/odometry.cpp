@@ -23,6 +23,8 @@ constexpr double kNarrow = 0.2, kWide = 2.0;  // [m] reach of the registration
 constexpr std::size_t kCandidates = 6;        // of a search
 constexpr SearchWindow kSmallest{2.0, 0.1}, kLargest{20.0, 0.6};
 constexpr double kHabit = 0.2;             // weight of a scan in the usual share
+constexpr int kMostBeginnings = 10;        // with a first scan whose motion was not known
+constexpr double kAgreed = 0.003;          // [m], [rad]
 constexpr int kGiveUp = 10;                // lost scans in a row: a new map begins
 constexpr double kMapRadius = 1.5;         // in ranges of the sensor
 constexpr double kForgetEvery = 20.0;      // [m]
@@ -52,7 +54,7 @@ struct Odometry::Impl {
     [[nodiscard]] Step expect(double dt, const std::optional<Pose>& guess) const;
     [[nodiscard]] Registration register_from(const Pose& start, const Step& step,
                                              double reach) const;
-    Registration begin_again(const Step& step, const Registration& found);
+    Registration begin_again(const Step& step, Registration found);
     [[nodiscard]] Registration search(const Step& step, Registration best) const;
     [[nodiscard]] Tracked tracked(const Step& step, const Registration& found) const;
     Tracked go_on_lost(const Step& step);
@@ -72,6 +74,7 @@ struct Odometry::Impl {
     int lost_in_a_row = 0;
     ScanSample newest;  // for the map
     ScanSample first;   // of a map, until the velocity is known: its motion was not undone
+    Pose T_map_first = Pose::Identity();
     Eigen::Vector3d forgot_at = Eigen::Vector3d::Zero();
 };
 
@@ -116,13 +119,18 @@ Registration Odometry::Impl::search(const Step& step, Registration best) const {
     return best;
 }
 
-/// The first scan moved as the second did: the map of it is made anew, its motion undone.
-Registration Odometry::Impl::begin_again(const Step& step, const Registration& found) {
-    const Twist moved_at = velocity_of(found.T_map_sensor, step.dt);
-    map = SurfaceMap(config.voxel);
-    map.insert(moved(first.at_stamp(moved_at), T_map_last));
+/// The first scan moved as the second did: the map of it is made anew, its motion undone, until the
+/// two agree on the motion.
+Registration Odometry::Impl::begin_again(const Step& step, Registration found) {
+    for (int i = 0; i < kMostBeginnings; ++i) {
+        map = SurfaceMap(config.voxel);
+        map.insert(moved(first.at_stamp(velocity_of(found.T_map_sensor, step.dt)), T_map_first));
+        const Pose before = found.T_map_sensor;
+        found = register_from(before, step, kNarrow);
+        if (log(before.inverse() * found.T_map_sensor).norm() < kAgreed) break;
+    }
     first = {};
-    return register_from(found.T_map_sensor, step, kNarrow);
+    return found;
 }
 
 Tracked Odometry::Impl::tracked(const Step& step, const Registration& found) const {
@@ -199,7 +207,10 @@ void Odometry::learn(const Labels& labels) {
     Impl& o = *impl_;
     if (o.lost_in_a_row > 0) return;
     const ScanSample kept = without_dynamic(o.newest, labels);
-    if (o.map.empty()) o.first = kept;
+    if (o.map.empty()) {
+        o.first = kept;
+        o.T_map_first = o.T_map_last;
+    }
     o.map.insert(moved(kept.at_stamp(o.velocity), o.T_map_last));
     o.forget_far();
 }
