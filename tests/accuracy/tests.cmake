@@ -1,1 +1,2 @@
 df_test(accuracy/floors dynamic_filter_sim dynamic_filter_eval)
+df_test(accuracy/odometry dynamic_filter_sim)

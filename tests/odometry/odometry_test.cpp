@@ -214,7 +214,7 @@ std::vector<Tracked> track_guessed(const Drive& way, const Pose& off) {
 
 TEST(Odometry, AGuessIsAFirstGuessOnly) {
     const Drive way = drive(12, 5.0, true);
-    for (const Pose& off : {Pose::Identity(), Pose(Eigen::Translation3d(0.02, -0.02, 0.01))}) {
+    for (const Pose& off : {Pose::Identity(), Pose(Eigen::Translation3d(0.01, -0.01, 0.01))}) {
         const auto tracked = track_guessed(way, off);
         EXPECT_EQ(lost(tracked), 0U);
         expect_close(off_between(way, tracked, 0, 11), 0.03, 0.003);
