@@ -16,3 +16,5 @@ add_test(NAME io/read_back
          COMMAND ${DF_PYTHON} ${CMAKE_CURRENT_LIST_DIR}/read_back.py
                  $<TARGET_FILE:io_read_back_samples>)
 set_tests_properties(io/read_back PROPERTIES SKIP_RETURN_CODE 77)
+
+df_test(io/motion/recorded_motion dynamic_filter_io dynamic_filter_sim)
