@@ -3,15 +3,12 @@
 ///   odometry RECORDING...
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <ctime>
 #include <string>
 #include <vector>
 
-#include "dynamic_filter/io/recorded_motion.hpp"
 #include "dynamic_filter/io/sequence.hpp"
 #include "dynamic_filter/odometry/odometry.hpp"
-#include "dynamic_filter/odometry/sweep_times.hpp"
 
 using namespace dynamic_filter;
 
@@ -32,8 +29,7 @@ Off error_over(const std::vector<Pose>& truth, const std::vector<Pose>& found, d
     for (std::size_t i = 0, j = 0; i < truth.size(); ++i) {
         while (j < truth.size() && way[j] - way[i] < length) ++j;
         if (j == truth.size()) break;
-        const Pose error =
-            (truth[i].inverse() * truth[j]).inverse() * (found[i].inverse() * found[j]);
+        const Pose error = (truth[i].inverse() * truth[j]).inverse() * (found[i].inverse() * found[j]);
         off.shift += 100.0 * error.translation().norm() / (way[j] - way[i]);
         off.turn += 57.2957795 * Eigen::AngleAxisd(error.linear()).angle() / (way[j] - way[i]);
         ++off.count;
@@ -50,24 +46,6 @@ Off error_over(const std::vector<Pose>& truth, const std::vector<Pose>& found, d
 int main(int argc, char** argv) {
     for (int a = 1; a < argc; ++a) {
         io::Sequence sequence = io::open_sequence(argv[a]);
-        if (std::getenv("MEASURE")) {
-            sequence.wants_times = true;
-            const auto c0 = std::clock();
-            fmt::print("{}", argv[a]);
-            const auto q = io::measure_poses(sequence, {});
-            for (const auto& e : q.errors)
-                fmt::print("  {}: way {:.2f} {:.3f} m {:.3f} deg", e.apart, e.way, e.shift,
-                           e.turn * 57.3);
-            fmt::print(" {:.4f} {:.4f} {}", q.overlay, q.best, q.is_bad() ? "BAD" : "good");
-            const auto c1 = std::clock();
-            const auto sweep = io::find_sweep(sequence, {});
-            fmt::print("  sweep {}  {:.1f}s {:.1f}s\n",
-                       sweep ? fmt::format("{} {:.2f} {:.3f}", sweep->clockwise, sweep->seam,
-                                           sweep->duration)
-                             : "none",
-                       double(c1 - c0) / 1e6, double(std::clock() - c1) / 1e6);
-            continue;
-        }
         Odometry odometry{OdometryConfig{}};
         std::vector<Pose> truth, found;
         std::size_t weak = 0, lost = 0;
@@ -76,14 +54,7 @@ int main(int argc, char** argv) {
         for (std::size_t i = 0; i < sequence.size(); ++i) {
             const io::Frame frame = io::read_frame(sequence, i);
             const std::clock_t start = std::clock();
-            auto times = io::point_times(frame.cloud, frame.stamp);
-            if (const char* e = std::getenv("SWEEP")) {
-                double seam = 0, dur = 0;
-                int cw = 0;
-                std::sscanf(e, "%d,%lf,%lf", &cw, &seam, &dur);
-                times = dur > 0 ? sweep_times(frame.points, {cw != 0, seam * 0.0174533, dur})
-                                : std::vector<float>{};
-            }
+            const auto times = io::point_times(frame.cloud, frame.stamp);
             const Tracked tracked = odometry.track(frame.points, times, frame.stamp);
             odometry.learn({});
             clocks += std::clock() - start;
@@ -96,31 +67,15 @@ int main(int argc, char** argv) {
                 const Pose step = (truth[i - 1].inverse() * truth[i]).inverse() *
                                   (found[i - 1].inverse() * found[i]);
                 worst = std::max(worst, step.translation().norm());
-                if (std::getenv("TRACE")) {
-                    const auto e =
-                        (truth[0].inverse() * truth[i]).inverse() * (found[0].inverse() * found[i]);
-                    fmt::print(
-                        "{} t {:.2f} step {:.4f} {:.4f}deg off {:.3f} {:.3f} {:.3f} rot {:.3f} "
-                        "{:.3f} {:.3f} inl {:.2f} st {} way {:.3f} given {:.3f}\n",
-                        i, frame.stamp, step.translation().norm(),
-                        57.3 * Eigen::AngleAxisd(step.linear()).angle(), e.translation().x(),
-                        e.translation().y(), e.translation().z(), 57.3 * log(e)[3],
-                        57.3 * log(e)[4], 57.3 * log(e)[5], tracked.inliers, (int)tracked.status,
-                        (found[i - 1].inverse() * found[i]).translation().norm(),
-                        (truth[i - 1].inverse() * truth[i]).translation().norm());
-                }
             }
         }
         const Off ten = error_over(truth, found, 10.0), hundred = error_over(truth, found, 100.0);
         const Pose end = truth.front().inverse() * truth.back();
         const Pose end_found = found.front().inverse() * found.back();
-        fmt::print(
-            "{:<28} {:5} scans  10 m: {:.3f} % {:.4f} deg/m  100 m: {:.3f} % {:.4f} deg/m ({})  "
-            "end {:.2f} m  worst step {:.3f} m  weak {} lost {}  inliers {:.4f}  {:.1f} ms\n",
-            argv[a], sequence.size(), ten.shift, ten.turn, hundred.shift, hundred.turn,
-            hundred.count, (end.translation() - end_found.translation()).norm(), worst, weak, lost,
-            inliers / static_cast<double>(sequence.size()),
-            1e3 * static_cast<double>(clocks) / CLOCKS_PER_SEC /
-                static_cast<double>(sequence.size()));
+        fmt::print("{:<28} {:5} scans  10 m: {:.3f} % {:.4f} deg/m  100 m: {:.3f} % {:.4f} deg/m ({})  end {:.2f} m  worst step {:.3f} m  weak {} lost {}  inliers {:.2f}  {:.1f} ms\n",
+                   argv[a], sequence.size(), ten.shift, ten.turn, hundred.shift, hundred.turn, hundred.count,
+                   (end.translation() - end_found.translation()).norm(), worst, weak, lost,
+                   inliers / static_cast<double>(sequence.size()),
+                   1e3 * static_cast<double>(clocks) / CLOCKS_PER_SEC / static_cast<double>(sequence.size()));
     }
 }

@@ -4,11 +4,13 @@
 #include "commands.hpp"
 #include "dynamic_filter/io/preflight.hpp"
 #include "frames.hpp"
+#include "motion.hpp"
 
 namespace dynamic_filter::app {
 
 int check(const DataOptions& options) {
-    const io::Sequence sequence = open(options);
+    io::Sequence sequence = open(options);
+    ensure_poses(sequence, preset("default"), options.deskew, true);
     for (const std::string& note : sequence.notes) fmt::print("note      {}\n", note);
     const io::Preflight preflight = io::check_recording(sequence, io::Depth::thorough);
     fmt::print("scans     {}, of which {} were read\n", sequence.size(), preflight.scans);

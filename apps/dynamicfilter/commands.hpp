@@ -34,6 +34,7 @@ struct DataOptions {
     std::filesystem::path data;
     std::string format;  ///< empty: recognised
     std::string pose_fix = "none", time_unit = "s";
+    std::string deskew = "auto";  ///< auto, on or off
     io::OpenOptions open;
 };
 
@@ -42,6 +43,7 @@ struct RunOptions {
     std::optional<std::filesystem::path> output;
     ConfigOptions config;
     int threads = 0;
+    std::string refine = "auto";  ///< auto, on or off
     bool online = false;
     double speed = 1.0;  ///< of online: times the sensor's rate; 0: as fast as it can
     bool overwrite = false, resume = false;
@@ -99,6 +101,13 @@ struct RenderOptions {
     ConfigOptions config;
 };
 
+struct OdometryOptions {
+    DataOptions data;
+    std::filesystem::path output;
+    ConfigOptions config;
+    bool quiet = false;
+};
+
 struct DemoOptions {
     std::filesystem::path output = "demo";
 };
@@ -111,6 +120,7 @@ int evaluate(const EvalOptions& options);
 int simulate(const SimulateOptions& options);
 int demo(const DemoOptions& options);
 int check(const DataOptions& options);
+int odometry(const OdometryOptions& options);
 int convert(const ConvertOptions& options);
 int report(const ReportOptions& options);
 int render(const RenderOptions& options);

@@ -10,6 +10,7 @@
 #include "dynamic_filter/io/bag.hpp"
 #include "dynamic_filter/io/writers.hpp"
 #include "frames.hpp"
+#include "motion.hpp"
 #include "output_folder.hpp"
 #include "progress.hpp"
 #include "sinks.hpp"
@@ -45,7 +46,8 @@ Labels labels_of(const ConvertOptions& o, const io::Sequence& sequence, std::siz
 int convert_recording(const ConvertOptions& o) {
     if (o.to == "autoware")
         throw ConfigError("--to autoware is for a map: give a cloud file as IN");
-    const io::Sequence sequence = open(o.data);
+    io::Sequence sequence = open(o.data);
+    ensure_poses(sequence, preset("default"), o.data.deskew, false);
     for (const std::string& note : sequence.notes) fmt::print(stderr, "note: {}\n", note);
     for (const std::string& line : sequence.losses) fmt::print(stderr, "lost     {}\n", line);
     catch_interrupts();

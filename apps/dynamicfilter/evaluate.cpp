@@ -39,10 +39,26 @@ eval::ScanSource with_labels(const io::Sequence& sequence, const Eigen::Vector3d
                        });
 }
 
+/// Where the recording has no poses, those that the run found.
+io::Sequence with_poses(const EvalOptions& o) {
+    io::Sequence sequence = open(o.truth);
+    if (sequence.has_poses) return sequence;
+    const std::filesystem::path labels = o.labels.value_or("");
+    for (const auto& folder : {labels, labels.parent_path()}) {
+        if (!o.labels || !std::filesystem::exists(folder / "poses.txt")) continue;
+        DataOptions with = o.truth;
+        with.open.poses = folder / "poses.txt";
+        return open(with);
+    }
+    throw InputError(o.truth.data, "",
+                     "has no poses, so its voxels cannot be scored; give those of the run with "
+                     "--poses");
+}
+
 }  // namespace
 
 Evaluation scores_of(const EvalOptions& o) {
-    const io::Sequence sequence = open(o.truth);
+    const io::Sequence sequence = with_poses(o);
     if (!sequence.has_truth()) {
         throw InputError(o.truth.data, "",
                          "has no ground truth (labels/*.label, or 0/1 intensities)");

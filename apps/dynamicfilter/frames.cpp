@@ -58,9 +58,8 @@ io::Sequence open(const DataOptions& options) {
         how.poses.reset();
         how.without_poses = true;
     }
-    io::Sequence sequence = io::open_sequence(options.data, how);
-    sequence.wants_times = !sequence.has_poses;
-    return sequence;
+    how.deskew = options.deskew == "on";
+    return io::open_sequence(options.data, how);
 }
 
 void for_each_frame(const io::Sequence& sequence, const std::vector<std::size_t>& scans,
@@ -99,8 +98,8 @@ void for_each_frame(const io::Sequence& sequence, const std::vector<std::size_t>
 }
 
 Scan take_scan(io::Frame& frame, std::size_t index) {
-    return {std::move(frame.points), frame.T_world_sensor, frame.stamp,
-            index,                   frame.has_pose,       std::move(frame.times)};
+    return {std::move(frame.points), frame.T_world_sensor,  frame.stamp, index,
+            frame.has_pose,          std::move(frame.times)};
 }
 
 Points shifted_world(const io::Frame& frame, const Eigen::Vector3d& origin) {

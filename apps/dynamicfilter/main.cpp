@@ -54,8 +54,13 @@ void add_reading_options(CLI::App& command, DataOptions& o) {
     command.add_option("--time-unit", o.time_unit, "of the stamps: s, ms, us, ns")
         ->check(CLI::IsMember({"s", "ms", "us", "ns"}))
         ->capture_default_str();
-    command.add_flag("--deskew", o.open.deskew,
-                     "undo the sensor's motion during each scan, by the times of its points");
+    command
+        .add_option("--deskew", o.deskew,
+                    "undo the sensor's motion during each scan: on, off, or auto: where scans "
+                    "overlay better then")
+        ->check(CLI::IsMember({"auto", "on", "off"}))
+        ->expected(0, 1)
+        ->default_str("auto");
 }
 
 void add_selection_options(CLI::App& command, DataOptions& o) {
@@ -73,6 +78,11 @@ void add_run(CLI::App& app, std::function<int()>& chosen) {
     add_reading_options(c, o->data);
     add_config_options(c, o->config);
     add_selection_options(c, o->data);
+    c.add_option("--refine", o->refine,
+                 "register scans anew, beginning from the given poses: on, off, or auto: where "
+                 "scans overlay better then")
+        ->check(CLI::IsMember({"auto", "on", "off"}))
+        ->capture_default_str();
     c.add_option("--threads", o->threads, "of each stage; 0: all cores")
         ->check(CLI::Range(0, 1024));
     CLI::Option* const online =
@@ -237,6 +247,18 @@ void add_others(CLI::App& app, std::function<int()>& chosen) {
     add_reading_options(check_command, *data);
     add_selection_options(check_command, *data);
     check_command.callback([=, &chosen] { chosen = [=] { return check(*data); }; });
+
+    auto track = std::make_shared<OdometryOptions>();
+    CLI::App& o = *app.add_subcommand("odometry", "Find the poses of a recording from its scans");
+    o.add_option("DATA", track->data.data, "recording")->required();
+    o.add_option("-o,--output", track->output,
+                 "pose file: .tum with stamps, otherwise KITTI's rows")
+        ->required();
+    add_reading_options(o, track->data);
+    add_selection_options(o, track->data);
+    add_config_options(o, track->config);
+    o.add_flag("-q,--quiet", track->quiet, "say only what is wrong");
+    o.callback([=, &chosen] { chosen = [=] { return odometry(*track); }; });
 
     auto file = std::make_shared<std::filesystem::path>();
     CLI::App& i = *app.add_subcommand("info", "Describe a point cloud file or a recording");

@@ -11,6 +11,7 @@
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/io/cloud.hpp"
 #include "frames.hpp"
+#include "motion.hpp"
 
 namespace dynamic_filter::app {
 
@@ -58,7 +59,10 @@ std::string extension_of(const fs::path& file) {
 int render(const RenderOptions& o) {
     const std::string extension = extension_of(o.output);
     if (extension == ".webp") {
-        animate_cleaning(open(o.data), load_config(o.config), o);
+        const Config config = load_config(o.config);
+        io::Sequence sequence = open(o.data);
+        ensure_poses(sequence, config, o.data.deskew, false);
+        animate_cleaning(sequence, config, o);
     } else if (extension == ".png") {
         const fs::path& in = o.data.data;
         if (fs::is_directory(in) && !fs::exists(in / "static_map.pcd")) {

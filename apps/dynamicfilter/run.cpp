@@ -6,7 +6,9 @@
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/io/file.hpp"
 #include "dynamic_filter/io/preflight.hpp"
+#include "dynamic_filter/parallel.hpp"
 #include "frames.hpp"
+#include "motion.hpp"
 #include "progress.hpp"
 #include "run_reports.hpp"
 
@@ -69,8 +71,8 @@ void tell(const std::vector<std::string>& notes, bool quiet) {
 }  // namespace
 
 int run(const RunOptions& o) {
-    const Config config = load_config(o.config);
-    const io::Sequence sequence = open(o.data);
+    Config config = load_config(o.config);
+    io::Sequence sequence = open(o.data);
     const bool named = o.output.has_value();
     if (named) {
         refuse_same_folder(o.data.data, *o.output);
@@ -86,6 +88,11 @@ int run(const RunOptions& o) {
     }
     OutputFolder output(folder, Contents::result,
                         o.resume ? Existing::resume : replaced_if(o.overwrite));
+    std::vector<std::string> chosen;
+    with_threads(o.threads, [&] {
+        chosen = choose_motion(sequence, config, {.refine = o.refine, .deskew = o.data.deskew});
+    });
+    sequence.notes.insert(sequence.notes.end(), chosen.begin(), chosen.end());
     const std::string state = begun_with(sequence, config);
     if (o.resume && is_complete(output, state)) {
         output.commit();

@@ -14,6 +14,7 @@
 #include "dynamic_filter/parallel.hpp"
 #include "frames.hpp"
 #include "map_files.hpp"
+#include "motion.hpp"
 #include "progress.hpp"
 #include "run_reports.hpp"
 
@@ -73,6 +74,8 @@ void take_poses(Pass& pass) {
     const auto was_tracked = [](const auto& tracked) { return tracked.has_value(); };
     if (std::none_of(pass.tracked.begin(), pass.tracked.end(), was_tracked)) return;
     io::use_poses(pass.sequence, pass.tracked);
+    write_poses(pass.output.path() / "poses.txt", pass.sequence);
+    pass.summary.notes.push_back(track_text(pass.tracked));
 }
 
 /// First pass: every usable scan goes through the filter.

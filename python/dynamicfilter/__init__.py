@@ -7,6 +7,9 @@
     for frame in recording:
         labels = filter.push(frame.points, frame.pose, frame.stamp)
 
+Where nobody knows the poses, the filter finds them: filter.push(points, stamp=stamp), and
+filter.pose(scan) tells.
+
 Labels are N uint8, one a point: UNKNOWN (0), STATIC (9) or DYNAMIC (251), as in SemanticKITTI.
 Lengths are in metres, stamps in seconds, poses 4 x 4 matrices T_world_sensor.
 """
@@ -29,7 +32,9 @@ def run(data, output=None, **options):
     data: bag or folder; output: folder, by default results/<UTC stamp>.
     Options: config and threads as of DynamicFilter, overwrite, resume, online (times the sensor's
     rate; 0: as fast as it can), quiet (False: progress, notes and the closing table on stderr and
-    stdout, as the command has them), and how to read the recording, as of open_recording().
+    stdout, as the command has them), refine (poses), and how to read the recording, as of
+    open_recording(); with poses="none" they are found from the scans. refine and deskew: True, False, or
+    "auto", the default: where scans overlay better then.
     Returns {"output": folder, "metrics": as in metrics.json, "timing": as in timing.json [s, ms]};
     labels are in its folder `labels`, N uint32 a scan. Scans that were rejected or dropped raise
     nothing: they are in metrics["rejected"], ["dropped"] and ["lost"].
@@ -55,7 +60,7 @@ def check(data, **options):
     """Looks whether poses and scans of a recording fit together, as `dynamicfilter check` does.
 
     DynamicFilter cannot see that poses are inverse, or in other units: look here first.
-    data: bag or folder. Options: as of open_recording().
+    data: bag or folder. Options: as of open_recording(); with poses="none" only the scans are looked at.
     Returns {"findings": [{"what", "advice"}], "overlays": {reading: share 0..1}, "unusable", "lost"}:
     findings and the sentences of the last two are empty if all is well. Advice is worded for the
     command: --pose-fix inverse is pose_fix="inverse" here.

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 from os import PathLike
-from typing import Any, Iterator, Mapping, Optional, TypedDict, Union
+from typing import Any, Iterator, Literal, Mapping, Optional, TypedDict, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -8,6 +8,7 @@ from typing_extensions import Unpack
 
 _Path = Union[str, PathLike[str]]
 _Config = Union[None, str, PathLike[str], Mapping[str, Any]]
+_Switch = Union[None, bool, Literal["auto", "on", "off"]]
 
 __version__: str
 UNKNOWN: int
@@ -22,9 +23,13 @@ class OutputError(Error): ...
 class DynamicFilter:
     def __init__(self, config: _Config = None, *, threads: int = 0, keep: Union[bool, int] = True,
                  horizon: float = 0.0, max_bytes: int = 0) -> None: ...
-    def push(self, points: ArrayLike, pose: ArrayLike, stamp: float) -> NDArray[np.uint8]: ...
+    def push(self, points: ArrayLike, pose: Optional[ArrayLike] = None, stamp: Optional[float] = None,
+             times: Optional[ArrayLike] = None) -> NDArray[np.uint8]: ...
     def corrections(self, newest: Optional[int] = None) -> list[tuple[int, NDArray[np.uint8]]]: ...
     def labels(self, scan: int) -> NDArray[np.uint8]: ...
+    def pose(self, scan: int) -> NDArray[np.float64]: ...
+    def poses(self) -> NDArray[np.float64]: ...
+    def status(self, scan: int) -> Literal["given", "good", "weak", "lost"]: ...
     def static_map(self) -> tuple[NDArray[np.float64], NDArray[np.float32]]: ...
     def local_map(self, pose: Optional[ArrayLike] = None, radius: Optional[float] = None) -> tuple[
         NDArray[np.float64], NDArray[np.float32]]: ...
@@ -37,9 +42,11 @@ class Frame:
     @property
     def points(self) -> NDArray[np.float32]: ...
     @property
-    def pose(self) -> NDArray[np.float64]: ...
+    def pose(self) -> Optional[NDArray[np.float64]]: ...
     @property
     def stamp(self) -> float: ...
+    @property
+    def times(self) -> Optional[NDArray[np.float32]]: ...
     @property
     def truth(self) -> Optional[NDArray[np.uint8]]: ...
     @property
@@ -65,7 +72,7 @@ class _Reading(TypedDict, total=False):
     pose_fix: str
     points_in_world: bool
     time_unit: str
-    deskew: bool
+    deskew: _Switch
     first: int
     last: Optional[int]
     stride: int
@@ -73,6 +80,7 @@ class _Reading(TypedDict, total=False):
 class _Running(_Reading, total=False):
     config: _Config
     threads: int
+    refine: _Switch
     overwrite: bool
     resume: bool
     online: Optional[float]

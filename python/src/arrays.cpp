@@ -15,21 +15,70 @@ std::string text(const py::handle& value) { return py::str(value); }
 
 std::string shape_of(const py::array& array) { return text(array.attr("shape")); }
 
+/// Copied, because nothing says that it is aligned.
 template <class T>
-Points read(const py::array& array) {
+float number_at(const char* at) {
+    T value;
+    std::memcpy(&value, at, sizeof value);
+    return static_cast<float>(value);
+}
+
+template <class T>
+Points read_points(const py::array& array) {
     const auto* const bytes = static_cast<const char*>(array.data());
     const py::ssize_t row = array.strides(0), column = array.strides(1);
     Points points(static_cast<std::size_t>(array.shape(0)));
     const py::gil_scoped_release others_go_on;
     for (std::size_t i = 0; i < points.size(); ++i) {
         const char* const at = bytes + static_cast<py::ssize_t>(i) * row;
-        for (int c = 0; c < 3; ++c) {
-            T value;  // copied, because nothing says that it is aligned
-            std::memcpy(&value, at + c * column, sizeof value);
-            points[i][c] = static_cast<float>(value);
-        }
+        for (int c = 0; c < 3; ++c) points[i][c] = number_at<T>(at + c * column);
     }
     return points;
+}
+
+template <class T>
+std::vector<float> read_times(const py::array& array) {
+    const auto* const bytes = static_cast<const char*>(array.data());
+    std::vector<float> times(static_cast<std::size_t>(array.shape(0)));
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        times[i] = number_at<T>(bytes + static_cast<py::ssize_t>(i) * array.strides(0));
+    }
+    return times;
+}
+
+bool is_single(const py::array& array) { return py::isinstance<py::array_t<float>>(array); }
+
+/// An array of float32 or float64, without a copy.
+py::array floats_from(const py::object& given, const char* name, const char* expected) {
+    const py::array array = py::array::ensure(given);
+    if (!array) {
+        throw py::type_error(
+            fmt::format("{}: expected an array {} of float32 or float64", name, expected));
+    }
+    if (!is_single(array) && !py::isinstance<py::array_t<double>>(array)) {
+        throw py::type_error(
+            fmt::format("{}: expected float32 or float64 in this machine's byte order, got {}",
+                        name, text(array.dtype())));
+    }
+    return array;
+}
+
+/// A sweep takes a part of a second: what is far from it is in another unit, or no difference.
+void refuse_odd_times(const std::vector<float>& times, const Points& points) {
+    constexpr float kFarthest = 60.0F;  // [s]
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        if (!is_measured(points[i])) continue;
+        if (!std::isfinite(times[i])) {
+            throw py::value_error(
+                fmt::format("times: expected finite numbers, got {} for point {}", times[i], i));
+        }
+        if (std::abs(times[i]) > kFarthest) {
+            throw py::value_error(fmt::format(
+                "times: expected seconds from the scan's stamp, got {} for point {}: are they "
+                "absolute, or in another unit?",
+                times[i], i));
+        }
+    }
 }
 
 double skewness(const Eigen::Matrix3d& r) {
@@ -83,14 +132,7 @@ std::string unused_name(std::string name, std::set<std::string>& used) {
 }  // namespace
 
 Points points_from(const py::object& given) {
-    const py::array array = py::array::ensure(given);
-    if (!array) throw py::type_error("points: expected an array N x 3 of float32 or float64");
-    const bool single = py::isinstance<py::array_t<float>>(array);
-    if (!single && !py::isinstance<py::array_t<double>>(array)) {
-        throw py::type_error(
-            "points: expected float32 or float64 in this machine's byte order, got " +
-            text(array.dtype()));
-    }
+    const py::array array = floats_from(given, "points", "N x 3");
     if (array.ndim() != 2 || array.shape(1) < 3) {
         throw py::value_error("points: expected an array N x 3 or more columns, got shape " +
                               shape_of(array));
@@ -100,7 +142,21 @@ Points points_from(const py::object& given) {
         throw py::value_error("points: expected an array N x 3 or more columns, got shape " +
                               shape_of(array) + ": is it transposed?");
     }
-    return single ? read<float>(array) : read<double>(array);
+    return is_single(array) ? read_points<float>(array) : read_points<double>(array);
+}
+
+std::vector<float> times_from(const py::object& given, const Points& points) {
+    if (given.is_none()) return {};
+    const py::array array = floats_from(given, "times", "N");
+    if (array.ndim() != 1 || static_cast<std::size_t>(array.shape(0)) != points.size()) {
+        throw py::value_error(
+            fmt::format("times: expected an array N, one for each of the {} points, got shape {}",
+                        points.size(), shape_of(array)));
+    }
+    std::vector<float> times =
+        is_single(array) ? read_times<float>(array) : read_times<double>(array);
+    refuse_odd_times(times, points);
+    return times;
 }
 
 Pose pose_from(const py::object& given) {
@@ -137,6 +193,20 @@ py::array points_array(const Points& points, py::handle owner) {
 py::array pose_array(const Pose& pose, py::handle owner) {
     constexpr py::ssize_t kSize = sizeof(double);
     return py::array(py::dtype::of<double>(), {4, 4}, {kSize, 4 * kSize}, pose.data(), owner);
+}
+
+py::array poses_array(std::span<const Pose> poses) {
+    constexpr py::ssize_t kRows = 4;
+    py::array_t<double> array({static_cast<py::ssize_t>(poses.size()), kRows, kRows});
+    using Rows = Eigen::Matrix<double, kRows, kRows, Eigen::RowMajor>;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        Eigen::Map<Rows>(array.mutable_data(static_cast<py::ssize_t>(i))) = poses[i].matrix();
+    }
+    return array;
+}
+
+py::array times_array(const std::vector<float>& times, py::handle owner) {
+    return py::array(py::dtype::of<float>(), {times.size()}, times.data(), owner);
 }
 
 py::array fields_array(const io::Cloud& cloud, py::handle owner) {

@@ -3,6 +3,7 @@
 #include <pybind11/stl.h>
 
 #include <cmath>
+#include <limits>
 
 #include "arrays.hpp"
 #include "config_file.hpp"
@@ -32,19 +33,24 @@ std::unique_ptr<KeptFilter> make_filter(const py::object& config, int threads,
                                         number_kept(keep));
 }
 
+std::optional<double> stamp_from(const py::object& given) {
+    if (given.is_none()) return std::nullopt;
+    const auto stamp = taken<double>(given, "stamp", "seconds as a number");
+    if (std::isfinite(stamp)) return stamp;
+    throw py::value_error(fmt::format("stamp: expected seconds as a finite number, got {}", stamp));
+}
+
 py::array push(KeptFilter& filter, const py::object& points, const py::object& pose,
-               const py::object& at) {
-    const auto stamp = taken<double>(at, "stamp", "seconds as a number");
-    if (!std::isfinite(stamp)) {
-        throw py::value_error(
-            fmt::format("stamp: expected seconds as a finite number, got {}", stamp));
-    }
-    const Pose T_world_sensor = pose_from(pose);
-    Points taken = points_from(points);
+               const py::object& stamp, const py::object& times) {
+    Pushed pushed;
+    pushed.stamp = stamp_from(stamp);
+    if (!pose.is_none()) pushed.T_world_sensor = pose_from(pose);
+    pushed.points = points_from(points);
+    pushed.times = times_from(times, pushed.points);
     Labels labels;
     {
         const py::gil_scoped_release others_go_on;
-        labels = filter.push(std::move(taken), T_world_sensor, stamp);
+        labels = filter.push(std::move(pushed));
     }
     return labels_array(std::move(labels));
 }
@@ -64,16 +70,53 @@ py::list corrections(KeptFilter& filter, const py::object& asked) {
     return list;
 }
 
-py::array labels(KeptFilter& filter, const py::object& asked) {
+/// Negative ones count from the newest.
+std::size_t scan_number(KeptFilter& filter, const py::object& asked) {
     auto scan = taken<py::ssize_t>(asked, "scan", "the number of a scan");
     if (scan < 0) scan += static_cast<py::ssize_t>(filter.size());
     if (scan < 0) throw py::index_error("scan: there are not so many");
+    return static_cast<std::size_t>(scan);
+}
+
+py::array labels(KeptFilter& filter, const py::object& asked) {
+    const std::size_t scan = scan_number(filter, asked);
     Labels found;
     {
         const py::gil_scoped_release others_go_on;
-        found = filter.labels(static_cast<std::size_t>(scan));
+        found = filter.labels(scan);
     }
     return labels_array(std::move(found));
+}
+
+Located located(KeptFilter& filter, const py::object& asked) {
+    const std::size_t scan = scan_number(filter, asked);
+    const py::gil_scoped_release others_go_on;
+    return filter.located(scan);
+}
+
+py::array pose(KeptFilter& filter, const py::object& asked) {
+    const Located found = located(filter, asked);
+    return poses_array({&found.T_world_sensor, 1}).reshape({4, 4});
+}
+
+const char* status(KeptFilter& filter, const py::object& asked) {
+    const Located found = located(filter, asked);
+    if (!found.status) return "given";
+    static constexpr const char* kNames[] = {"good", "weak", "lost"};
+    return kNames[static_cast<std::size_t>(*found.status)];
+}
+
+py::array poses(KeptFilter& filter) {
+    std::vector<std::optional<Located>> found;
+    {
+        const py::gil_scoped_release others_go_on;
+        found = filter.all_located();
+    }
+    Pose unknown;
+    unknown.matrix().setConstant(std::numeric_limits<double>::quiet_NaN());
+    std::vector<Pose> T_world_sensor;
+    for (const auto& scan : found) T_world_sensor.push_back(scan ? scan->T_world_sensor : unknown);
+    return poses_array(T_world_sensor);
 }
 
 /// Two views of the same voxels.
@@ -120,8 +163,8 @@ config: None, a preset ("default", "paper"), the path of a TOML file, or a dict 
 {"map.voxel_size": 0.1} or {"preset": "paper", "submap": {"keyframes": 10}}; units and bounds:
 `dynamicfilter config`.
 threads: of each stage, 0: all cores.
-keep: True keeps every scan for labels() and corrections(), 13 bytes a point (14 with the preset
-"paper"); a number keeps the newest so many, False none.
+keep: True keeps every scan for labels(), corrections(), pose() and status(), 13 bytes a point (14
+with the preset "paper"); a number keeps the newest so many, False none but the newest's pose.
 horizon [m]: the map beyond it is forgotten, and at a break of the trajectory all that was before;
 0: none is.
 max_bytes: of the map, 0: no bound. A voxel takes about 160 bytes.
@@ -132,19 +175,27 @@ meanwhile. Raises ConfigError, TypeError and ValueError.)")
         .def(py::init(&make_filter), py::arg("config") = py::none(), py::kw_only(),
              py::arg("threads") = 0, py::arg("keep") = true, py::arg("horizon") = 0.0,
              py::arg("max_bytes") = 0)
-        .def("push", &push, py::arg("points"), py::arg("pose"), py::arg("stamp"),
+        .def("push", &push, py::arg("points"), py::arg("pose") = py::none(),
+             py::arg("stamp") = py::none(), py::arg("times") = py::none(),
              R"(Takes a scan; returns its instant verdict.
 
 points: N x 3 or more columns, float32 or float64, any strides: x y z [m] in the sensor's frame;
 further columns are not looked at. Points that are not finite, or at the origin, are no measurement.
 Integers, another machine's order of bytes and structured arrays raise TypeError.
 pose: 4 x 4, T_world_sensor: maps the sensor's coordinates into the world [m]. A rotation that is
-off by up to 0.001 is made exact; more raises ValueError.
+off by up to 0.001 is made exact; more raises ValueError. None: nobody knows it, and the filter finds
+it: pose() tells it, in a world that is the first scan's sensor frame. All scans have one, or none has.
+With the setting odometry.refine, poses that are given are made better.
 stamp: [s], growing. What is up to a second before the last is late; more begins a new map, and
-notices() says so.
+notices() says so. None: ten scans come a second, and the scan with number i has the stamp i / 10 [s];
+with another rate, give stamps where poses are to be found. All scans have one, or none has.
+times: N float32 or float64 [s]: when each point was measured, from the stamp on. Where the filter
+finds or refines the pose, it undoes the sensor's motion during the scan with them; elsewhere they
+mean nothing. None: all points were measured at once, or their motion is undone.
 Returns labels: N uint8: 0 unknown, 9 static, 251 dynamic. With the preset "paper" all are 0, and
 corrections() has them when a window of scans is full.
-Raises TypeError, ValueError, and Error if the scan comes late or again (it is not taken then), or
+Raises TypeError, ValueError, and Error if the scan comes late or again, or has a pose or a stamp
+where those before had none, or the other way round (it is not taken then, and the filter goes on), or
 after finish(). Raises as flush() does.)")
         .def(
             "corrections", &corrections, py::arg("newest") = py::none(),
@@ -158,6 +209,24 @@ does.)")
 
 scan: its number; negative ones count from the newest. Returns N uint8: 0 unknown, 9 static, 251 dynamic.
 Raises IndexError if it is not kept, and as flush() does.)")
+        .def(
+            "pose", &pose, py::arg("scan"),
+            R"(Where a scan was taken: the pose that was found or refined, or else the one that was given.
+
+scan: its number; negative ones count from the newest. Returns T_world_sensor [m]: 4 x 4 float64.
+Raises TypeError, IndexError if the scan is not kept, and Error if its pose is not found yet: with the
+preset "paper" it is found when a window of scans is full, or by finish().)")
+        .def("poses", &poses,
+             R"(The poses of all scans kept, the oldest first, as pose() returns them.
+
+Returns M x 4 x 4 float64; NaN where a pose is not found yet. Raises nothing.)")
+        .def("status", &status, py::arg("scan"),
+             R"(How far the pose of a scan can be relied on.
+
+scan: its number; negative ones count from the newest. Returns "given" if the pose is the one that
+was given; otherwise "good", "weak" (in some direction, only the motion before says where the sensor
+was) or "lost" (too little of the scan lies on the map: the motion before goes on). Raises as pose()
+does.)")
         .def("static_map", &static_map, R"(The static voxels of the whole map.
 
 After finish(), of all there is, merged; before it, of what came since the last break of the

@@ -8,6 +8,34 @@
 
 namespace dynamic_filter::python {
 
+namespace {
+
+/// As all scans before, or Error.
+void refuse_mixture(const std::optional<bool>& before, bool now, const char* what,
+                    std::size_t scan) {
+    if (before.value_or(now) == now) return;
+    throw Error("scan " + std::to_string(scan) +
+                (now ? std::string(" has a ") + what + ", but those before had none"
+                     : std::string(" has no ") + what + ", but those before had one") +
+                "; it was not taken");
+}
+
+/// As the filter saw it.
+void place(Scan& scan, const std::optional<Tracked>& tracked) {
+    if (tracked) {
+        scan.T_world_sensor = tracked->T_world_sensor;
+        scan.has_pose = true;
+        if (!scan.times.empty()) {
+            scan.points = undo_motion(scan.points, scan.times, tracked->velocity);
+        }
+    }
+    scan.times = std::vector<float>();
+}
+
+Located located_by(const Tracked& tracked) { return {tracked.T_world_sensor, tracked.status}; }
+
+}  // namespace
+
 KeptFilter::KeptFilter(const Config& config, OnlineOptions options, std::size_t keep)
     : most_kept_(keep), filter_(config, options, callbacks()) {}
 
@@ -15,10 +43,7 @@ OnlineCallbacks KeptFilter::callbacks() {
     OnlineCallbacks callbacks;
     callbacks.notice = [this](const Notice& notice) { take(notice); };
     // Where each scan is judged at once, push() has the verdict before the scan is kept.
-    callbacks.instant = [this](const Verdict& verdict) {
-        const std::lock_guard hold(lock_);
-        if (Kept* const kept = find(verdict.index)) kept->judged = verdict.labels;
-    };
+    callbacks.instant = [this](const Verdict& verdict) { take(verdict); };
     return callbacks;
 }
 
@@ -33,20 +58,62 @@ void KeptFilter::take(const Notice& notice) {
     notices_.emplace_back(notice.index, notice.text);
 }
 
-Labels KeptFilter::push(Points points, const Pose& T_world_sensor, double stamp) {
+void KeptFilter::take(const Verdict& verdict) {
+    const std::lock_guard hold(lock_);
+    if (verdict.index >= size_) return;  // push() waits for it
+    if (Kept* const kept = find(verdict.index)) {
+        kept->judged = verdict.labels;
+        place(kept->scan, verdict.tracked);
+    }
+    if (!verdict.tracked) return;
+    last_pose_ = verdict.tracked->T_world_sensor;
+    const std::size_t age = size_ - verdict.index;
+    if (age <= located_.size()) located_[located_.size() - age] = located_by(*verdict.tracked);
+}
+
+/// Stamps that nobody measured are made up as the readers of recordings do it.
+Scan KeptFilter::numbered(Pushed pushed) const {
+    constexpr double kPeriod = 0.1;  // [s]
+    refuse_mixture(with_poses_, pushed.T_world_sensor.has_value(), "pose", size_);
+    refuse_mixture(with_stamps_, pushed.stamp.has_value(), "stamp", size_);
+    return {std::move(pushed.points),
+            pushed.T_world_sensor.value_or(Pose::Identity()),
+            pushed.stamp.value_or(kPeriod * static_cast<double>(size_)),
+            size_,
+            pushed.T_world_sensor.has_value(),
+            std::move(pushed.times)};
+}
+
+Labels KeptFilter::push(Pushed pushed) {
     const std::lock_guard one_at_a_time(push_lock_);
-    Scan scan{std::move(points), T_world_sensor, stamp, size()};
+    const bool with_stamp = pushed.stamp.has_value();
+    std::optional<Located> located;
+    if (pushed.T_world_sensor) located = Located{*pushed.T_world_sensor, {}};
+    const bool with_pose = located.has_value();
+    Scan scan = numbered(std::move(pushed));
     Labels labels(scan.points.size(), Label::unknown);
     Scan copy = most_kept_ > 0 ? scan : Scan{};
     refused_.reset();
     std::optional<Verdict> verdict = filter_.ask(std::move(scan));
     if (refused_) throw Error("the scan was refused: " + *refused_);
-    if (verdict) labels = std::move(verdict->labels);
+    with_poses_ = with_pose;
+    with_stamps_ = with_stamp;
+    if (verdict) {
+        labels = std::move(verdict->labels);
+        if (verdict->tracked) located = located_by(*verdict->tracked);
+        place(copy, verdict->tracked);
+    }
     const std::lock_guard hold(lock_);
     ++size_;
-    last_pose_ = T_world_sensor;
+    keep(located);
     if (most_kept_ > 0) keep(std::move(copy), labels);
     return labels;
+}
+
+void KeptFilter::keep(const std::optional<Located>& located) {
+    if (located) last_pose_ = located->T_world_sensor;
+    located_.push_back(located);
+    if (located_.size() > std::max<std::size_t>(most_kept_, 1)) located_.pop_front();
 }
 
 void KeptFilter::keep(Scan scan, const Labels& told) {
@@ -83,11 +150,30 @@ Labels KeptFilter::labels(std::size_t scan) {
     filter_.flush();
     const std::lock_guard hold(lock_);
     Kept* const kept = find(scan);
-    if (!kept) {
-        throw std::out_of_range("scan " + std::to_string(scan) + " of " + std::to_string(size_) +
-                                " is not kept (see `keep`)");
-    }
+    if (!kept) throw not_kept(scan);
     return kept->told = current(*kept);
+}
+
+std::out_of_range KeptFilter::not_kept(std::size_t scan) const {
+    return std::out_of_range("scan " + std::to_string(scan) + " of " + std::to_string(size_) +
+                             " is not kept (see `keep`)");
+}
+
+Located KeptFilter::located(std::size_t scan) {
+    const std::lock_guard hold(lock_);
+    const std::size_t first = size_ - located_.size();
+    if (scan < first || scan >= size_) throw not_kept(scan);
+    if (!located_[scan - first]) {
+        throw Error("the pose of scan " + std::to_string(scan) +
+                    " is not found yet: it comes when its window of scans is full, or with "
+                    "finish()");
+    }
+    return *located_[scan - first];
+}
+
+std::vector<std::optional<Located>> KeptFilter::all_located() {
+    const std::lock_guard hold(lock_);
+    return {located_.begin(), located_.end()};
 }
 
 std::vector<StaticVoxel> KeptFilter::static_map() {

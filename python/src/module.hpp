@@ -44,6 +44,10 @@ T taken(const pybind11::object& value, const char* name, const char* expected) {
     }
 }
 
+/// Moves an option that is True, False, or one of "auto", "on" and "off", if it is there and not
+/// None, to its place, as the command has it. Raises TypeError, throws ConfigError.
+void take_switch(pybind11::dict& options, const char* name, std::string& to);
+
 /// Takes what says how to read a recording out of `options`. Raises TypeError, throws ConfigError.
 app::DataOptions data_options(const std::filesystem::path& data, pybind11::dict& options);
 

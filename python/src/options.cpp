@@ -65,6 +65,18 @@ app::ConfigOptions config_options(const py::object& given) {
     return options;
 }
 
+void take_switch(py::dict& options, const char* name, std::string& to) {
+    if (!options.contains(name)) return;
+    const py::object value = options.attr("pop")(name);
+    if (value.is_none()) return;
+    if (py::isinstance<py::bool_>(value)) {
+        to = value.cast<bool>() ? "on" : "off";
+        return;
+    }
+    to = taken<std::string>(value, name, "True, False, or 'auto'");
+    refuse_other(name, to, {"auto", "on", "off"});
+}
+
 app::DataOptions data_options(const std::filesystem::path& data, py::dict& options) {
     app::DataOptions o;
     o.data = data;
@@ -75,7 +87,7 @@ app::DataOptions data_options(const std::filesystem::path& data, py::dict& optio
     take(options, "pose_fix", o.pose_fix);
     take(options, "points_in_world", o.open.points_in_world);
     take(options, "time_unit", o.time_unit);
-    take(options, "deskew", o.open.deskew);
+    take_switch(options, "deskew", o.deskew);
     take(options, "first", o.open.first);
     take(options, "last", o.open.last);
     take(options, "stride", o.open.stride);

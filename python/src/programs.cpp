@@ -54,6 +54,7 @@ app::RunOptions run_options(const fs::path& data, const std::optional<fs::path>&
     o.output = output ? *output : app::default_output();
     o.config = config_options(options.attr("pop")("config", py::none()));
     take(options, "threads", o.threads);
+    take_switch(options, "refine", o.refine);
     take(options, "overwrite", o.overwrite);
     take(options, "resume", o.resume);
     o.catches = false;
@@ -167,7 +168,9 @@ void bind_programs(py::module_& module) {
 scene: crowd, street, square, hall, jam or platform; sensor: see `dynamicfilter simulate --help`;
 pedestrians: -1: the scene's own number; seed: same seed, same bytes; frames: None: the whole scene;
 rate: scans per second, 0: the scene's own; pose_noise [m], pose_noise_deg [deg]: standard deviation
-of each axis; rounds: of the robot, in crowd, 0: the scene's own; overwrite: replaces an earlier
+of each axis; sweep: points are measured one after the other while the sensor moves, as a turning one
+does it, and the scans are PCD files with a field t [s] instead of KITTI's; rounds: of the robot, in
+crowd, 0: the scene's own; overwrite: replaces an earlier
 recording; quiet: False shows the progress on stderr. Returns the number of points. Raises
 ConfigError (also if there is an earlier recording), OutputError, and KeyboardInterrupt, which
 leaves nothing.)");

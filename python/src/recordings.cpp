@@ -27,7 +27,9 @@ io::Sequence open_recording(const fs::path& data, const py::kwargs& options) {
     const app::DataOptions how = data_options(data, const_cast<py::kwargs&>(options));
     refuse_unknown("open_recording", options);
     const py::gil_scoped_release others_go_on;
-    return app::open(how);
+    io::Sequence sequence = app::open(how);
+    if (!sequence.deskew) sequence.wants_times = true;
+    return sequence;
 }
 
 io::Frame frame_at(const io::Sequence& sequence, py::ssize_t i) {
@@ -56,11 +58,20 @@ may read.)")
                                    return points_array(f.points, self);
                                }),
                                "N x 3 float32: x y z [m] in the sensor's frame")
-        .def_property_readonly("pose", view([](const io::Frame& f, const py::object& self) {
+        .def_property_readonly("pose",
+                               view([](const io::Frame& f, const py::object& self) -> py::object {
+                                   if (!f.has_pose) return py::none();
                                    return pose_array(f.T_world_sensor, self);
                                }),
-                               "4 x 4 float64: T_world_sensor [m]")
+                               "4 x 4 float64: T_world_sensor [m]; None: nobody knows it")
         .def_readonly("stamp", &io::Frame::stamp, "[s]")
+        .def_property_readonly(
+            "times", view([](const io::Frame& f, const py::object& self) -> py::object {
+                if (f.times.empty()) return py::none();
+                return times_array(f.times, self);
+            }),
+            "N float32: when each point was measured [s], from the stamp on; None: the recording "
+            "does not say, or the motion is undone (deskew)")
         .def_property_readonly(
             "truth", view([](const io::Frame& f, const py::object& self) -> py::object {
                 if (f.truth.empty()) return py::none();
@@ -78,7 +89,8 @@ may read.)")
 
 void bind_recordings(py::module_& module) {
     bind_frame(module);
-    py::class_<io::Sequence>(module, "Recording", R"(Scans with poses: a sequence of Frame.
+    py::class_<io::Sequence>(module, "Recording",
+                             R"(Scans, with poses if they are known: a sequence of Frame.
 
 Scans are read when asked for and not kept. Any thread may read; the GIL is free meanwhile.)")
         .def("__len__", &io::Sequence::size, "How many scans there are.")
@@ -100,12 +112,14 @@ cloud["x"], cloud["intensity"]. Raises InputError.)");
                R"(Opens a recording: a bag, or a folder with scans and poses.
 
 data: its path. format: kitti, benchmark, folder or bag (otherwise recognised by looking at it).
-poses: pose file, T_world_sensor [m] (otherwise the format's usual place). topic, pose_topic: of a bag.
+poses: pose file, T_world_sensor [m] (otherwise the format's usual place), or "none": the recording's
+own are left alone, and DynamicFilter finds them. topic, pose_topic: of a bag.
 pose_fix: none, inverse, camera, lidar, wxyz, xyzw or mm, as `dynamicfilter check` advises.
 points_in_world: scans are in the poses' frame. time_unit: s, ms, us or ns, of the stamps.
-deskew: undoes the sensor's motion during each scan. first, last, stride: which scans.
+deskew: True undoes the sensor's motion during each scan, by the poses and the points' times. first, last, stride: which scans.
 Returns a sequence of Frame: points N x 3 float32 [m] in the sensor's frame, pose 4 x 4
-T_world_sensor [m], stamp [s], truth N uint8 or None, fields N records. Raises InputError, ConfigError
+T_world_sensor [m] or None, stamp [s], times N float32 [s] or None, truth N uint8 or None, fields
+N records. Raises InputError, ConfigError
 and TypeError.)");
 }
 

@@ -71,6 +71,13 @@ void add_truth(Frame& frame, const Sequence& sequence, std::size_t i) {
     }
 }
 
+/// As the scan has them, or else by the azimuths of the points.
+std::vector<float> times_of(const Sequence& sequence, const Frame& frame) {
+    std::vector<float> times = point_times(frame.cloud, frame.stamp);
+    if (times.empty() && sequence.sweep) times = sweep_times(frame.points, *sequence.sweep);
+    return times;
+}
+
 /// Farther than the Earth is round, a pose is a wrong number or a wrong unit.
 void refuse_absurd(const Pose& T_world_sensor, const std::filesystem::path& file) {
     constexpr double kEarth = 4e7;  // [m]
@@ -144,11 +151,10 @@ Frame read_frame(const Sequence& sequence, std::size_t i) {
     }
     frame.stamp = sequence.stamps[i];
     if (sequence.deskew) {
-        undo_motion(frame.points, point_times(frame.cloud, frame.stamp), frame.stamp,
-                    sequence.trajectory);
+        undo_motion(frame.points, times_of(sequence, frame), frame.stamp, sequence.trajectory);
     }
     if (sequence.wants_times || !sequence.velocities.empty()) {
-        frame.times = point_times(frame.cloud, frame.stamp);
+        frame.times = times_of(sequence, frame);
     }
     if (!sequence.velocities.empty() && !frame.times.empty()) {
         frame.points =

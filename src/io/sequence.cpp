@@ -125,26 +125,6 @@ void select(Sequence& sequence, const OpenOptions& options) {
     keep(sequence.bag_scans, options.first, last, options.stride);
 }
 
-/// Poses between the scans are of no use without times within them.
-void prepare_deskew(Sequence& sequence) {
-    if (sequence.trajectory.stamps.empty() && sequence.measured_stamps) {
-        sequence.trajectory = {sequence.stamps, sequence.T_world_sensor};
-        put_in_order(sequence.trajectory);
-    }
-    if (sequence.trajectory.stamps.size() < 2) {
-        sequence.notes.push_back("no poses over time: the scans' motion is not undone");
-        return;
-    }
-    const Cloud first = read_scan(sequence, 0);
-    if (point_times(first, sequence.stamps.front()).empty()) {
-        sequence.notes.push_back(
-            "the points have no times of their own (no field t, time, timestamp or offset_time "
-            "that varies): the scans' motion is not undone");
-        return;
-    }
-    sequence.deskew = true;
-}
-
 Sequence open_folder(const std::filesystem::path& data, const OpenOptions& options) {
     if (!options.topic.empty() || !options.pose_topic.empty()) {
         throw ConfigError("--topic and --pose-topic are for bags; " + data.string() + " is none");
@@ -229,8 +209,28 @@ Sequence open_sequence(const std::filesystem::path& data, const OpenOptions& opt
     }
     if (!sequence.has_poses) refuse_world_frame(sequence, data);
     apply_fixes(sequence, options);
-    if (options.deskew) prepare_deskew(sequence);
+    if (options.deskew && sequence.has_poses) prepare_deskew(sequence);
     return sequence;
+}
+
+// Poses between the scans are of no use without times within them.
+void prepare_deskew(Sequence& sequence) {
+    if (sequence.trajectory.stamps.empty() && sequence.measured_stamps) {
+        sequence.trajectory = {sequence.stamps, sequence.T_world_sensor};
+        put_in_order(sequence.trajectory);
+    }
+    if (sequence.trajectory.stamps.size() < 2) {
+        sequence.notes.push_back("no poses over time: the scans' motion is not undone");
+        return;
+    }
+    const Cloud first = read_scan(sequence, 0);
+    if (!sequence.sweep && point_times(first, sequence.stamps.front()).empty()) {
+        sequence.notes.push_back(
+            "the points have no times of their own (no field t, time, timestamp or offset_time "
+            "that varies): the scans' motion is not undone");
+        return;
+    }
+    sequence.deskew = true;
 }
 
 void use_poses(Sequence& sequence, const std::vector<std::optional<Tracked>>& tracked) {

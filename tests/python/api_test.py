@@ -40,7 +40,7 @@ class Api(unittest.TestCase):
     def test_arrays_have_shapes(self):
         for name, thing, node in functions():
             if "NDArray" in ast.unparse(node.returns):
-                self.assertRegex(inspect.getdoc(thing), r"[NM] x 3|[NM] uint8|N records|4 x 4|static_map\(\)", name)
+                self.assertRegex(inspect.getdoc(thing), r"[NM] x 3|[NM] uint8|N float32|N records|4 x 4|static_map\(\)", name)
 
     def test_arguments_are_explained_with_shapes_units_and_frames(self):
         facets = {"points": "N x 3.*\[m\] in the sensor's frame", "pose": "4 x 4, T_world_"}

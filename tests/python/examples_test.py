@@ -24,9 +24,13 @@ class Examples(unittest.TestCase):
     def test_online(self):
         self.assertRegex(said("online", recording()), rf"^{SCANS} scans, [1-9]\d* corrected, [1-9]\d* static voxels around\n$")
 
-    def test_folder_is_cleaned_in_ten_lines(self):
-        with open(os.path.join(EXAMPLES, "clean_folder.py")) as file:
-            self.assertLessEqual(len(file.readlines()), 10)
+    def test_without_poses(self):
+        self.assertRegex(said("without_poses", recording()), rf"^{SCANS} scans, 0 lost, \d{{4,}} static voxels\n$")
+
+    def test_they_are_short(self):
+        for name, most in (("clean_folder", 10), ("without_poses", 15)):
+            with open(os.path.join(EXAMPLES, name + ".py")) as file:
+                self.assertLessEqual(len(file.readlines()), most)
 
 
 if __name__ == "__main__":

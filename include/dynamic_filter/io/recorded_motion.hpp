@@ -12,6 +12,7 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "dynamic_filter/io/sequence.hpp"
@@ -40,17 +41,32 @@ struct PoseError {
     double turn = 0.0;      ///< [rad]
 };
 
-/// How well the poses of a recording fit its scans.
-struct PoseQuality {
-    std::vector<PoseError> errors;  ///< of scans 1, 5, 10 and 20 apart, as far as there are
-    double overlay = 0.0;           ///< [m] overlay_blur() at these poses
-    double best = 0.0;              ///< [m] ... and at those that the odometry finds
+/// How much scans blur: overlay_blur() of scans in a row [m]; 0: not known.
+struct Blur {
+    double as_measured = 0.0;  ///< [m] points as they are in the scans
+    double undone = 0.0;       ///< [m] the motion during scans undone by the times of the points
 
-    /// Whether scans overlay clearly better at other poses.
-    [[nodiscard]] bool is_bad() const;
+    [[nodiscard]] double least() const;  ///< [m] of those that are known
+    /// Whether scans overlay clearly better with their motion undone.
+    [[nodiscard]] bool is_distorted() const;
 };
 
-/// Reads 21 scans in a row at each of some places of the recording.
-PoseQuality measure_poses(const Sequence& sequence, const OdometryConfig& config);
+/// How well the poses of a recording fit its scans, as far as it has poses.
+struct MotionQuality {
+    std::vector<PoseError> errors;  ///< of scans 1, 5, 10 and 20 apart, as far as there are
+    Blur given;                     ///< at the recording's poses
+    Blur found;                     ///< at those that the odometry finds
+
+    /// Whether scans overlay clearly better at other poses than those that are given.
+    [[nodiscard]] bool has_bad_poses() const;
+};
+
+/// Reads 21 scans in a row at each of some places of the recording, with the times of their points
+/// if the sequence wants_times.
+MotionQuality measure_motion(const Sequence& sequence, const OdometryConfig& config);
+
+/// What is wrong with the poses, if scans overlay clearly better at others: one sentence, with
+/// figures; empty if nothing is. Reads up to 180 scans.
+std::string find_pose_mistake(const Sequence& sequence, const OdometryConfig& config);
 
 }  // namespace dynamic_filter::io

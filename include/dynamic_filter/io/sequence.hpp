@@ -21,6 +21,7 @@
 #include "dynamic_filter/io/pose_fix.hpp"
 #include "dynamic_filter/io/trajectory.hpp"
 #include "dynamic_filter/odometry/odometry.hpp"
+#include "dynamic_filter/odometry/sweep_times.hpp"
 #include "dynamic_filter/types.hpp"
 
 namespace dynamic_filter::io {
@@ -61,6 +62,7 @@ struct Sequence {
                                         ///< the bag, or nothing
     bool has_poses = true;              ///< false: nobody knows them, and T_world_sensor is empty
     bool wants_times = false;           ///< frames get the times of their points
+    std::optional<Sweep> sweep;        ///< from which those times follow if scans do not hold them
     /// Parallel, or empty: how the sensor moved, to undo the motion during each scan.
     std::vector<Twist> velocities;
     std::vector<double> stamps;    ///< parallel [s]; made up at 10 Hz where not measured
@@ -99,6 +101,10 @@ struct Frame {
 /// Throws InputError (nothing there, counts that differ, bad rotation) and
 /// ConfigError (topics to choose from).
 Sequence open_sequence(const std::filesystem::path& data, const OpenOptions& options = {});
+
+/// From now on, the motion during each scan is undone by the recording's poses and the times of the
+/// points. A note says why if that cannot be done.
+void prepare_deskew(Sequence& sequence);
 
 /// Gives the recording poses that were found or refined, a scan each; empty: not known. The scans'
 /// motion is undone accordingly from now on.

@@ -24,7 +24,7 @@ struct OdometryConfig {
     double angular_acceleration = 350.0;
     double lost_below = 0.35;
     double usual_share = 0.85;
-    double return_over = 100.0;
+    double return_over = 500.0;
 };
 
 /// Calls f(setting, member) for every field, in the order of the struct.

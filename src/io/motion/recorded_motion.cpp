@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/odometry/overlay_blur.hpp"
 #include "dynamic_filter/parallel.hpp"
+#include "pose_mistakes.hpp"
 
 namespace dynamic_filter::io {
 namespace {
@@ -63,11 +66,15 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
-/// [m] How much the scans blur at the poses that the odometry finds.
-double blur(const Piece& piece, const std::vector<Tracked>& tracked, const OdometryConfig& config) {
+std::vector<Pose> poses_of(const std::vector<Tracked>& tracked) {
     std::vector<Pose> poses;
     for (const Tracked& t : tracked) poses.push_back(t.T_world_sensor);
-    return overlay_blur(piece.scans, poses, config);
+    return poses;
+}
+
+/// [m] How much the scans blur at the poses that the odometry finds.
+double blur(const Piece& piece, const std::vector<Tracked>& tracked, const OdometryConfig& config) {
+    return overlay_blur(piece.scans, poses_of(tracked), config);
 }
 
 /// [m] that the sensor's motion shifts points by during a scan, at a range of 10 m.
@@ -78,6 +85,18 @@ double distortion(const std::vector<Tracked>& tracked, double duration) {
                          (t.velocity.head<3>().norm() + 10.0 * t.velocity.tail<3>().norm()));
     }
     return median(std::move(shifts));
+}
+
+/// Whether the scan sees to all sides, as a sensor does that turns.
+bool turns(const Scan& scan) {
+    constexpr std::size_t kSectors = 16, kMostEmpty = 3;
+    std::array<bool, kSectors> seen{};
+    for (const Point& p : scan.points) {
+        const double turned = std::atan2(p.y(), p.x()) / (2.0 * std::numbers::pi) + 0.5;
+        const auto sector = static_cast<std::size_t>(turned * kSectors);
+        if (is_measured(p)) seen[std::min(sector, kSectors - 1)] = true;
+    }
+    return std::count(seen.begin(), seen.end(), false) <= std::ptrdiff_t{kMostEmpty};
 }
 
 std::vector<Sweep> all_sweeps(double duration) {
@@ -92,24 +111,39 @@ std::vector<Sweep> all_sweeps(double duration) {
 
 /// The poses of a piece, as given and as its scans show them.
 struct Compared {
+    std::vector<double> stamps;
     std::vector<Pose> given, shown;
-    double overlay = 0.0, best = 0.0;
+    Blur at_given, at_shown;
 };
 
-Compared compare(const Piece& piece, const OdometryConfig& config) {
+Compared compare(Piece piece, const OdometryConfig& config) {
     Compared compared;
-    for (const Scan& scan : piece.scans) compared.given.push_back(scan.T_world_sensor);
-    for (const Tracked& t : track(piece, config)) {
-        compared.shown.push_back(t.T_world_sensor);
+    const bool has_times = std::all_of(piece.scans.begin(), piece.scans.end(),
+                                       [](const Scan& scan) { return !scan.times.empty(); });
+    const bool has_poses = piece.scans.front().has_pose;
+    for (const Scan& scan : piece.scans) {
+        compared.stamps.push_back(scan.stamp);
+        compared.given.push_back(scan.T_world_sensor);
     }
-    compared.overlay = overlay_blur(piece.scans, compared.given, config);
-    compared.best = overlay_blur(piece.scans, compared.shown, config);
+    const auto look = [&](double Blur::*which) {
+        const std::vector<Pose> shown = poses_of(track(piece, config));
+        compared.at_shown.*which = overlay_blur(piece.scans, shown, config);
+        if (has_poses) {
+            compared.at_given.*which = overlay_blur(piece.scans, compared.given, config);
+        }
+        const bool best = compared.at_shown.*which == compared.at_shown.least();
+        if (best) compared.shown = shown;
+    };
+    if (has_times) look(&Blur::undone);
+    for (Scan& scan : piece.scans) scan.times.clear();
+    look(&Blur::as_measured);
     return compared;
 }
 
 std::optional<PoseError> error_of(const std::vector<Compared>& pieces, std::size_t apart) {
     std::vector<double> ways, shifts, turns;
-    for (const auto& [given, shown, overlay, best] : pieces) {
+    for (const Compared& piece : pieces) {
+        const auto& [given, shown] = std::tie(piece.given, piece.shown);
         for (std::size_t i = apart; i < shown.size(); ++i) {
             const Pose moved = shown[i - apart].inverse() * shown[i];
             const Twist off = log(moved.inverse() * given[i - apart].inverse() * given[i]);
@@ -128,6 +162,35 @@ double usual_step(const Sequence& sequence) {
         steps.push_back(sequence.stamps[i] - sequence.stamps[i - 1]);
     }
     return median(std::move(steps));
+}
+
+std::vector<Compared> compare_places(const Sequence& sequence, std::size_t in_a_row,
+                                     const OdometryConfig& config) {
+    std::vector<Piece> pieces = read_pieces(sequence, in_a_row);
+    std::erase_if(pieces, [](const Piece& piece) { return piece.scans.size() < 2; });
+    std::vector<Compared> compared(pieces.size());
+    parallel_for(pieces.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+            compared[k] = compare(std::move(pieces[k]), config);
+        }
+    });
+    return compared;
+}
+
+MotionQuality quality_of(const std::vector<Compared>& compared, bool has_poses) {
+    MotionQuality quality;
+    const double share = 1.0 / static_cast<double>(compared.size());
+    for (const Compared& piece : compared) {
+        for (double Blur::*which : {&Blur::as_measured, &Blur::undone}) {
+            quality.given.*which += share * piece.at_given.*which;
+            quality.found.*which += share * piece.at_shown.*which;
+        }
+    }
+    for (const std::size_t apart : kApart) {
+        if (!has_poses) break;
+        if (const auto error = error_of(compared, apart)) quality.errors.push_back(*error);
+    }
+    return quality;
 }
 
 }  // namespace
@@ -159,7 +222,7 @@ std::optional<Sweep> find_sweep(const Sequence& sequence, const OdometryConfig& 
     double most_distorted = kLeast, as_it_is = 0.0;
     std::vector<Piece> pieces = read_pieces(sequence, kInARow);
     for (Piece& piece : pieces) {
-        if (piece.scans.size() < 2) continue;
+        if (piece.scans.size() < 2 || !turns(piece.scans.front())) continue;
         for (Scan& scan : piece.scans) scan.times.clear();
         const std::vector<Tracked> tracked = track(piece, config);
         const double distorted = distortion(tracked, duration);
@@ -183,32 +246,33 @@ std::optional<Sweep> find_sweep(const Sequence& sequence, const OdometryConfig& 
     return sweeps[static_cast<std::size_t>(best - blurs.begin())];
 }
 
-PoseQuality measure_poses(const Sequence& sequence, const OdometryConfig& config) {
-    const std::vector<Piece> pieces = read_pieces(sequence, kInARow);
-    std::vector<Compared> compared(pieces.size());
-    parallel_for(pieces.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k < end; ++k) compared[k] = compare(pieces[k], config);
-    });
-    PoseQuality quality;
-    double pieces_compared = 0.0;
-    for (const Compared& piece : compared) {
-        if (piece.given.size() < 2) continue;
-        quality.overlay += piece.overlay;
-        quality.best += piece.best;
-        pieces_compared += 1.0;
-    }
-    if (pieces_compared == 0.0) return quality;
-    quality.overlay /= pieces_compared;
-    quality.best /= pieces_compared;
-    for (const std::size_t apart : kApart) {
-        if (const auto error = error_of(compared, apart)) quality.errors.push_back(*error);
-    }
-    return quality;
+double Blur::least() const {
+    return undone > 0.0 ? std::min(undone, as_measured > 0.0 ? as_measured : undone) : as_measured;
 }
 
-bool PoseQuality::is_bad() const {
+bool Blur::is_distorted() const {
+    constexpr double kClearly = 0.97;
+    return undone > 0.0 && undone < kClearly * as_measured;
+}
+
+bool MotionQuality::has_bad_poses() const {
     constexpr double kClearly = 1.1;
-    return overlay > kClearly * best;
+    return given.least() > kClearly * found.least();
+}
+
+MotionQuality measure_motion(const Sequence& sequence, const OdometryConfig& config) {
+    return quality_of(compare_places(sequence, kInARow, config), sequence.has_poses);
+}
+
+std::string find_pose_mistake(const Sequence& sequence, const OdometryConfig& config) {
+    constexpr std::size_t kLong = 60;  // scans in a row: their motion has to vary
+    std::vector<Compared> compared = compare_places(sequence, kLong, config);
+    if (!quality_of(compared, sequence.has_poses).has_bad_poses()) return "";
+    std::vector<TwoTracks> tracks;
+    for (Compared& piece : compared) {
+        tracks.push_back({std::move(piece.stamps), std::move(piece.given), std::move(piece.shown)});
+    }
+    return name_mistake(tracks);
 }
 
 }  // namespace dynamic_filter::io

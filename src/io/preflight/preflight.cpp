@@ -9,6 +9,7 @@
 
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/io/pose_fix.hpp"
+#include "dynamic_filter/io/recorded_motion.hpp"
 #include "overlay.hpp"
 #include "samples.hpp"
 
@@ -279,6 +280,25 @@ void judge_order(Preflight& result, const Sequence& sequence, const Samples& sam
          "rename the scans, and their labels, so that their names sort by time"});
 }
 
+/// Poses that are nearly right, and motion during scans.
+void judge_motion(Preflight& result, Sequence sequence) {
+    sequence.wants_times = !sequence.deskew;
+    const OdometryConfig config;
+    const std::string mistake = find_pose_mistake(sequence, config);
+    if (!mistake.empty()) {
+        result.findings.push_back(
+            {mistake, "run refines such poses by itself, as with --refine on; better poses help"});
+    }
+    if (sequence.deskew || !sequence.velocities.empty()) return;
+    const Blur blur = measure_motion(sequence, config).found;
+    if (blur.is_distorted() || (blur.undone == 0.0 && find_sweep(sequence, config))) {
+        result.findings.push_back(
+            {"the sensor's motion during each scan is still in the points: scans overlay better "
+             "without it",
+             "--deskew on"});
+    }
+}
+
 /// Of all scans, what shows without reading them.
 std::map<std::size_t, std::string> find_unusable(const Sequence& sequence) {
     std::map<std::size_t, std::string> unusable;
@@ -309,7 +329,11 @@ Preflight check_recording(const Sequence& sequence, Depth depth) {
     if (result.overlays.empty()) return result;
     judge_poses(result, sequence, samples, pairs);
     if (!result.findings.empty() || depth == Depth::quick) return result;
-    if (auto finding = misfit(samples, pairs)) result.findings.push_back(std::move(*finding));
+    if (auto finding = misfit(samples, pairs)) {
+        result.findings.push_back(std::move(*finding));
+        return result;
+    }
+    judge_motion(result, sequence);
     return result;
 }
 
