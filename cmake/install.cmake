@@ -7,7 +7,8 @@ set(DF_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/DynamicFilter)
 # The core's headers that users include, and what these include; the others are its own.
 set(DF_CORE_HEADERS
   config.hpp dynamic_filter.hpp error.hpp keyframe.hpp map_contents.hpp parallel.hpp setting.hpp stage_times.hpp types.hpp
-  verdict.hpp geometry/range_image.hpp pipeline/dynamic_filter.hpp pipeline/online_filter.hpp
+  verdict.hpp geometry/range_image.hpp odometry/config.hpp odometry/motion.hpp odometry/odometry.hpp
+  odometry/sweep_times.hpp pipeline/dynamic_filter.hpp pipeline/online_filter.hpp
   scans_observe/config.hpp submaps_observe/config.hpp)
 foreach(header ${DF_CORE_HEADERS})
   cmake_path(GET header PARENT_PATH folder)

@@ -48,16 +48,18 @@ protected:
         write_times(data / "times.txt", stamps);
         if (!poses.empty()) write_poses_kitti(data / "poses.txt", poses);
     }
-    [[nodiscard]] PoseQuality quality(const std::vector<Pose>& poses) const {
+    [[nodiscard]] MotionQuality quality(const std::vector<Pose>& poses) const {
         put(street(false), poses);
-        return measure_poses(open(), {});
+        return measure_motion(open(), {});
     }
 };
 
 TEST_F(RecordedMotion, ExactPosesAreNotBad) {
-    const PoseQuality exact = quality(street(false).truth);
-    EXPECT_FALSE(exact.is_bad());
-    EXPECT_GT(exact.best, 0.0);
+    const MotionQuality exact = quality(street(false).truth);
+    EXPECT_FALSE(exact.has_bad_poses());
+    EXPECT_GT(exact.found.as_measured, 0.0);
+    EXPECT_EQ(exact.found.undone, 0.0);
+    EXPECT_EQ(find_pose_mistake(open(), {}), "");
     ASSERT_EQ(exact.errors.size(), 4U);
     const std::array<std::size_t, 4> apart = {1, 5, 10, 20};
     for (std::size_t k = 0; k < apart.size(); ++k) {
@@ -73,8 +75,9 @@ TEST_F(RecordedMotion, NoisyPosesAreBad) {
     auto poses = street(false).truth;
     test::Random random(1);
     for (Pose& pose : poses) pose = pose * random.pose(0.1, 0.01);
-    const PoseQuality noisy = quality(poses);
-    EXPECT_TRUE(noisy.is_bad());
+    const MotionQuality noisy = quality(poses);
+    EXPECT_TRUE(noisy.has_bad_poses());
+    EXPECT_HAS(find_pose_mistake(open(), {}), "the poses jitter");
     EXPECT_GT(noisy.errors[0].shift, 0.05);
 }
 
@@ -84,8 +87,9 @@ TEST_F(RecordedMotion, DriftingPosesAreBad) {
         poses[i] =
             poses[i] * Eigen::AngleAxisd(0.01 * static_cast<double>(i), Eigen::Vector3d::UnitZ());
     }
-    const PoseQuality drifting = quality(poses);
-    EXPECT_TRUE(drifting.is_bad());
+    const MotionQuality drifting = quality(poses);
+    EXPECT_TRUE(drifting.has_bad_poses());
+    EXPECT_HAS(find_pose_mistake(open(), {}), "the poses drift");
     EXPECT_NEAR(drifting.errors[3].turn, 0.2, 0.01);
     EXPECT_NEAR(drifting.errors[0].turn, 0.01, 0.001);
 }
@@ -95,7 +99,7 @@ TEST_F(RecordedMotion, ScansThatCannotBeReadArePassedOver) {
     data.put("velodyne/" + number(10) + ".bin", "");
     data.put("velodyne/" + number(14) + ".bin", "1234567");
     const Sequence sequence = open();
-    EXPECT_FALSE(measure_poses(sequence, {}).is_bad());
+    EXPECT_FALSE(measure_motion(sequence, {}).has_bad_poses());
     const auto tracked = track_scans(sequence, {});
     ASSERT_EQ(tracked.size(), kScans);
     for (std::size_t i = 0; i < kScans; ++i) {
@@ -134,9 +138,29 @@ TEST_F(RecordedMotion, OfHardlyAnyScansNothingIsSaid) {
     one.truth.resize(1);
     put(one, one.truth);
     EXPECT_FALSE(find_sweep(open(), {}));
-    const PoseQuality quality = measure_poses(open(), {});
-    EXPECT_FALSE(quality.is_bad());
+    const MotionQuality quality = measure_motion(open(), {});
+    EXPECT_FALSE(quality.has_bad_poses());
     EXPECT_TRUE(quality.errors.empty());
+}
+
+TEST_F(RecordedMotion, WithoutPosesOnlyTheScansAreMeasured) {
+    const MotionQuality without = quality({});
+    EXPECT_FALSE(without.has_bad_poses());
+    EXPECT_TRUE(without.errors.empty());
+    EXPECT_EQ(without.given.least(), 0.0);
+    EXPECT_GT(without.found.least(), 0.0);
+    EXPECT_EQ(find_pose_mistake(open(), {}), "");
+}
+
+TEST(Blur, IsDistortedWhereItIsLessWithTheMotionUndone) {
+    EXPECT_FALSE((Blur{0.1, 0.0}).is_distorted());
+    EXPECT_FALSE((Blur{0.1, 0.1}).is_distorted());
+    EXPECT_FALSE((Blur{0.05, 0.1}).is_distorted());
+    EXPECT_TRUE((Blur{0.1, 0.08}).is_distorted());
+    EXPECT_EQ((Blur{0.1, 0.0}).least(), 0.1);
+    EXPECT_EQ((Blur{0.1, 0.08}).least(), 0.08);
+    EXPECT_EQ((Blur{0.0, 0.08}).least(), 0.08);
+    EXPECT_EQ(Blur{}.least(), 0.0);
 }
 
 }  // namespace
