@@ -4,6 +4,7 @@
 
 #include "dynamic_filter/config.hpp"
 #include "dynamic_filter/error.hpp"
+#include "dynamic_filter/odometry/odometry.hpp"
 #include "dynamic_filter/parallel.hpp"
 #include "dynamic_filter/pipeline/dynamic_filter.hpp"
 #include "dynamic_filter/pipeline/online_filter.hpp"

@@ -38,6 +38,16 @@ std::optional<Notice> ScanQueue::refusal(const Scan& scan) const {
     if (!std::isfinite(scan.stamp)) {
         return because(NoticeKind::invalid, "its stamp is not a number");
     }
+    if (with_poses_ && *with_poses_ != scan.has_pose) {
+        return because(NoticeKind::invalid, scan.has_pose
+                                                ? "it has a pose, but those before had none"
+                                                : "it has no pose, but those before had one");
+    }
+    if (!scan.times.empty() && scan.times.size() != scan.points.size()) {
+        return because(NoticeKind::invalid, "it has " + std::to_string(scan.times.size()) +
+                                                " times, but " +
+                                                std::to_string(scan.points.size()) + " points");
+    }
     if (scan.has_pose && !is_rigid(scan.T_world_sensor)) {
         return because(NoticeKind::invalid,
                        "its pose is not a rigid motion; is the quaternion normalised?");
@@ -63,6 +73,7 @@ std::optional<Notice> ScanQueue::refusal(const Scan& scan) const {
 
 void ScanQueue::add(QueuedScan waiting) {
     const double stamp = waiting.scan.stamp;
+    with_poses_ = waiting.scan.has_pose;
     if (restarts(stamp)) {
         ++run_;
         newest_.reset();

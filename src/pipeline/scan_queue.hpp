@@ -42,6 +42,7 @@ private:
 
     std::deque<QueuedScan> waiting_;
     std::uint64_t run_ = 0;
+    std::optional<bool> with_poses_;
     std::optional<double> newest_;  // stamp within the run
     struct Taken {
         std::uint64_t run;

@@ -52,9 +52,11 @@ enum class NoticeKind {
     dropped,    ///< overload
     late,       ///< its stamp is before that of a scan already judged
     duplicate,  ///< stamp and pose of the scan before, or of one that waits
-    invalid,    ///< stamp or pose is not finite, or the pose not rigid (to 1e-3)
-    jump,       ///< the pose jumped: a new map begins, which knows nothing of the one before
-    restart     ///< stamps went back by more than a second: a new map begins
+    invalid,    ///< stamp or pose is not finite, the pose is not rigid (to 1e-3), it is missing
+              ///< though other scans have one (or the other way round), or times do not fit points
+    jump,    ///< the pose jumped, or the odometry lost its way: a new map begins, which knows
+             ///< nothing of the one before
+    restart  ///< stamps went back by more than a second: a new map begins
 };
 
 /// What the log should say of a scan.
