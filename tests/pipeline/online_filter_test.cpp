@@ -492,20 +492,16 @@ TEST(OnlineFilter, WhereTheOdometryBeginsAnewTheMapDoes) {
     }
 }
 
-TEST(OnlineFilter, PosesForSomeScansOnlyAreAnError) {
-    auto scans = drive(6, false);
-    scans[2].scan.has_pose = false;
-    OnlineFilter filter(every_scan(), nothing_lost());
-    for (std::size_t i = 0; i < 2; ++i) filter.push(scans[i].scan);
-    filter.flush();
-    EXPECT_THROW(
-        {
-            filter.push(scans[2].scan);
-            filter.flush();
-        },
-        Error);
-    EXPECT_THROW(filter.push(scans[3].scan), Error);
-    expect_balance(filter.counters());
+TEST(OnlineFilter, AScanThatAloneHasOrLacksAPoseOrWhoseTimesAreNotOnePerPointIsRefused) {
+    for (const bool with_poses : {false, true}) {
+        auto scans = with_poses ? drive(6, true) : without_poses(6);
+        scans[2].scan.has_pose = !with_poses;
+        scans[4].scan.times.assign(3, 0.0F);
+        const Heard heard = hear(scans, every_scan());
+        EXPECT_EQ(heard.notices, (Told{{NoticeKind::invalid, 2}, {NoticeKind::invalid, 4}}));
+        EXPECT_EQ(heard.instant.size(), 4U);
+        EXPECT_EQ(heard.maps, 1U);
+    }
 }
 
 }  // namespace
