@@ -199,7 +199,8 @@ Tracked Odometry::track(const Points& points, std::span<const float> times, doub
     o.velocity = o.velocity_of(found.T_map_sensor, dt);
     o.velocity_known = true;
     o.T_map_last = found.T_map_sensor;
-    o.usual_inliers += kHabit * (found.inliers - o.usual_inliers);
+    const double habit = o.usual_inliers > 0.0 ? kHabit : 1.0;
+    o.usual_inliers += habit * (found.inliers - o.usual_inliers);
     return o.tracked(step, found);
 }
 
