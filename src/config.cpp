@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 #include <type_traits>
+#include <utility>
 
 #include "dynamic_filter/error.hpp"
 
@@ -90,7 +91,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 [[noreturn]] void unknown_key(std::string_view key) {
     std::string_view nearest;
-    std::size_t best = std::max<std::size_t>(3, key.size() / 2);  // beyond it nothing is near
+    // Beyond it nothing is near; of equally near ones, the one that is spelled most like it.
+    std::pair<std::size_t, std::size_t> best(std::max<std::size_t>(3, key.size() / 2), 0);
     bool is_section = false;
     Config config;
     visit(config, [&](const Setting& s, const auto&) {
@@ -98,11 +100,12 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
         // A user who leaves out the section means the same key.
         const auto name = s.key.substr(s.key.find('.') + 1);
         const auto own_name = key.substr(key.rfind('.') + 1);  // in another section, perhaps
-        std::size_t d = std::min(edit_distance(key, s.key), edit_distance(key, name) + 1);
+        const std::size_t whole = edit_distance(key, s.key);
+        std::size_t d = std::min(whole, edit_distance(key, name) + 1);
         if (name.starts_with(key)) d = std::min<std::size_t>(d, 2);
         if (name == own_name) d = std::min<std::size_t>(d, 1);
-        if (d < best) {
-            best = d;
+        if (std::pair(d, whole) < best) {
+            best = {d, whole};
             nearest = s.key;
         }
     });

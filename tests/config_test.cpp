@@ -131,7 +131,7 @@ TEST(Config, AnUnknownKeyNamesTheNearestOne) {
     says("front_end.tua", "'front_end.tau'");
     says("revert_radius", "'front_end.revert_radius'");
     says("Method", "'method'");
-    says("voxel", "'map.voxel_size'");  // its beginning
+    says("voxel_s", "'map.voxel_size'");  // its beginning
     says("keyframe.distanc", "'keyframe.distance'");
     // One letter wrong or missing anywhere still finds the key.
     for (const Setting& s : settings()) {

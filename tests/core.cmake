@@ -9,12 +9,12 @@ foreach(unit config keyframe map_contents parallel stage_times
              submaps_observe/submap_buffer submaps_observe/visibility_check submaps_observe/visibility_removal
              submaps_observe/window
              pipeline/dynamic_filter pipeline/map_segments pipeline/odd_scans pipeline/online_filter pipeline/pose_jump
-             pipeline/scan_queue pipeline/two_stages)
+             pipeline/pose_tracker pipeline/scan_queue pipeline/two_stages)
   df_test(${unit} dynamic_filter)
 endforeach()
 
-# Private to the library: the stages of the online filter, the kernels, and the word on which of these exist.
-foreach(unit map_segments scan_queue two_stages)
+# Private to the library: the stages of the filters, the kernels, and the word on which of these exist.
+foreach(unit map_segments pose_tracker scan_queue two_stages)
   target_include_directories(pipeline_${unit}_test PRIVATE ${PROJECT_SOURCE_DIR}/src)
 endforeach()
 foreach(kernel geometry_map_points_test geometry_project_kernel_test scans_observe_sight_kernel_test scans_observe_vote_kernel_test)

@@ -7,7 +7,7 @@
 namespace dynamic_filter {
 namespace {
 
-constexpr double kTiny = 1e-8;  // [rad] below it, sines are their arguments
+constexpr double kTiny = 1e-4;  // [rad] below it, the series ends sooner than digits cancel
 
 Eigen::Matrix3d cross(const Eigen::Vector3d& v) {
     Eigen::Matrix3d m;
@@ -19,7 +19,7 @@ Eigen::Matrix3d cross(const Eigen::Vector3d& v) {
 Eigen::Matrix3d left_jacobian(const Eigen::Vector3d& rotation) {
     const double angle = rotation.norm();
     const Eigen::Matrix3d w = cross(rotation);
-    if (angle < kTiny) return Eigen::Matrix3d::Identity() + 0.5 * w;
+    if (angle < kTiny) return Eigen::Matrix3d::Identity() + 0.5 * w + w * w / 6.0;
     const double a2 = angle * angle;
     return Eigen::Matrix3d::Identity() + (1.0 - std::cos(angle)) / a2 * w +
            (angle - std::sin(angle)) / (a2 * angle) * w * w;

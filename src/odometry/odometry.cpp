@@ -23,6 +23,8 @@ constexpr double kNarrow = 0.2, kWide = 2.0;  // [m] reach of the registration
 constexpr std::size_t kCandidates = 6;        // of a search
 constexpr SearchWindow kSmallest{2.0, 0.1}, kLargest{20.0, 0.6};
 constexpr double kHabit = 0.2;             // weight of a scan in the usual share
+constexpr int kMostBeginnings = 10;        // with a first scan whose motion was not known
+constexpr double kAgreed = 0.003;          // [m], [rad]
 constexpr int kGiveUp = 10;                // lost scans in a row: a new map begins
 constexpr double kMapRadius = 1.5;         // in ranges of the sensor
 constexpr double kForgetEvery = 20.0;      // [m]
@@ -72,6 +74,7 @@ struct Odometry::Impl {
     int lost_in_a_row = 0;
     ScanSample newest;  // for the map
     ScanSample first;   // of a map, until the velocity is known: its motion was not undone
+    Pose T_map_first = Pose::Identity();
     Eigen::Vector3d forgot_at = Eigen::Vector3d::Zero();
 };
 
@@ -116,17 +119,17 @@ Registration Odometry::Impl::search(const Step& step, Registration best) const {
     return best;
 }
 
-/// The first scan moved as the second did: the map of it is made anew, its motion undone. That
-/// changes where the second one fits, and so how both moved.
+/// The first scan moved as the second did: the map of it is made anew, its motion undone, until the
+/// two agree on the motion.
 Registration Odometry::Impl::begin_again(const Step& step, Registration found) {
-    constexpr int kTimes = 3;
-    const ScanSample sample = std::exchange(first, {});
-    for (int i = 0; i < kTimes; ++i) {
-        const Twist moving = velocity_of(found.T_map_sensor, step.dt);
+    for (int i = 0; i < kMostBeginnings; ++i) {
         map = SurfaceMap(config.voxel);
-        map.insert(moved(sample.at_stamp(moving), T_map_last));
-        found = register_from(found.T_map_sensor, step, kNarrow);
+        map.insert(moved(first.at_stamp(velocity_of(found.T_map_sensor, step.dt)), T_map_first));
+        const Pose before = found.T_map_sensor;
+        found = register_from(before, step, kNarrow);
+        if (log(before.inverse() * found.T_map_sensor).norm() < kAgreed) break;
     }
+    first = {};
     return found;
 }
 
@@ -205,7 +208,10 @@ void Odometry::learn(const Labels& labels) {
     Impl& o = *impl_;
     if (o.lost_in_a_row > 0) return;
     const ScanSample kept = without_dynamic(o.newest, labels);
-    if (o.map.empty()) o.first = kept;
+    if (o.map.empty()) {
+        o.first = kept;
+        o.T_map_first = o.T_map_last;
+    }
     o.map.insert(moved(kept.at_stamp(o.velocity), o.T_map_last));
     o.forget_far();
 }

@@ -53,7 +53,7 @@ ScanSample in_range(const Points& points, std::span<const float> times,
     ScanSample usable;
     for (std::size_t i = 0; i < points.size(); i += stride) {
         const float range = points[i].squaredNorm();
-        if (!(range >= near && range <= far)) continue;
+        if (!is_measured(points[i]) || range < near || range > far) continue;
         usable.chosen.push_back(static_cast<std::uint32_t>(i));
         usable.points.push_back(points[i]);
         if (!times.empty()) usable.times.push_back(times[i]);

@@ -1,6 +1,6 @@
 foreach(unit bag bag_scans bag_writer benchmark cloud cloud_writers file frame frame_tree las layout layouts
              layouts/apollo layouts/below layouts/kitti_360 layouts/kitti_raw lzf matching mcap
-             messages natural_order npy packets pcd pcd_header ply ply_header png pose_fix pose_table poses
+             messages motion/pose_mistakes natural_order npy packets pcd pcd_header ply ply_header png pose_fix pose_table poses
              records rigid rosbag1 rosbag2 sequence text text_cloud trajectory writers)
   df_test(io/${unit} dynamic_filter_io)
   # Units behind the public headers are tested too.
@@ -16,3 +16,5 @@ add_test(NAME io/read_back
          COMMAND ${DF_PYTHON} ${CMAKE_CURRENT_LIST_DIR}/read_back.py
                  $<TARGET_FILE:io_read_back_samples>)
 set_tests_properties(io/read_back PROPERTIES SKIP_RETURN_CODE 77)
+
+df_test(io/motion/recorded_motion dynamic_filter_io dynamic_filter_sim)  # its scans are simulated

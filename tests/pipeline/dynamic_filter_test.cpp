@@ -496,5 +496,96 @@ TEST(ScansObserve, AFootOnTheGroundIsDynamicAndTheGroundIsNot) {
     EXPECT_GE(found, 0.25 * low);
 }
 
+std::vector<RoomScan> without_poses(std::size_t count) {
+    auto scans = drive(count, true);
+    for (RoomScan& s : scans) {
+        s.scan.has_pose = false;
+        s.scan.T_world_sensor.translation().setConstant(std::nan(""));
+    }
+    return scans;
+}
+
+TEST(DynamicFilter, ScansWithoutPosesAreToldWhereTheyWereTaken) {
+    const auto truth = drive(20, true), scans = without_poses(20);
+    const Pose first = truth[0].scan.T_world_sensor;
+    for (const Config& config : {Config{}, small_windows()}) {
+        const Outcome result = run(scans, config);
+        ASSERT_EQ(result.instant.size(), scans.size());
+        for (const Verdict& v : result.instant) {
+            ASSERT_TRUE(v.tracked) << v.index;
+            const Pose expected = first.inverse() * truth[v.index].scan.T_world_sensor;
+            const Pose off = expected.inverse() * v.tracked->T_world_sensor;
+            EXPECT_LT(off.translation().norm(), 0.03) << v.index;
+        }
+    }
+    for (const Verdict& v : run(truth, Config{}).instant) EXPECT_FALSE(v.tracked);
+}
+
+TEST(DynamicFilter, WithoutPosesVerdictsAreThoseOfTheTrackedPoses) {
+    auto scans = without_poses(20);
+    DynamicFilter filter{Config{}};
+    std::vector<Verdict> instant;
+    for (const RoomScan& s : scans) {
+        for (Verdict& v : filter.push(s.scan)) instant.push_back(std::move(v));
+    }
+    filter.finish();
+    EXPECT_EQ(filter.times().at("odometry").count(), 2 * scans.size());
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+        scans[i].scan.T_world_sensor = instant[i].tracked->T_world_sensor;
+        scans[i].scan.has_pose = true;
+    }
+    const Outcome again = run(scans, Config{});
+    std::vector<Verdict> final;
+    for (const RoomScan& s : scans) final.push_back(filter.verdict(s.scan));
+    expect_same(instant, again.instant);
+    expect_same(final, again.final);
+    EXPECT_GT(share(scans, final, Label::dynamic, Label::dynamic), 0.8);
+    EXPECT_GT(share(scans, final, Label::static_, Label::static_), 0.9);
+}
+
+TEST(DynamicFilter, WithoutPosesAnyNumberOfThreadsGivesTheSameBits) {
+    const auto scans = without_poses(12);
+    Outcome one, four;
+    with_threads(1, [&] { one = run(scans, Config{}); });
+    with_threads(4, [&] { four = run(scans, Config{}); });
+    expect_same(one.instant, four.instant);
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+        EXPECT_EQ(one.instant[i].tracked->T_world_sensor.matrix(),
+                  four.instant[i].tracked->T_world_sensor.matrix());
+    }
+}
+
+TEST(DynamicFilter, PosesForSomeScansOnlyAreAnErrorThatNamesTheScan) {
+    auto scans = drive(4, false);
+    scans[2].scan.has_pose = false;
+    DynamicFilter filter{Config{}};
+    filter.push(scans[0].scan);
+    filter.push(scans[1].scan);
+    try {
+        filter.push(scans[2].scan);
+        ADD_FAILURE() << "nothing was thrown";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("scan 2 has no pose"), std::string::npos);
+    }
+}
+
+TEST(DynamicFilter, RefinedPosesAreTold) {
+    const auto scans = drive(8, true);
+    Config config;
+    config.odometry.refine = true;
+    const Outcome result = run(scans, config);
+    for (const Verdict& v : result.instant) {
+        ASSERT_TRUE(v.tracked);
+        const Pose off = scans[v.index].scan.T_world_sensor.inverse() * v.tracked->T_world_sensor;
+        EXPECT_LT(off.translation().norm(), 0.01);
+    }
+}
+
+TEST(DynamicFilter, TimesThatAreNotOnePerPointAreAnError) {
+    auto scans = without_poses(1);
+    scans[0].scan.times.assign(3, 0.0F);
+    EXPECT_THROW(DynamicFilter{Config{}}.push(scans[0].scan), Error);
+}
+
 }  // namespace
 }  // namespace dynamic_filter

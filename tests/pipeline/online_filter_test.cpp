@@ -401,5 +401,108 @@ TEST(OnlineFilter, BytesBoundTheMapToo) {
     EXPECT_LE(submaps.contents().observers, 2U);
 }
 
+std::vector<RoomScan> without_poses(std::size_t count) {
+    auto scans = drive(count, true);
+    for (RoomScan& s : scans) {
+        s.scan.has_pose = false;
+        s.scan.T_world_sensor = Pose::Identity();
+    }
+    return scans;
+}
+
+/// What the callbacks were told.
+struct Heard {
+    std::vector<Verdict> instant;
+    Told notices;
+    std::size_t maps = 0;
+};
+
+Heard hear(const std::vector<RoomScan>& scans, const Config& config, int threads = 0) {
+    Heard heard;
+    OnlineOptions options = nothing_lost();
+    options.threads = threads;
+    OnlineFilter filter(
+        config, options,
+        {.instant = [&](const Verdict& v) { heard.instant.push_back(v); },
+         .settled = {},
+         .notice = [&](const Notice& n) { heard.notices.emplace_back(n.kind, n.index); }});
+    for (const RoomScan& s : scans) filter.push(s.scan);
+    filter.finish();
+    heard.maps = filter.maps();
+    return heard;
+}
+
+void expect_same_poses(const std::vector<Verdict>& a, const std::vector<Verdict>& b) {
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        ASSERT_TRUE(a[i].tracked && b[i].tracked) << i;
+        EXPECT_EQ(a[i].tracked->T_world_sensor.matrix(), b[i].tracked->T_world_sensor.matrix());
+        EXPECT_EQ(a[i].tracked->velocity, b[i].tracked->velocity);
+    }
+}
+
+TEST(OnlineFilter, WithoutPosesByteForByteTheSameAsOffline) {
+    const auto scans = without_poses(16);
+    Config refining = every_scan();
+    refining.odometry.refine = true;
+    for (const Config& config : {every_scan(), small_windows()}) {
+        const test::Outcome offline = test::run(scans, config);
+        for (const int threads : {1, 4}) {
+            const Heard online = hear(scans, config, threads);
+            expect_same(online.instant, offline.instant);
+            expect_same_poses(online.instant, offline.instant);
+            EXPECT_EQ(online.notices, Told{});
+        }
+    }
+    const auto given = drive(16, true);
+    const test::Outcome offline = test::run(given, refining);
+    const Heard online = hear(given, refining);
+    expect_same(online.instant, offline.instant);
+    expect_same_poses(online.instant, offline.instant);
+}
+
+TEST(OnlineFilter, WithoutPosesARestartBeginsAnew) {
+    auto scans = without_poses(8);
+    const Heard once = hear(scans, every_scan());
+    for (std::size_t i = 0; i < 8; ++i) {
+        scans.push_back(scans[i]);
+        scans.back().scan.index = 8 + i;
+    }
+    const Heard twice = hear(scans, every_scan());
+    EXPECT_EQ(twice.notices, (Told{{NoticeKind::restart, 8}}));
+    EXPECT_EQ(twice.maps, 2U);
+    ASSERT_EQ(twice.instant.size(), 16U);
+    for (std::size_t i = 0; i < 8; ++i) {
+        EXPECT_EQ(twice.instant[8 + i].labels, once.instant[i].labels) << i;
+        EXPECT_EQ(twice.instant[8 + i].tracked->T_world_sensor.matrix(),
+                  once.instant[i].tracked->T_world_sensor.matrix());
+    }
+}
+
+TEST(OnlineFilter, WhereTheOdometryBeginsAnewTheMapDoes) {
+    auto scans = without_poses(16);
+    for (std::size_t i = 3; i < 13; ++i) {
+        scans[i].scan.points.assign(scans[i].scan.points.size(), Point::Zero());
+    }
+    const Heard heard = hear(scans, every_scan());
+    EXPECT_EQ(heard.notices, (Told{{NoticeKind::jump, 12}}));
+    EXPECT_EQ(heard.maps, 2U);
+    ASSERT_EQ(heard.instant.size(), scans.size());
+    for (const Verdict& v : heard.instant) {
+        EXPECT_EQ(v.tracked->begins_anew, v.index == 12) << v.index;
+    }
+}
+
+TEST(OnlineFilter, AScanThatAloneHasOrLacksAPoseOrWhoseTimesAreNotOnePerPointIsRefused) {
+    for (const bool with_poses : {false, true}) {
+        auto scans = with_poses ? drive(6, true) : without_poses(6);
+        scans[2].scan.has_pose = !with_poses;
+        scans[4].scan.times.assign(3, 0.0F);
+        const Heard heard = hear(scans, every_scan());
+        EXPECT_EQ(heard.notices, (Told{{NoticeKind::invalid, 2}, {NoticeKind::invalid, 4}}));
+        EXPECT_EQ(heard.instant.size(), 4U);
+        EXPECT_EQ(heard.maps, 1U);
+    }
+}
+
 }  // namespace
 }  // namespace dynamic_filter

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+
+#include "dynamic_filter/odometry/motion.hpp"
 
 using namespace dynamic_filter::sim;
 using dynamic_filter::Label;
@@ -89,4 +92,60 @@ TEST(Lidar, NothingNearerThanTheBlindZone) {
             {Eigen::Vector3d(-0.2, -0.2, -0.2), Eigen::Vector3d(0.2, 0.2, 0.2)}, 0.5F);
     const Caster caster(cage, {}, {});
     EXPECT_TRUE(sense(caster, sensor_table().front(), Pose::Identity(), 1, 0).points.empty());
+}
+
+TEST(Sweep, OfASensorThatStandsIsASnapshot) {
+    const Caster caster(room(), {}, {});
+    Pose pose = Pose::Identity();
+    pose.translation() = Eigen::Vector3d(1.0, -2.0, 0.5);
+    for (const Sensor& sensor : sensor_table()) {
+        const Returns one = sense(caster, sensor, pose, 3, 4);
+        const Returns two = sweep(
+            caster, sensor, [&](double) { return pose; }, [](double) {}, 3, 4);
+        EXPECT_EQ(one.points, two.points) << sensor.name;
+        EXPECT_EQ(one.intensity, two.intensity);
+        EXPECT_EQ(one.labels, two.labels);
+        EXPECT_EQ(one.shares, two.shares);
+    }
+}
+
+TEST(Sweep, SharesAndSlicesGoOnFromBeginningToEnd) {
+    const Caster caster(room(), {}, {});
+    std::vector<double> told;
+    const Returns returns = sweep(
+        caster, sensor_table().front(), [](double) { return Pose::Identity(); },
+        [&](double share) { told.push_back(share); }, 1, 0);
+    ASSERT_EQ(returns.shares.size(), returns.points.size());
+    EXPECT_TRUE(std::is_sorted(returns.shares.begin(), returns.shares.end()));
+    EXPECT_GE(returns.shares.front(), 0.0F);
+    EXPECT_LT(returns.shares.back(), 1.0F);
+    EXPECT_GT(returns.shares.back(), 0.9F);
+    ASSERT_GT(told.size(), 10U);
+    for (std::size_t i = 0; i < told.size(); ++i) {
+        EXPECT_NEAR(told[i], (static_cast<double>(i) + 0.5) / static_cast<double>(told.size()),
+                    1e-9);
+    }
+}
+
+TEST(Sweep, IsStraightOnceTheMotionIsUndone) {
+    const Sensor& sensor = sensor_table().front();
+    const Caster caster(room(), {}, {});
+    dynamic_filter::Twist velocity;  // per sweep
+    velocity << 2.0, 0.5, 0.0, 0.0, 0.0, 0.3;
+    const Returns returns = sweep(
+        caster, sensor, [&](double share) { return dynamic_filter::exp(share * velocity); },
+        [](double) {}, 1, 0);
+    const auto off_walls = [&](const dynamic_filter::Points& points) {
+        double squares = 0.0, count = 0.0;
+        for (const auto& p : points) {
+            if (p.z() < -0.5F || p.z() > 1.0F) continue;
+            const double across = static_cast<double>(std::max(std::abs(p.x()), std::abs(p.y())));
+            squares += std::pow(across - wall_distance, 2);
+            count += 1.0;
+        }
+        return std::sqrt(squares / count);
+    };
+    EXPECT_GT(off_walls(returns.points), 0.5);
+    EXPECT_LT(off_walls(dynamic_filter::undo_motion(returns.points, returns.shares, velocity)),
+              sensor.sigma * 1.1);
 }

@@ -29,6 +29,7 @@ void expect_equal(const SimulatedScan& a, const SimulatedScan& b) {
     EXPECT_EQ(a.kinds, b.kinds);
     EXPECT_EQ(a.T_world_sensor.matrix(), b.T_world_sensor.matrix());
     EXPECT_EQ(a.stamp, b.stamp);
+    EXPECT_EQ(a.times, b.times);
 }
 
 }  // namespace
@@ -220,6 +221,55 @@ TEST(Simulation, LengthFollowsFramesAndRate) {
     options = {};
     options.scene = "street";
     EXPECT_EQ(Simulation(options).size(), 300U);
+}
+
+SimulationOptions sweeping(const std::string& scene) {
+    SimulationOptions options = short_run(scene);
+    options.sweep = true;
+    return options;
+}
+
+TEST(Simulation, SweepsHaveTheSameBytesWhateverTheThreadsAndTheOrder) {
+    Simulation one(sweeping("street")), two(sweeping("street"));
+    for (const std::size_t i : {2U, 0U, 1U}) {
+        SimulatedScan a, b;
+        with_threads(1, [&] { a = one.scan(i); });
+        with_threads(2, [&] { b = two.scan(2 - i), b = two.scan(i); });
+        expect_equal(a, b);
+    }
+}
+
+TEST(Simulation, PointsOfASweepHaveTimesAndThoseOfASnapshotNone) {
+    for (const auto& scene : scene_names()) {
+        EXPECT_TRUE(Simulation(short_run(scene)).scan(0).times.empty());
+        SimulationOptions options = sweeping(scene);
+        for (const double rate : {2.0, 20.0}) {
+            options.rate_hz = rate;
+            const SimulatedScan scan = Simulation(options).scan(1);
+            const auto duration = static_cast<float>(std::min(0.2, 1.0 / rate));
+            ASSERT_EQ(scan.times.size(), scan.points.size());
+            EXPECT_TRUE(std::is_sorted(scan.times.begin(), scan.times.end()));
+            EXPECT_GE(scan.times.front(), 0.0F);
+            EXPECT_LT(scan.times.back(), duration);
+            EXPECT_GT(scan.times.back(), 0.9F * duration);
+            EXPECT_EQ(scan.labels.size(), scan.points.size());
+            EXPECT_EQ(scan.stamp, 1.0 / rate);
+        }
+    }
+}
+
+TEST(Simulation, ASweepBeginsAsASnapshotDoes) {
+    SimulationOptions options = short_run("street");
+    const SimulatedScan snapshot = Simulation(options).scan(1);
+    options.sweep = true;
+    const SimulatedScan sweep = Simulation(options).scan(1);
+    EXPECT_EQ(snapshot.T_world_sensor.matrix(), sweep.T_world_sensor.matrix());
+    double near = 0.0;
+    for (std::size_t i = 0; i < 300; ++i) {
+        near += (snapshot.points[i] - sweep.points[i]).norm() < 0.2F;
+    }
+    EXPECT_GT(near, 270.0);
+    EXPECT_NE(snapshot.points, sweep.points);
 }
 
 TEST(Simulation, WrongOptionsAreNamed) {

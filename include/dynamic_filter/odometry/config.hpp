@@ -12,6 +12,7 @@
 
 namespace dynamic_filter {
 
+/// What visit_odometry() explains.
 struct OdometryConfig {
     bool refine = false;
     double voxel = 0.5;

@@ -5,6 +5,7 @@
 /// - Units: [m], [rad], [s]; a Twist is a velocity if it is per second, a displacement if not.
 /// - Frames: a twist is given in the moving frame.
 /// - Shapes: times are parallel to points.
+/// - Ownership: values; times are borrowed for the call.
 /// - Threads: pure functions; thread-safe.
 /// - Errors: none.
 #pragma once

@@ -29,9 +29,9 @@ enum class TrackStatus {
 
 /// Where the sensor was, as far as the scans so far tell.
 struct Tracked {
-    Pose T_world_sensor = Pose::Identity();
-    Twist velocity = Twist::Zero();  ///< during the scan, in the sensor frame, per second
-    TrackStatus status = TrackStatus::good;
+    Pose T_world_sensor = Pose::Identity();  ///< at the stamp
+    Twist velocity = Twist::Zero();          ///< during the scan, in the sensor frame, per second
+    TrackStatus status = TrackStatus::good;  ///< how far the pose can be relied on
     /// Of a displacement in the sensor frame since the scan before, [m] and [rad].
     Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
     double inliers = 1.0;      ///< 0..1: share of the points that lie on the map
@@ -42,9 +42,9 @@ struct Tracked {
 /// track() and learn() take turns, scan by scan. Same scans, same bits.
 class Odometry {
 public:
-    explicit Odometry(const OdometryConfig& config);
-    Odometry(Odometry&&) noexcept;
-    Odometry& operator=(Odometry&&) noexcept;  ///< the other one can only be destroyed
+    explicit Odometry(const OdometryConfig& config);  ///< without a map
+    Odometry(Odometry&&) noexcept;                    ///< the other one can only be destroyed
+    Odometry& operator=(Odometry&&) noexcept;         ///< the other one can only be destroyed
     ~Odometry();
 
     /// Finds where the scan was taken. `times`, if not empty: when each point was measured, [s]

@@ -5,6 +5,7 @@
 /// - Units: [rad], [s].
 /// - Frames: points in the sensor's, which turns about its z axis.
 /// - Shapes: times are parallel to the points.
+/// - Ownership: values.
 /// - Threads: pure functions; thread-safe.
 /// - Errors: none.
 #pragma once
