@@ -29,7 +29,8 @@ Off error_over(const std::vector<Pose>& truth, const std::vector<Pose>& found, d
     for (std::size_t i = 0, j = 0; i < truth.size(); ++i) {
         while (j < truth.size() && way[j] - way[i] < length) ++j;
         if (j == truth.size()) break;
-        const Pose error = (truth[i].inverse() * truth[j]).inverse() * (found[i].inverse() * found[j]);
+        const Pose error =
+            (truth[i].inverse() * truth[j]).inverse() * (found[i].inverse() * found[j]);
         off.shift += 100.0 * error.translation().norm() / (way[j] - way[i]);
         off.turn += 57.2957795 * Eigen::AngleAxisd(error.linear()).angle() / (way[j] - way[i]);
         ++off.count;
@@ -45,7 +46,7 @@ Off error_over(const std::vector<Pose>& truth, const std::vector<Pose>& found, d
 
 int main(int argc, char** argv) {
     for (int a = 1; a < argc; ++a) {
-        io::Sequence sequence = io::open_sequence(argv[a]);
+        const io::Sequence sequence = io::open_sequence(argv[a]);
         Odometry odometry{OdometryConfig{}};
         std::vector<Pose> truth, found;
         std::size_t weak = 0, lost = 0;
@@ -72,10 +73,13 @@ int main(int argc, char** argv) {
         const Off ten = error_over(truth, found, 10.0), hundred = error_over(truth, found, 100.0);
         const Pose end = truth.front().inverse() * truth.back();
         const Pose end_found = found.front().inverse() * found.back();
-        fmt::print("{:<28} {:5} scans  10 m: {:.3f} % {:.4f} deg/m  100 m: {:.3f} % {:.4f} deg/m ({})  end {:.2f} m  worst step {:.3f} m  weak {} lost {}  inliers {:.2f}  {:.1f} ms\n",
-                   argv[a], sequence.size(), ten.shift, ten.turn, hundred.shift, hundred.turn, hundred.count,
-                   (end.translation() - end_found.translation()).norm(), worst, weak, lost,
-                   inliers / static_cast<double>(sequence.size()),
-                   1e3 * static_cast<double>(clocks) / CLOCKS_PER_SEC / static_cast<double>(sequence.size()));
+        fmt::print(
+            "{:<28} {:5} scans  10 m: {:.3f} % {:.4f} deg/m  100 m: {:.3f} % {:.4f} deg/m ({})  "
+            "end {:.2f} m  worst step {:.3f} m  weak {} lost {}  inliers {:.2f}  {:.1f} ms\n",
+            argv[a], sequence.size(), ten.shift, ten.turn, hundred.shift, hundred.turn,
+            hundred.count, (end.translation() - end_found.translation()).norm(), worst, weak, lost,
+            inliers / static_cast<double>(sequence.size()),
+            1e3 * static_cast<double>(clocks) / CLOCKS_PER_SEC /
+                static_cast<double>(sequence.size()));
     }
 }

@@ -44,10 +44,10 @@ io::Sequence with_poses(const EvalOptions& o) {
     io::Sequence sequence = open(o.truth);
     if (sequence.has_poses) return sequence;
     const std::filesystem::path labels = o.labels.value_or("");
-    for (const auto& folder : {labels, labels.parent_path()}) {
-        if (!o.labels || !std::filesystem::exists(folder / "poses.txt")) continue;
+    for (const auto& file : {labels / "poses.txt", labels.parent_path() / "poses.txt"}) {
+        if (!o.labels || !std::filesystem::exists(file)) continue;
         DataOptions with = o.truth;
-        with.open.poses = folder / "poses.txt";
+        with.open.poses = file;
         return open(with);
     }
     throw InputError(o.truth.data, "",

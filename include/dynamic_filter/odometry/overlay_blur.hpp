@@ -18,8 +18,8 @@ namespace dynamic_filter {
 
 /// [m] How far points lie off the surfaces of the map that the scans before make, and how rough
 /// those are: the geometric mean of both together. The motion during scans is undone where the
-/// times of their points are known. The scans' own poses are not
-/// looked at. 0 for fewer than two scans.
+/// times of their points are known. The scans' own poses are not looked at. 0 for fewer than two
+/// scans.
 double overlay_blur(std::span<const Scan> scans, std::span<const Pose> T_world_sensor,
                     const OdometryConfig& config);
 

@@ -19,9 +19,7 @@ constexpr std::size_t kPlaces = 3, kInARow = 21;  // scans that are looked at
 constexpr std::array<std::size_t, 4> kApart = {1, 5, 10, 20};
 
 /// Scans in a row, as the odometry takes them.
-struct Piece {
-    std::vector<Scan> scans;
-};
+using Piece = std::vector<Scan>;
 
 std::optional<Scan> read(const Sequence& sequence, std::size_t i) {
     try {
@@ -42,7 +40,7 @@ std::vector<Piece> read_pieces(const Sequence& sequence, std::size_t in_a_row) {
         const std::size_t first = places > 1 ? k * room / (places - 1) : room / 2;
         Piece piece;
         for (std::size_t i = first; i < std::min(n, first + in_a_row); ++i) {
-            if (auto scan = read(sequence, i)) piece.scans.push_back(*std::move(scan));
+            if (auto scan = read(sequence, i)) piece.push_back(*std::move(scan));
         }
         pieces.push_back(std::move(piece));
     }
@@ -52,7 +50,7 @@ std::vector<Piece> read_pieces(const Sequence& sequence, std::size_t in_a_row) {
 std::vector<Tracked> track(const Piece& piece, const OdometryConfig& config) {
     Odometry odometry(config);
     std::vector<Tracked> tracked;
-    for (const Scan& scan : piece.scans) {
+    for (const Scan& scan : piece) {
         tracked.push_back(odometry.track(scan.points, scan.times, scan.stamp));
         odometry.learn({});
     }
@@ -74,7 +72,7 @@ std::vector<Pose> poses_of(const std::vector<Tracked>& tracked) {
 
 /// [m] How much the scans blur at the poses that the odometry finds.
 double blur(const Piece& piece, const std::vector<Tracked>& tracked, const OdometryConfig& config) {
-    return overlay_blur(piece.scans, poses_of(tracked), config);
+    return overlay_blur(piece, poses_of(tracked), config);
 }
 
 /// [m] that the sensor's motion shifts points by during a scan, at a range of 10 m.
@@ -118,24 +116,24 @@ struct Compared {
 
 Compared compare(Piece piece, const OdometryConfig& config) {
     Compared compared;
-    const bool has_times = std::all_of(piece.scans.begin(), piece.scans.end(),
+    const bool has_times = std::all_of(piece.begin(), piece.end(),
                                        [](const Scan& scan) { return !scan.times.empty(); });
-    const bool has_poses = piece.scans.front().has_pose;
-    for (const Scan& scan : piece.scans) {
+    const bool has_poses = piece.front().has_pose;
+    for (const Scan& scan : piece) {
         compared.stamps.push_back(scan.stamp);
         compared.given.push_back(scan.T_world_sensor);
     }
     const auto look = [&](double Blur::*which) {
         const std::vector<Pose> shown = poses_of(track(piece, config));
-        compared.at_shown.*which = overlay_blur(piece.scans, shown, config);
+        compared.at_shown.*which = overlay_blur(piece, shown, config);
         if (has_poses) {
-            compared.at_given.*which = overlay_blur(piece.scans, compared.given, config);
+            compared.at_given.*which = overlay_blur(piece, compared.given, config);
         }
         const bool best = compared.at_shown.*which == compared.at_shown.least();
         if (best) compared.shown = shown;
     };
     if (has_times) look(&Blur::undone);
-    for (Scan& scan : piece.scans) scan.times.clear();
+    for (Scan& scan : piece) scan.times.clear();
     look(&Blur::as_measured);
     return compared;
 }
@@ -167,7 +165,7 @@ double usual_step(const Sequence& sequence) {
 std::vector<Compared> compare_places(const Sequence& sequence, std::size_t in_a_row,
                                      const OdometryConfig& config) {
     std::vector<Piece> pieces = read_pieces(sequence, in_a_row);
-    std::erase_if(pieces, [](const Piece& piece) { return piece.scans.size() < 2; });
+    std::erase_if(pieces, [](const Piece& piece) { return piece.size() < 2; });
     std::vector<Compared> compared(pieces.size());
     parallel_for(pieces.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
@@ -222,8 +220,8 @@ std::optional<Sweep> find_sweep(const Sequence& sequence, const OdometryConfig& 
     double most_distorted = kLeast, as_it_is = 0.0;
     std::vector<Piece> pieces = read_pieces(sequence, kInARow);
     for (Piece& piece : pieces) {
-        if (piece.scans.size() < 2 || !turns(piece.scans.front())) continue;
-        for (Scan& scan : piece.scans) scan.times.clear();
+        if (piece.size() < 2 || !turns(piece.front())) continue;
+        for (Scan& scan : piece) scan.times.clear();
         const std::vector<Tracked> tracked = track(piece, config);
         const double distorted = distortion(tracked, duration);
         if (distorted < most_distorted) continue;
@@ -237,7 +235,7 @@ std::optional<Sweep> find_sweep(const Sequence& sequence, const OdometryConfig& 
     parallel_for(sweeps.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
             Piece piece = *fastest;
-            for (Scan& scan : piece.scans) scan.times = sweep_times(scan.points, sweeps[k]);
+            for (Scan& scan : piece) scan.times = sweep_times(scan.points, sweeps[k]);
             blurs[k] = blur(piece, track(piece, config), config);
         }
     });
