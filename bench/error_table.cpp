@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Which kinds of surface the final verdicts get wrong: simulates a scene, filters it, and prints a
-/// Markdown table.
+/// Which kinds of surface, and which people and vehicles, the final verdicts get wrong: simulates a
+/// scene, filters it, and prints Markdown tables.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -79,14 +79,36 @@ Scan to_scan(const sim::SimulatedScan& scan, std::size_t index) {
     return {scan.points, scan.T_world_sensor, scan.stamp, index};
 }
 
-/// Scans are simulated a second time here: cheaper than keeping them all.
-std::vector<VoxelKinds> tally(sim::Simulation& simulation, const DynamicFilter& filter) {
-    VoxelIndex index;
+/// A person or a vehicle.
+struct Instance {
+    std::size_t points = 0, kept = 0, standing = 0;
+    bool vehicle = false;
+};
+
+struct Tally {
     std::vector<VoxelKinds> voxels;
+    std::vector<Instance> instances;  // by their numbers
+};
+
+void count(Instance& instance, sim::Kind kind, Label verdict) {
+    ++instance.points;
+    instance.kept += verdict != Label::dynamic ? 1 : 0;
+    instance.standing += kind == sim::Kind::standing ? 1 : 0;
+    instance.vehicle = kind == sim::Kind::vehicle;
+}
+
+/// Scans are simulated a second time here: cheaper than keeping them all.
+Tally tally(sim::Simulation& simulation, const DynamicFilter& filter) {
+    VoxelIndex index;
+    Tally out;
+    auto& [voxels, instances] = out;
     for (std::size_t i = 0; i < simulation.size(); ++i) {
         const sim::SimulatedScan scan = simulation.scan(i);
         const Labels verdict = filter.verdict(to_scan(scan, i)).labels;
         for (std::size_t p = 0; p < scan.points.size(); ++p) {
+            const std::uint16_t instance = scan.instances[p];
+            if (instance >= instances.size()) instances.resize(instance + 1U);
+            if (instance > 0) count(instances[instance], scan.kinds[p], verdict[p]);
             const Eigen::Vector3d world = scan.T_world_sensor * scan.points[p].cast<double>();
             const auto cell = cell_of(world.cast<float>(), static_cast<float>(1.0 / kVoxel));
             if (!cell) continue;
@@ -96,7 +118,7 @@ std::vector<VoxelKinds> tally(sim::Simulation& simulation, const DynamicFilter& 
             voxels[id].kept |= verdict[p] != Label::dynamic;
         }
     }
-    return voxels;
+    return out;
 }
 
 /// Voxels with both static and dynamic points count for neither, as in eval's "excluded" reading.
@@ -148,6 +170,32 @@ void print(const Table& table) {
                score.f1.value_or(0.0), table.mixed);
 }
 
+/// Of the instances with 20 points at least: how much of them is removed.
+void print_instances(const std::vector<Instance>& instances) {
+    constexpr std::size_t fewest = 20;
+    fmt::print(
+        "\n| instances          | number | points removed [%] | of 97 % or more | of less than "
+        "half |\n"
+        "|:-------------------|-------:|-------------------:|----------------:|------------------:|"
+        "\n");
+    const auto print_group = [&](std::string_view name, const auto& belongs) {
+        std::size_t number = 0, whole = 0, poor = 0, points = 0, kept = 0;
+        for (const Instance& i : instances) {
+            if (i.points < fewest || !belongs(i)) continue;
+            const double removed = 100.0 - percent(i.kept, i.points);
+            ++number, points += i.points, kept += i.kept;
+            whole += removed >= 97.0 ? 1 : 0;
+            poor += removed < 50.0 ? 1 : 0;
+        }
+        if (number == 0) return;
+        fmt::print("| {:<18} | {:>6} | {:>18.2f} | {:>15} | {:>17} |\n", name, number,
+                   100.0 - percent(kept, points), whole, poor);
+    };
+    print_group("people who walk", [](const Instance& i) { return !i.vehicle && i.standing == 0; });
+    print_group("people who halt", [](const Instance& i) { return !i.vehicle && i.standing > 0; });
+    print_group("vehicles", [](const Instance& i) { return i.vehicle; });
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -159,7 +207,9 @@ int main(int argc, char** argv) {
             filter.push(to_scan(simulation.scan(i), i));
         }
         filter.finish();
-        print(tabulate(tally(simulation, filter)));
+        const Tally counts = tally(simulation, filter);
+        print(tabulate(counts.voxels));
+        print_instances(counts.instances);
         return 0;
     } catch (const Error& error) {
         fmt::print(stderr, "error_table: {}\n", error.what());

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: MIT
 // Copies of a recording, each with one of the mistakes that users make, and whether check names it.
 //   mistakes RECORDING [OTHER]...     of each recording; the poses of the next are "of another one"
+//   mistakes --motion RECORDING...    only poses that are nearly right
 #include <fmt/format.h>
 
 #include <filesystem>
 #include <functional>
+#include <random>
 #include <string>
 #include <vector>
 
 #include "dynamic_filter/io/poses.hpp"
 #include "dynamic_filter/io/preflight.hpp"
 #include "dynamic_filter/io/writers.hpp"
+#include "dynamic_filter/odometry/motion.hpp"
 #include "support/temporary_folder.hpp"
 
 using namespace dynamic_filter;
@@ -125,6 +128,51 @@ std::vector<Mistake> mistakes(const std::vector<Pose>& of_another) {
     };
 }
 
+constexpr double kDegree = 0.017453293;
+
+/// 5 cm/s in height and 0.1 deg/s of yaw.
+void drift(Copy& copy) {
+    for (std::size_t i = 0; i < copy.poses.size(); ++i) {
+        const double t = copy.stamps[i] - copy.stamps.front();
+        Pose& pose = copy.poses[i];
+        pose.linear() =
+            Eigen::AngleAxisd(0.1 * kDegree * t, Eigen::Vector3d::UnitZ()) * pose.linear();
+        pose.translation().z() += 0.05 * t;
+    }
+}
+/// 3 cm and 0.2 degrees.
+void jitter(Copy& copy) {
+    std::mt19937 engine(copy.poses.size());
+    std::normal_distribution<double> unit;
+    for (Pose& pose : copy.poses) {
+        Twist off;
+        for (int k = 0; k < 6; ++k) off[k] = (k < 3 ? 0.03 : 0.2 * kDegree) * unit(engine);
+        pose = pose * exp(off);
+    }
+}
+/// Each pose is of 50 ms after its scan.
+void late(Copy& copy) {
+    const std::vector<Pose> on_time = copy.poses;
+    for (std::size_t i = 0; i + 1 < on_time.size(); ++i) {
+        const double share = 0.05 / (copy.stamps[i + 1] - copy.stamps[i]);
+        copy.poses[i] = on_time[i] * exp(share * log(on_time[i].inverse() * on_time[i + 1]));
+    }
+}
+void lever_arm(Copy& copy) {
+    each_pose(copy, [](const Pose& p) { return p * Eigen::Translation3d(0.5, 0.0, 0.0); });
+}
+
+/// Poses that are nearly right.
+std::vector<Mistake> mistakes_of_motion() {
+    return {
+        {"none", "", [](Copy&) {}, tum_row},
+        {"drift", "the poses drift", drift, tum_row},
+        {"jitter", "the poses jitter", jitter, tum_row},
+        {"late by 50 ms", "offset in time", late, tum_row},
+        {"lever arm of 0.5 m", "not the sensor's own", lever_arm, tum_row},
+    };
+}
+
 Copy read_copy(const fs::path& recording) {
     const io::Sequence sequence = io::open_sequence(recording);
     Copy copy;
@@ -153,12 +201,13 @@ io::Preflight check_copy(const Copy& copy, const Mistake& mistake) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    std::vector<fs::path> recordings(argv + 1, argv + argc);
+    const bool of_motion = argc > 1 && std::string(argv[1]) == "--motion";
+    std::vector<fs::path> recordings(argv + (of_motion ? 2 : 1), argv + argc);
     int named = 0, made = 0, alarms = 0;
     for (std::size_t r = 0; r < recordings.size(); ++r) {
         const Copy original = read_copy(recordings[r]);
         const Copy other = read_copy(recordings[(r + 1) % recordings.size()]);
-        for (const Mistake& mistake : mistakes(other.poses)) {
+        for (const Mistake& mistake : of_motion ? mistakes_of_motion() : mistakes(other.poses)) {
             Copy copy = original;
             mistake.make(copy);
             const io::Preflight result = check_copy(copy, mistake);

@@ -112,6 +112,7 @@ Hit Caster::cast(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction
         hit.reflectivity =
             prototype.materials[query.hit.primID].reflectivity * parts_[i].brightness;
         hit.kind = kinds_[i];
+        hit.instance = parts_[i].instance;
     }
     hit.cosine = std::abs(normal.normalized().dot(direction));
     return hit;

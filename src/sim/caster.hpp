@@ -12,11 +12,12 @@
 
 namespace dynamic_filter::sim {
 
-/// A moving rigid part: which prototype it copies, and a factor on its reflectivity (clothes,
-/// paint).
+/// A moving rigid part: which prototype it copies, a factor on its reflectivity (clothes, paint),
+/// and the person or vehicle it belongs to.
 struct Part {
     std::size_t prototype = 0;
     float brightness = 1.0F;
+    std::uint16_t instance = 0;
 };
 
 /// Where a part is at a moment, and what it counts as then.
@@ -30,6 +31,7 @@ struct Hit {
     float cosine = 0.0F;  ///< |cos| of the angle between ray and surface normal
     float reflectivity = 0.0F;
     Kind kind = Kind::structure;
+    std::uint16_t instance = 0;  ///< 0: of what stands still
     bool found = false;
 };
 

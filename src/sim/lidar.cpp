@@ -16,6 +16,7 @@ struct Echo {
     float range = 0.0F;  // 0: no return
     float intensity = 0.0F;
     Kind kind = Kind::structure;
+    std::uint16_t instance = 0;
 };
 
 /// The returned power falls with range squared, incidence and reflectivity (Lambert); what is
@@ -35,7 +36,7 @@ Echo measure(const Hit& hit, const Sensor& sensor, std::uint64_t bits) {
     const double range = resolution * std::floor(noisy / resolution + 0.5);
     if (range < sensor.min_range || range > sensor.max_range) return {};
     const float shade = hit.reflectivity * std::sqrt(hit.cosine);
-    return {static_cast<float>(range), std::clamp(shade, 0.0F, 1.0F), hit.kind};
+    return {static_cast<float>(range), std::clamp(shade, 0.0F, 1.0F), hit.kind, hit.instance};
 }
 
 /// The rays of one scan, some of which are cast at a time.
@@ -72,6 +73,7 @@ void Shot::cast(std::size_t first, std::size_t last, const SweepPose& T_world_se
         out.intensity.push_back(echoes[i].intensity);
         out.labels.push_back(is_dynamic(echoes[i].kind) ? Label::dynamic : Label::static_);
         out.kinds.push_back(echoes[i].kind);
+        out.instances.push_back(echoes[i].instance);
         out.shares.push_back(static_cast<float>(share_of(first + i)));
     }
 }

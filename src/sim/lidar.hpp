@@ -17,7 +17,8 @@ struct Returns {
     std::vector<float> intensity;
     Labels labels;
     std::vector<Kind> kinds;
-    std::vector<float> shares;  ///< 0..1: which part of the sweep had passed
+    std::vector<std::uint16_t> instances;  ///< 0: stands still
+    std::vector<float> shares;             ///< 0..1: which part of the sweep had passed
 };
 
 /// Everything at once.

@@ -61,12 +61,16 @@ void check(const SimulationOptions& options) {
 
 std::vector<Part> all_parts(const Scene& scene) {
     std::vector<Part> parts;
-    const auto add = [&](const std::vector<Part>& more) {
+    std::uint16_t instance = 0;
+    const auto add_instance = [&](std::vector<Part> more) {
+        ++instance;
+        for (Part& part : more) part.instance = instance;
         parts.insert(parts.end(), more.begin(), more.end());
     };
-    for (std::size_t i = 0; i < scene.walkers.size(); ++i)
-        add(walker_parts(i, scene.walkers[i].luggage));
-    for (const Vehicle& vehicle : scene.vehicles) add(vehicle_parts(vehicle));
+    for (std::size_t i = 0; i < scene.walkers.size(); ++i) {
+        add_instance(walker_parts(i, scene.walkers[i].luggage));
+    }
+    for (const Vehicle& vehicle : scene.vehicles) add_instance(vehicle_parts(vehicle));
     return parts;
 }
 
@@ -219,6 +223,7 @@ SimulatedScan Simulation::scan(std::size_t i) {
             .intensity = std::move(returns.intensity),
             .labels = std::move(returns.labels),
             .kinds = std::move(returns.kinds),
+            .instances = std::move(returns.instances),
             .T_world_sensor = Eigen::Translation3d(0.0, 0.0, world_->scene.floor) *
                               noisy_pose(pose, world_->options, i),
             .stamp = t,

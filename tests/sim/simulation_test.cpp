@@ -27,6 +27,7 @@ void expect_equal(const SimulatedScan& a, const SimulatedScan& b) {
     EXPECT_EQ(a.labels, b.labels);
     EXPECT_EQ(a.intensity, b.intensity);
     EXPECT_EQ(a.kinds, b.kinds);
+    EXPECT_EQ(a.instances, b.instances);
     EXPECT_EQ(a.T_world_sensor.matrix(), b.T_world_sensor.matrix());
     EXPECT_EQ(a.stamp, b.stamp);
     EXPECT_EQ(a.times, b.times);
@@ -98,6 +99,22 @@ TEST(Simulation, KindsAgreeWithLabels) {
                                  scan.kinds[i] == Kind::standing || scan.kinds[i] == Kind::vehicle;
             EXPECT_EQ(scan.labels[i], dynamic ? Label::dynamic : Label::static_) << scene;
         }
+    }
+}
+
+// A person is 1.75 m tall and carries a suitcase at most; what counts as one is in one place.
+TEST(Simulation, PointsOfOnePersonLieTogether) {
+    for (const auto& scene : scene_names()) {
+        const SimulatedScan scan = Simulation(short_run(scene)).scan(1);
+        ASSERT_EQ(scan.instances.size(), scan.points.size());
+        std::map<std::uint16_t, Eigen::AlignedBox3f> people;
+        for (std::size_t i = 0; i < scan.points.size(); ++i) {
+            EXPECT_EQ(scan.instances[i] > 0, is_dynamic(scan.kinds[i])) << scene;
+            if (is_dynamic(scan.kinds[i]) && scan.kinds[i] != Kind::vehicle) {
+                people[scan.instances[i]].extend(scan.points[i]);
+            }
+        }
+        for (const auto& [instance, box] : people) EXPECT_LT(box.diagonal().norm(), 3.0F) << scene;
     }
 }
 

@@ -46,9 +46,10 @@ struct SimulatedScan {
     std::vector<float> intensity;  ///< 0..1, parallel
     Labels labels;                 ///< exact, parallel: still or dynamic
     std::vector<Kind> kinds;       ///< parallel
-    Pose T_world_sensor;           ///< as a SLAM would report it (with pose noise, if asked)
-    double stamp = 0.0;            ///< [s] since the scene began; a sweep begins then
-    std::vector<float> times;      ///< of a sweep: [s] from the stamp, parallel; else empty
+    std::vector<std::uint16_t> instances;  ///< parallel: the person or vehicle, from 1; 0: neither
+    Pose T_world_sensor;       ///< as a SLAM would report it (with pose noise, if asked)
+    double stamp = 0.0;        ///< [s] since the scene began; a sweep begins then
+    std::vector<float> times;  ///< of a sweep: [s] from the stamp, parallel; else empty
 };
 
 std::vector<std::string> scene_names();   ///< what SimulationOptions::scene may be
