@@ -39,6 +39,7 @@ int demo(const DemoOptions& o) {
     OutputFolder output(o.output, Contents::demo, replaced_if(again));
     OutputFolder recorded(recording, Contents::recording, replaced_if(again));
     OutputFolder result(o.output / "result", Contents::result, replaced_if(again));
+    StageClock clock;
     sim::SimulationOptions scene;
     scene.pedestrians = kPedestrians;
     write_simulation(scene, recorded.path());
@@ -46,8 +47,9 @@ int demo(const DemoOptions& o) {
 
     TopView view;
     const io::Sequence sequence = open({.data = recording, .format = "kitti", .open = {}});
+    clock.finish("simulate");
     const RunSummary summary =
-        run_sequence(sequence, preset("default"), {}, result, {.from_above = &view});
+        run_sequence(sequence, preset("default"), {}, result, clock, {.from_above = &view});
     result.commit();
     io::write_png(output.path() / "before.png", view.draw(true));
     io::write_png(output.path() / "after.png", view.draw(false));

@@ -71,6 +71,7 @@ void tell(const std::vector<std::string>& notes, bool quiet) {
 }  // namespace
 
 int run(const RunOptions& o) {
+    StageClock clock;
     Config config = load_config(o.config);
     io::Sequence sequence = open(o.data);
     const bool named = o.output.has_value();
@@ -107,9 +108,10 @@ int run(const RunOptions& o) {
     }
 
     if (o.catches) catch_interrupts();
+    clock.finish("prepare");
     const Pace pace{.threads = o.threads,
                     .online = o.online ? std::optional(o.speed) : std::nullopt};
-    const RunSummary summary = run_sequence(sequence, config, pace, output,
+    const RunSummary summary = run_sequence(sequence, config, pace, output, clock,
                                             {.live = live ? &*live : nullptr, .quiet = o.quiet});
 
     tell(summary.notes, o.quiet);

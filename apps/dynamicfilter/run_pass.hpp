@@ -17,11 +17,12 @@ struct Pass {
     const Config& config;
     const Pace& pace;
     const OutputFolder& output;
+    StageClock& clock;
     const Watchers& watchers;
     RunSummary summary{};
     std::vector<bool> accepted = std::vector<bool>(sequence.size());
     std::vector<std::optional<Tracked>> tracked{};  ///< by scan; if poses are found or refined
-    std::vector<Labels> instant{};  ///< by scan; of those that are scored or shown
+    std::vector<Labels> instant{};                  ///< by scan; of those that are scored or shown
     std::vector<ScanNote> scan_notes{};
     std::mutex notices_lock{};
     std::vector<Notice> notices{};

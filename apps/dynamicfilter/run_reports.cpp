@@ -24,18 +24,38 @@ double per_second(std::size_t items, double seconds) {
     return seconds > 0 ? static_cast<double>(items) / seconds : 0.0;
 }
 
-nlohmann::ordered_json timing(const Pass& pass, double cpu_seconds, long peak_rss) {
+/// Of the whole process, by stage.
+nlohmann::ordered_json by_stage(const StageClock& clock) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    for (const StageClock::Stage& stage : clock.stages()) {
+        json.push_back({{"stage", stage.name},
+                        {"wall_seconds", stage.seconds.wall},
+                        {"cpu_seconds", stage.seconds.cpu}});
+    }
+    return json;
+}
+
+std::size_t peak_rss_bytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return 1024 * static_cast<std::size_t>(usage.ru_maxrss);
+}
+
+nlohmann::ordered_json timing(const Pass& pass) {
     const RunSummary& s = pass.summary;
+    const Seconds total = pass.clock.total();
     const int threads = pass.pace.threads;
-    nlohmann::ordered_json json{{"scans_per_second", per_second(s.scans, s.seconds)},
-                                {"cpu_seconds", cpu_seconds}};
+    nlohmann::ordered_json json{{"scans_per_second", per_second(s.scans, total.wall)},
+                                {"wall_seconds", total.wall},
+                                {"cpu_seconds", total.cpu},
+                                {"process", by_stage(pass.clock)}};
     for (const RunSummary::Rate& rate : s.rates) {
         json[rate.stage] = {{rate.item + "_per_second", rate.per_second}};
     }
     json["stages"] = to_json(pass.filter.times());
     json[s.contents.observer] = s.contents.observers;
     json["voxels"] = s.contents.voxels;
-    json["peak_rss_bytes"] = peak_rss;
+    json["peak_rss_bytes"] = peak_rss_bytes();
     json["threads"] = threads > 0 ? threads : available_threads();
     if (pass.pace.online) {
         const Counters c = pass.filter.counters();
@@ -100,49 +120,43 @@ void describe(PageRun& run, const Pass& pass) {
     run.info["dropped"] = s.dropped;
 }
 
-/// The page that explains the result. What its writing took goes into `timing`.
-void write_report(Pass& pass, const nlohmann::ordered_json& metrics,
-                  nlohmann::ordered_json& timing) {
+/// The page that explains the result.
+void write_report(Pass& pass, const nlohmann::ordered_json& metrics) {
     if (viewer_page().empty()) {
         pass.summary.notes.emplace_back(
             "no report.html: built without the viewer (npm was missing)");
         return;
     }
-    const auto start = std::chrono::steady_clock::now();
     PageRun run = view_of({pass.sequence, pass.filter, pass.scan_notes, pass.instant,
                            pass.output.path() / "labels", pass.filter.judges_each_scan()});
     describe(run, pass);
     run.info["scores"] = metrics;
-    run.info["timing"] = timing;
+    run.info["timing"] = timing(pass);  // but for the page itself
     const std::string text = embedded(run, 0);
     io::write_file(pass.output.path() / "report.html", page_with({&text, 1}));
-    timing["report_seconds"] = seconds_since(start);
+    pass.clock.finish("report");
 }
 
-}  // namespace
-
-nlohmann::ordered_json measure(Pass& pass, double wall_seconds) {
+/// What the filter holds, and how fast its stages were.
+void take_contents(Pass& pass) {
     RunSummary& s = pass.summary;
-    s.seconds = wall_seconds;
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    const auto seconds = [](const timeval& t) {
-        return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-    };
     s.contents = pass.filter.contents();
     const StageTimes times = pass.filter.times();
     for (const Throughput& t : s.contents.throughput) {
         s.rates.push_back({t.stage, t.item, per_second(t.count, total(times, t.stage))});
     }
-    return timing(pass, seconds(usage.ru_utime) + seconds(usage.ru_stime), 1024 * usage.ru_maxrss);
 }
 
-void write_reports(Pass& pass, nlohmann::ordered_json timing) {
+}  // namespace
+
+void write_reports(Pass& pass) {
+    take_contents(pass);
     const nlohmann::ordered_json metrics = app::metrics(pass);
-    write_report(pass, metrics, timing);
+    write_report(pass, metrics);
     io::write_file(pass.output.path() / "metrics.json", text_of(metrics));
-    io::write_file(pass.output.path() / "timing.json", text_of(timing));
+    pass.summary.seconds = pass.clock.total();
     write_log(pass);
+    io::write_file(pass.output.path() / "timing.json", text_of(timing(pass)));
 }
 
 std::string to_text(const RunSummary& s) {
@@ -154,9 +168,10 @@ std::string to_text(const RunSummary& s) {
                     s.contents.observers, s.contents.observer, s.contents.voxels) +
         fmt::format("points   {}: {:.1f} % static, {:.1f} % dynamic, {:.1f} % unknown\n", s.points,
                     share(s.still), share(s.dynamic), share(s.unknown)) +
-        fmt::format("speed    {:.1f} scans/s over all", per_second(s.scans, s.seconds));
+        fmt::format("speed    {:.1f} scans/s of the whole run ({:.1f} s, {:.1f} s of CPU)",
+                    per_second(s.scans, s.seconds.wall), s.seconds.wall, s.seconds.cpu);
     for (const RunSummary::Rate& rate : s.rates) {
-        text += fmt::format("; {} {:.1f} {}/s", rate.stage, rate.per_second, rate.item);
+        text += fmt::format("; {} alone {:.1f} {}/s", rate.stage, rate.per_second, rate.item);
     }
     text += '\n';
     if (s.scores) text += "scores against the ground truth of the recording\n" + table(*s.scores);

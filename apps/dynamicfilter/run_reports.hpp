@@ -8,13 +8,11 @@
 
 namespace dynamic_filter::app {
 
-/// What it cost so far, `seconds` of wall time; goes into the summary, too.
-nlohmann::ordered_json measure(Pass& pass, double seconds);
-
 /// The closing table.
 std::string to_text(const RunSummary& summary);
 
-/// metrics.json, timing.json, run.log, report.html.
-void write_reports(Pass& pass, nlohmann::ordered_json timing);
+/// metrics.json, timing.json, run.log, report.html; what the maps hold and what it all took goes
+/// into the summary, too.
+void write_reports(Pass& pass);
 
 }  // namespace dynamic_filter::app

@@ -194,18 +194,21 @@ void score(Pass& pass) {
 }  // namespace
 
 RunSummary run_sequence(const io::Sequence& sequence, const Config& config, const Pace& pace,
-                        const OutputFolder& output, const Watchers& watchers) {
+                        const OutputFolder& output, StageClock& clock, const Watchers& watchers) {
     RunSummary summary;
     with_threads(pace.threads, [&] {
-        const auto start = Clock::now();
-        Pass pass{sequence, config, pace, output, watchers};
+        Pass pass{sequence, config, pace, output, clock, watchers};
         io::write_file(output.path() / "config.toml", to_toml(config));
         filter_scans(pass);
+        clock.finish("filter");
         write_results(pass);
-        const nlohmann::ordered_json timing = measure(pass, seconds_since(start));
+        clock.finish("write");
         pass.summary.interrupted |= interrupted();
-        if (sequence.has_truth() && !pass.summary.interrupted) score(pass);
-        write_reports(pass, timing);
+        if (sequence.has_truth() && !pass.summary.interrupted) {
+            score(pass);
+            clock.finish("score");
+        }
+        write_reports(pass);
         summary = std::move(pass.summary);
     });
     return summary;

@@ -12,6 +12,7 @@
 #include "dynamic_filter/io/sequence.hpp"
 #include "dynamic_filter/map_contents.hpp"
 #include "output_folder.hpp"
+#include "stage_clock.hpp"
 #include "top_view.hpp"
 #include "view/live_view.hpp"
 
@@ -24,7 +25,7 @@ struct RunSummary {
     std::vector<std::string> notes;
     std::size_t points = 0, still = 0, dynamic = 0, unknown = 0;
     MapContents contents;  ///< of the filter's maps
-    double seconds = 0.0;
+    Seconds seconds;       ///< of the whole process, until the reports were written
     /// Of each main stage: items per second of its busy wall time, in their order.
     struct Rate {
         std::string stage, item;
@@ -47,9 +48,10 @@ struct Pace {
     std::optional<double> online;  ///< times the sensor's rate; 0: as fast as it can
 };
 
-/// Filters the sequence and writes everything a run leaves behind. Throws InputError if not a
-/// single scan is usable.
+/// Filters the sequence and writes everything a run leaves behind; `clock` is told of the stages.
+/// Throws InputError if not a single scan is usable.
 RunSummary run_sequence(const io::Sequence& sequence, const Config& config, const Pace& pace,
-                        const OutputFolder& output, const Watchers& watchers = {});
+                        const OutputFolder& output, StageClock& clock,
+                        const Watchers& watchers = {});
 
 }  // namespace dynamic_filter::app

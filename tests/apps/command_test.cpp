@@ -126,6 +126,13 @@ TEST_F(Command, RunLeavesWhatTheContractSays) {
     }
     for (const char* key : {"cpu_seconds", "voxels", "peak_rss_bytes", "threads"})
         EXPECT_GT(timing[key], 0);
+    double wall = 0.0, cpu = 0.0;
+    for (const auto& stage : timing["process"]) {
+        wall += stage["wall_seconds"].get<double>();
+        cpu += stage["cpu_seconds"].get<double>();
+    }
+    EXPECT_NEAR(timing["wall_seconds"], wall, 1e-6);
+    EXPECT_NEAR(timing["cpu_seconds"], cpu, 1e-6);
     EXPECT_TRUE(fs::exists(folder_ / "out/run.log"));
     // The written configuration gives the same run again.
     ASSERT_EQ(run("run " + recording().string() + " -o again --config out/config.toml"), 0);
@@ -601,7 +608,8 @@ TEST_F(Command, ReportsOfRunsAndMapsAreSetSideBySide) {
     const std::string report = slurp(folder_ / "out/report.html");
     EXPECT_NE(report.find("\"scans\":24"), std::string::npos);
     EXPECT_LT(report.size(), 30'000'000U);
-    EXPECT_NE(slurp(folder_ / "out/timing.json").find("report_seconds"), std::string::npos);
+    const auto timing = nlohmann::json::parse(slurp(folder_ / "out/timing.json"));
+    EXPECT_EQ(timing["process"].back()["stage"], "report");
 
     ASSERT_EQ(
         run("report out out/static_map.pcd --truth " + recording().string() + " -o both.html"), 0)

@@ -65,8 +65,8 @@ struct MotionQuality {
 /// if the sequence wants_times.
 MotionQuality measure_motion(const Sequence& sequence, const OdometryConfig& config);
 
-/// What is wrong with the poses, if scans overlay clearly better at others: one sentence, with
-/// figures; empty if nothing is. Reads up to 180 scans.
+/// What is wrong with the poses, if scans overlay clearly better at others, or if they are another
+/// frame's or late: one sentence, with figures; empty if nothing is. Reads up to 180 scans.
 std::string find_pose_mistake(const Sequence& sequence, const OdometryConfig& config);
 
 }  // namespace dynamic_filter::io

@@ -5,6 +5,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <numbers>
 
@@ -129,8 +130,10 @@ std::string noise_text(const std::vector<TwoTracks>& tracks) {
 
 }  // namespace
 
-std::string name_mistake(const std::vector<TwoTracks>& tracks) {
-    constexpr double kMostly = 0.5;        // of the squared error
+namespace {
+
+/// An offset in time or another frame, if that explains so much of the squared error.
+std::string constant_mistake(const std::vector<TwoTracks>& tracks, double mostly) {
     constexpr double kLeastOffset = 0.01;  // [s]
     constexpr double kBetter = 0.1;
     constexpr double kFarthestMount = 5.0;  // [m] no vehicle is larger
@@ -146,16 +149,31 @@ std::string name_mistake(const std::vector<TwoTracks>& tracks) {
             return track.shown[i] * exp(Twist(p));
         },
         6);
-    const bool is_offset = offset.explained > kMostly &&
+    const bool is_offset = offset.explained > mostly &&
                            std::abs(offset.parameters[0]) > kLeastOffset &&
                            offset.explained > mount.explained - kBetter;
     if (is_offset) return offset_text(offset.parameters[0]);
     // At an even speed, another frame drifts evenly, too.
-    const bool is_mount = mount.explained > kMostly &&
+    const bool is_mount = mount.explained > mostly &&
                           mount.explained > explained_by_drift(tracks) + kBetter &&
                           mount.parameters.head<3>().norm() < kFarthestMount;
-    if (is_mount) return mount_text(mount.parameters);
-    return noise_text(tracks);
+    return is_mount ? mount_text(mount.parameters) : "";
+}
+
+}  // namespace
+
+std::string name_mistake(const std::vector<TwoTracks>& tracks) {
+    constexpr double kMostly = 0.5;
+    const std::string constant = constant_mistake(tracks, kMostly);
+    return constant.empty() ? noise_text(tracks) : constant;
+}
+
+std::string name_constant_mistake(const std::vector<TwoTracks>& tracks) {
+    constexpr double kNearlyAll = 0.8;
+    constexpr double kOdometry = 0.03;  // [m] that the odometry itself may be off
+    const Eigen::VectorXd errors = errors_of(tracks, as_shown, {}, kFitApart);
+    const double mean_square = 6.0 * errors.squaredNorm() / static_cast<double>(errors.size());
+    return std::sqrt(mean_square) > kOdometry ? constant_mistake(tracks, kNearlyAll) : "";
 }
 
 }  // namespace dynamic_filter::io

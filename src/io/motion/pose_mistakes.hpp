@@ -19,4 +19,9 @@ struct TwoTracks {
 /// figures: an offset in time, another frame than the sensor's, jitter, or drift.
 std::string name_mistake(const std::vector<TwoTracks>& tracks);
 
+/// The same where scans do not blur at the given poses: only an offset in time or another frame,
+/// and only if that explains nearly all of a difference that is more than the odometry's own error.
+/// Empty otherwise.
+std::string name_constant_mistake(const std::vector<TwoTracks>& tracks);
+
 }  // namespace dynamic_filter::io

@@ -265,12 +265,13 @@ MotionQuality measure_motion(const Sequence& sequence, const OdometryConfig& con
 std::string find_pose_mistake(const Sequence& sequence, const OdometryConfig& config) {
     constexpr std::size_t kLong = 60;  // scans in a row: their motion has to vary
     std::vector<Compared> compared = compare_places(sequence, kLong, config);
-    if (!quality_of(compared, sequence.has_poses).has_bad_poses()) return "";
+    if (compared.empty() || !sequence.has_poses) return "";
+    const bool blur = quality_of(compared, true).has_bad_poses();
     std::vector<TwoTracks> tracks;
     for (Compared& piece : compared) {
         tracks.push_back({std::move(piece.stamps), std::move(piece.given), std::move(piece.shown)});
     }
-    return name_mistake(tracks);
+    return blur ? name_mistake(tracks) : name_constant_mistake(tracks);
 }
 
 }  // namespace dynamic_filter::io

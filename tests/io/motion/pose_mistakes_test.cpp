@@ -73,5 +73,23 @@ TEST(PoseMistakes, WhereTheWorldLiesIsNone) {
     EXPECT_HAS(text, "off by 0.0 cm and 0.00 deg");
 }
 
+// Too small to blur the scans.
+TEST(PoseMistakes, ALateOrShiftedPathIsNamedWhereScansDoNotBlur) {
+    EXPECT_HAS(name_constant_mistake({tracks([](double t) { return pose_at(t + 0.05); })}),
+               "50 ms after its scan");
+    const Pose mount(Eigen::Translation3d(0.5, 0.0, 0.0));
+    EXPECT_HAS(name_constant_mistake({tracks([&](double t) { return pose_at(t) * mount; })}),
+               "of a frame that lies (0.5");
+}
+
+TEST(PoseMistakes, WhatMayBeTheOdometrysErrorIsNotNamedWhereScansDoNotBlur) {
+    test::Random random(1);
+    EXPECT_EQ(name_constant_mistake({tracks(pose_at)}), "");
+    EXPECT_EQ(name_constant_mistake({tracks([](double t) { return pose_at(t + 0.002); })}), "");
+    EXPECT_EQ(name_constant_mistake(
+                  {tracks([&](double t) { return pose_at(t) * random.pose(0.05, 0.01); })}),
+              "");
+}
+
 }  // namespace
 }  // namespace dynamic_filter::io
