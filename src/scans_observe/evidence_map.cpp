@@ -47,7 +47,8 @@ void EvidenceMap::observe_elsewhere(StageTimes& times) {
 
 /// Some voxels of some blocks, and room for what an observer sees there.
 struct EvidenceMap::Batch {
-    std::uint32_t first = 0, end = 0;  // those of these numbers
+    std::uint32_t first = 0, end = 0;        // those of these numbers ...
+    std::span<const std::uint32_t> place{};  // ... and, if this is not empty, with a place here
     Points centers{};
     std::vector<std::uint32_t> voxels{};
     Points centroids{};
@@ -91,7 +92,8 @@ void EvidenceMap::find_sights(std::span<const std::uint32_t> blocks, Batch& batc
         const Beam center{batch.seen.azimuth[b], batch.seen.elevation[b], batch.seen.range[b]};
         if (!may_see(observer.image, center, radius, margins)) continue;
         grid_.voxels().each_in_block(blocks[b], [&](std::uint32_t v) {
-            if (v >= batch.first && v < batch.end) batch.voxels.push_back(v);
+            const bool is_asked = batch.place.empty() || batch.place[v] != kNoVoxel;
+            if (v >= batch.first && v < batch.end && is_asked) batch.voxels.push_back(v);
         });
     }
     for (std::size_t i = 0; i < batch.voxels.size(); ++i) {
@@ -125,13 +127,13 @@ std::vector<std::vector<std::size_t>> EvidenceMap::free_keyframes(
     blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
     std::vector<std::vector<std::size_t>> result(voxels.size());
     parallel_for(blocks.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-        Batch batch{.first = 0, .end = grid_.size()};
+        Batch batch{.first = 0, .end = grid_.size(), .place = place};
         for (const Observer& observer : observers_.kept()) {
             find_sights({&blocks[begin], end - begin}, batch, observer);
             for (std::size_t i = 0; i < batch.voxels.size(); ++i) {
-                const std::uint32_t at = place[batch.voxels[i]];
-                if (!is_free(batch.sights[i]) || at == kNoVoxel) continue;
-                result[at].push_back(observer.index);
+                if (is_free(batch.sights[i])) {
+                    result[place[batch.voxels[i]]].push_back(observer.index);
+                }
             }
         }
     });

@@ -123,7 +123,10 @@ std::vector<VoxelHistory> ScansMethod::histories(std::span<const std::uint32_t> 
                         .first = evidence_.index_of_owner(e.first_owner),
                         .last = evidence_.index_of_owner(e.last_owner),
                         .free_keyframes = {}};
-        if (e.n_free == 0) continue;
+        // Of what stays, it would be many keyframes and little news.
+        const bool was_removed =
+            label_of(histories[i].probability, config_.map.occupancy_threshold) == Label::dynamic;
+        if (e.n_free == 0 || !was_removed) continue;
         seen_through.push_back(voxels[i]);
         at.push_back(i);
     }

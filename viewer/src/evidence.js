@@ -19,11 +19,12 @@ export function voxelFacts(run, voxel) {
   return facts;
 }
 
-/** Rows of the path whose scans saw through the voxel, in order. */
+/** Rows of the path whose scans saw through the voxel, in order; undefined where none is kept, as for static voxels. */
 function passesThrough({ arrays, meta }, voxel) {
   const begin = arrays["pass-begin"];
   const pass = arrays.pass;
   if (!begin || !pass) return undefined;
+  if (begin[voxel] === begin[voxel + 1]) return undefined;
   const rows = Array.from(pass.subarray(begin[voxel], begin[voxel + 1]), (k) => meta.keyframes[k]);
   return rows.sort((a, b) => a - b);
 }

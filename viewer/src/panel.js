@@ -37,7 +37,7 @@ function passList(session, point, passes, facts, select) {
   }
   return h("section", {},
     h("h2", {}, "Scans that saw through it"),
-    passes.length ? h("p", { class: "muted" }, "Choose one: the slider goes there and the line of sight is drawn.") : h("p", {}, "None is known."),
+    h("p", { class: "muted" }, "Choose one: the slider goes there and the line of sight is drawn."),
     h("div", { class: "chips" }, chips),
     notes.length ? h("p", { class: "muted" }, notes.join(" ")) : null);
 }

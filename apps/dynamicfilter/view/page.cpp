@@ -15,7 +15,7 @@ namespace {
 constexpr std::string_view kMarker = "<!--DATA-->", kEnd = "<!--END OF DATA-->";
 
 std::string gzip(const std::string& bytes) {
-    constexpr int kLevel = 4, kGzip = 15 + 16, kMemory = 8;
+    constexpr int kLevel = 1, kGzip = 15 + 16, kMemory = 8;
     z_stream stream{};
     if (deflateInit2(&stream, kLevel, Z_DEFLATED, kGzip, kMemory, Z_DEFAULT_STRATEGY) != Z_OK) {
         throw std::bad_alloc();

@@ -2,6 +2,7 @@
 #include "shown.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "dynamic_filter/io/writers.hpp"
 #include "frames.hpp"
@@ -61,6 +62,12 @@ std::vector<ShownPoint> draw(const ViewInput& in, std::size_t row, const io::Fra
     return points;
 }
 
+/// The points of one scan that are shown.
+struct Drawn {
+    std::vector<ShownPoint> map, frame;
+    bool has_intensity = false;
+};
+
 /// The stride that takes about `most` of `count`, and no more.
 std::size_t stride_for(std::size_t count, std::size_t most) {
     return std::max<std::size_t>(1, (count + most - 1) / most);
@@ -79,42 +86,45 @@ std::vector<double> intensities(const io::Cloud& cloud) {
 
 Shown collect(const ViewInput& in, const Eigen::Vector3d& origin) {
     constexpr std::size_t kMostScans = 2000;  // more do not show in so few points
-    constexpr std::size_t kPerMapPoint = 8;   // offered, so that the cubes are well filled
+    constexpr std::size_t kPerMapPoint = 4;   // offered, so that the cubes are well filled
     const std::size_t n = in.scans.size(), stride = stride_for(n, kMostScans);
     const auto is_frame = [&](std::size_t i) { return is_shown(i, in.sequence.size()); };
-    std::vector<std::size_t> rows, scans;
+    std::vector<std::size_t> scans, row_of(in.sequence.size());
     std::size_t frames = 0;
     for (std::size_t row = 0; row < n; ++row) {
         if (row % stride != 0 && !is_frame(in.scans[row].index)) continue;
-        rows.push_back(row);
         scans.push_back(in.scans[row].index);
+        row_of[scans.back()] = row;
         if (is_frame(scans.back())) ++frames;
     }
-    const std::size_t for_map = kPerMapPoint * kMapPoints / std::max<std::size_t>(1, rows.size()),
+    const std::size_t for_map = kPerMapPoint * kMapPoints / std::max<std::size_t>(1, scans.size()),
                       for_frame = kFramePoints / std::max<std::size_t>(1, frames);
     Shown shown{.map = ThinnedCloud(kMapPoints)};
     shown.frame_of_scan.assign(n, -1);
-    std::size_t at = 0;
-    const auto use = [&](std::size_t i, MaybeFrame& maybe) {
-        const std::size_t row = rows[at++];
-        if (!maybe.frame) return true;  // it was readable a moment ago; the page can do without
+    std::vector<Drawn> drawn(in.sequence.size());
+    const auto draw_both = [&](std::size_t i, MaybeFrame& maybe) {
         const Labels labels = io::read_labels(in.labels / (io::stem(in.sequence, i) + ".label"));
+        const std::size_t row = row_of[i];
         const auto intensity = in.sequence.intensity_is_truth ? std::vector<double>{}
                                                               : intensities(maybe.frame->cloud);
-        shown.has_intensity |= !intensity.empty();
-        for (const ShownPoint& point :
-             draw(in, row, *maybe.frame, labels, intensity, origin, for_map)) {
-            shown.map.add(point);
-        }
+        drawn[i].has_intensity = !intensity.empty();
+        drawn[i].map = draw(in, row, *maybe.frame, labels, intensity, origin, for_map);
+        if (is_frame(i))
+            drawn[i].frame = draw(in, row, *maybe.frame, labels, {}, origin, for_frame);
+    };
+    const auto use = [&](std::size_t i, MaybeFrame& maybe) {
+        if (!maybe.frame) return true;  // it was readable a moment ago; the page can do without
+        const Drawn points = std::exchange(drawn[i], {});
+        shown.has_intensity |= points.has_intensity;
+        for (const ShownPoint& point : points.map) shown.map.add(point);
         if (is_frame(i)) {
-            shown.frame_of_scan[row] = static_cast<std::int32_t>(shown.frame_begin.size());
+            shown.frame_of_scan[row_of[i]] = static_cast<std::int32_t>(shown.frame_begin.size());
             shown.frame_begin.push_back(static_cast<std::uint32_t>(shown.frames.size()));
-            const auto points = draw(in, row, *maybe.frame, labels, {}, origin, for_frame);
-            shown.frames.insert(shown.frames.end(), points.begin(), points.end());
+            shown.frames.insert(shown.frames.end(), points.frame.begin(), points.frame.end());
         }
         return true;
     };
-    for_each_frame(in.sequence, scans, {}, use);
+    for_each_frame(in.sequence, scans, draw_both, use);
     shown.frame_begin.push_back(static_cast<std::uint32_t>(shown.frames.size()));
     return shown;
 }

@@ -18,7 +18,7 @@ bool ThinnedCloud::is_first_in_cube(const ShownPoint& point) {
 
 /// To well below the bound, so that it is rarely done.
 void ThinnedCloud::thin() {
-    constexpr float kFinest = 0.02F, kGrowth = 1.25F;
+    constexpr float kFinest = 0.02F, kGrowth = 1.4F;
     while (points_.size() > most_ - most_ / 4) {
         spacing_ = spacing_ > 0.0F ? kGrowth * spacing_ : kFinest;
         for (auto& taken : taken_) taken.clear();
