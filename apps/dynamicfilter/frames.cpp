@@ -143,24 +143,28 @@ Eigen::Vector3d scoring_origin(const io::Sequence& sequence, double voxel_size) 
     return Eigen::Vector3d::Zero();
 }
 
+eval::LabelledScan labelled(const io::Frame& frame, const Eigen::Vector3d& origin) {
+    eval::LabelledScan scan{shifted_world(frame, origin), frame.truth, {}};
+    for (std::size_t p = 0; p < frame.points.size(); ++p) {  // no measurement, no truth
+        if (!is_measured(frame.points[p])) scan.truth[p] = Label::unknown;
+    }
+    return scan;
+}
+
 eval::ScanSource scan_source(const io::Sequence& sequence, const Eigen::Vector3d& origin,
                              std::function<std::optional<Labels>(std::size_t)> labels_of) {
     return [&sequence, origin,
             labels_of = std::move(labels_of)](std::size_t i) -> std::optional<eval::LabelledScan> {
         try {
-            io::Frame frame = io::read_frame(sequence, i);
+            const io::Frame frame = io::read_frame(sequence, i);
             if (frame.truth.empty()) return std::nullopt;
-            eval::LabelledScan scan{{}, std::move(frame.truth), {}};
+            eval::LabelledScan scan = labelled(frame, origin);
             if (labels_of) {
                 auto labels = labels_of(i);
                 if (!labels) return std::nullopt;
                 refuse_other_count(sequence, i, labels->size(), scan.truth.size());
                 scan.verdict = std::move(*labels);
             }
-            for (std::size_t p = 0; p < frame.points.size(); ++p) {  // no measurement, no truth
-                if (!is_measured(frame.points[p])) scan.truth[p] = Label::unknown;
-            }
-            scan.points = shifted_world(frame, origin);
             return scan;
         } catch (const InputError&) {
             return std::nullopt;

@@ -44,6 +44,9 @@ Eigen::Vector3d origin_of(const io::Cloud& cloud);
 /// A whole number of voxels near the first usable pose; the world's origin if there is none.
 Eigen::Vector3d scoring_origin(const io::Sequence& sequence, double voxel_size);
 
+/// A frame with ground truth as the scores take it, without a verdict.
+eval::LabelledScan labelled(const io::Frame& frame, const Eigen::Vector3d& origin);
+
 /// For the scores: scans with ground truth, verdicts from `labels_of` (may be empty).
 /// Rejected scans (unreadable, or without labels) give nothing.
 eval::ScanSource scan_source(const io::Sequence& sequence, const Eigen::Vector3d& origin,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "dynamic_filter/pipeline/online_filter.hpp"
@@ -24,6 +25,8 @@ struct Pass {
     std::vector<std::optional<Tracked>> tracked{};  ///< by scan; if poses are found or refined
     std::vector<Labels> instant{};                  ///< by scan; of those that are scored or shown
     std::vector<ScanNote> scan_notes{};
+    std::optional<eval::ScanScores> scorer{};  ///< of final and instant verdicts, if there is truth
+    Eigen::Vector3d scoring_origin = Eigen::Vector3d::Zero();
     std::mutex notices_lock{};
     std::vector<Notice> notices{};
     OnlineFilter filter{config, options(), callbacks()};  // the last: it uses the others

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <thread>
+#include <utility>
 
 #include "config_file.hpp"
 #include "dynamic_filter/error.hpp"
@@ -142,6 +144,10 @@ void write_results(Pass& pass) {
                   pass.sequence.format == io::Format::benchmark);
     const std::vector<std::size_t> scans = accepted_scans(pass);
     Progress progress("write", scans.size(), pass.watchers.quiet);
+    if (pass.sequence.has_truth()) {
+        pass.scorer.emplace(eval::kVoxelSize, 2);
+        pass.scoring_origin = scoring_origin(pass.sequence, eval::kVoxelSize);
+    }
     std::vector<Verdict> verdicts(pass.sequence.size());
     const auto classify = [&](std::size_t i, MaybeFrame& maybe) {
         const io::Frame& frame = *maybe.frame;
@@ -155,6 +161,10 @@ void write_results(Pass& pass) {
         }
         const Labels& labels = verdicts[i].labels;
         maps.append(*maybe.frame, verdicts[i]);
+        if (pass.scorer && !maybe.frame->truth.empty()) {
+            pass.scorer->add(labelled(*maybe.frame, pass.scoring_origin),
+                             std::array<const Labels*, 2>{&labels, &pass.instant[i]});
+        }
         note(pass, i, *maybe.frame, labels);
         if (pass.watchers.from_above) {
             pass.watchers.from_above->add(shifted_world(*maybe.frame, Eigen::Vector3d::Zero()),
@@ -171,24 +181,25 @@ void write_results(Pass& pass) {
     maps.commit();
 }
 
+/// Third pass, over recordings with ground truth: which removed points lie near one that stays.
+/// While the scans were written, all else was counted.
 void score(Pass& pass) {
-    constexpr double voxel = eval::kVoxelSize;
-    const Eigen::Vector3d origin = scoring_origin(pass.sequence, voxel);
     const auto folder = pass.output.path() / "labels";
-    const auto final_labels = [&](std::size_t i) -> std::optional<Labels> {
-        const auto file = folder / (io::stem(pass.sequence, i) + ".label");
-        if (!std::filesystem::exists(file)) return std::nullopt;
-        return io::read_labels(file);
+    std::vector<std::vector<Points>> near(pass.sequence.size());
+    const auto find = [&](std::size_t i, MaybeFrame& maybe) {
+        if (maybe.frame->truth.empty()) return;
+        const Labels labels = io::read_labels(folder / (io::stem(pass.sequence, i) + ".label"));
+        near[i] =
+            pass.scorer->near_removed(labelled(*maybe.frame, pass.scoring_origin),
+                                      std::array<const Labels*, 2>{&labels, &pass.instant[i]});
     };
-    const auto instant_labels = [&](std::size_t i) -> std::optional<Labels> {
-        if (pass.instant[i].empty()) return std::nullopt;
-        return pass.instant[i];
+    const auto use = [&](std::size_t i, MaybeFrame&) {
+        if (!near[i].empty()) pass.scorer->add_near(std::exchange(near[i], {}));
+        return !interrupted();
     };
-    const std::size_t n = pass.sequence.size();
-    pass.summary.scores =
-        eval::score_labels(n, scan_source(pass.sequence, origin, final_labels), voxel);
-    pass.summary.instant_scores =
-        eval::score_labels(n, scan_source(pass.sequence, origin, instant_labels), voxel);
+    for_each_frame(pass.sequence, accepted_scans(pass), find, use);
+    pass.summary.scores = pass.scorer->scores(0);
+    pass.summary.instant_scores = pass.scorer->scores(1);
 }
 
 }  // namespace
@@ -204,7 +215,7 @@ RunSummary run_sequence(const io::Sequence& sequence, const Config& config, cons
         write_results(pass);
         clock.finish("write");
         pass.summary.interrupted |= interrupted();
-        if (sequence.has_truth() && !pass.summary.interrupted) {
+        if (pass.scorer && !pass.summary.interrupted) {
             score(pass);
             clock.finish("score");
         }

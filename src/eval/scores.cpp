@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "dynamic_filter/eval/scores.hpp"
 
-#include <tsl/robin_set.h>
+#include <tsl/robin_map.h>
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -17,12 +18,12 @@ namespace {
 
 constexpr auto kDistance = static_cast<float>(kCoverDistance);
 
-void refuse_unparallel(const LabelledScan& scan, std::size_t i) {
+void refuse_unparallel(const LabelledScan& scan, const Labels& verdict) {
     const std::size_t n = scan.points.size();
-    if (scan.truth.size() == n && (scan.verdict.empty() || scan.verdict.size() == n)) return;
-    throw Error("scan " + std::to_string(i) + " to be scored has " + std::to_string(n) +
-                " points, " + std::to_string(scan.truth.size()) + " truths and " +
-                std::to_string(scan.verdict.size()) + " verdicts; expected one per point");
+    if (scan.truth.size() == n && verdict.size() == n) return;
+    throw Error("a scan to be scored has " + std::to_string(n) + " points, " +
+                std::to_string(scan.truth.size()) + " truths and " +
+                std::to_string(verdict.size()) + " verdicts; expected one per point");
 }
 
 /// Calls `use` with every scan in order; a few are read ahead in parallel.
@@ -35,9 +36,7 @@ void for_each_scan(std::size_t scans, const ScanSource& source, F&& use) {
             for (std::size_t i = begin; i < end; ++i) batch[i] = source(first + i);
         });
         for (std::size_t i = 0; i < batch.size(); ++i) {
-            if (!batch[i]) continue;
-            refuse_unparallel(*batch[i], first + i);
-            use(*batch[i]);
+            if (batch[i]) use(*batch[i]);
         }
     }
 }
@@ -49,79 +48,143 @@ void for_each_known_point(const LabelledScan& scan, F&& use) {
     }
 }
 
-/// How many of the points that were removed lie near one that was kept. Only kept points in cells
-/// next to a removed one are stored, so memory goes with what was removed.
-class CoverOfRemoved {
+}  // namespace
+
+/// Where points were removed, and by which results: cells of twice kDistance that hold a point
+/// within kDistance of a removed one along every axis.
+class ScanScores::RemovedCells {
 public:
-    void add_removed(const Point& point, Label truth) {
-        points_.push_back(point);
-        truth_.push_back(truth);
-        if (const auto cell = cell_of(point, kPerMetre)) cells_.insert(pack(*cell));
-    }
-    void add_kept(const Point& point) {
-        if (touches_removed(point)) kept_.push_back(point);
-    }
-    void count(CoverCount& count) const {
-        const NeighborGrid grid(kept_, 2.0F * kDistance);
-        std::vector<char> covered(points_.size(), 0);
-        parallel_for(points_.size(), 4096, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                covered[i] = grid.any_within(points_[i], kDistance) ? 1 : 0;
+    void insert(const Point& point, std::uint32_t results) {
+        const auto low = cell_of(point - Point::Constant(kDistance), kPerMetre);
+        const auto high = cell_of(point + Point::Constant(kDistance), kPerMetre);
+        if (!low || !high || (*low == last_low_ && *high == last_high_ && results == last_)) return;
+        last_low_ = *low, last_high_ = *high, last_ = results;
+        for (int x = low->x(); x <= high->x(); ++x) {
+            for (int y = low->y(); y <= high->y(); ++y) {
+                for (int z = low->z(); z <= high->z(); ++z) {
+                    const VoxelKey key = pack({x, y, z});
+                    cells_[key] |= results;
+                    set_bit(key);
+                }
             }
-        });
-        for (std::size_t i = 0; i < points_.size(); ++i) {
-            const bool dynamic = truth_[i] == Label::dynamic;
-            (dynamic ? count.dynamic : count.still) += 1;
-            if (covered[i] != 0) (dynamic ? count.covered_dynamic : count.covered_still) += 1;
         }
+    }
+    /// The results that removed a point which may be near this one: a bit each.
+    [[nodiscard]] std::uint32_t near(const Point& point) const {
+        const auto cell = cell_of(point, kPerMetre);
+        if (!cell) return 0;
+        const VoxelKey key = pack(*cell);
+        const std::size_t bit = VoxelHash{}(key) % kBits;
+        if ((bits_[bit / 64] >> bit % 64 & 1U) == 0) return 0;
+        const auto it = cells_.find(key);
+        return it == cells_.end() ? 0 : it->second;
     }
 
 private:
+    // A table of bits that says of most points that they are near none: it fits into the cache.
+    static constexpr std::size_t kBits = std::size_t{1} << 23U;
     static constexpr float kPerMetre = 0.5F / kDistance;
-
-    [[nodiscard]] bool touches_removed(const Point& point) const {
-        for (int corner = 0; corner < 8; ++corner) {
-            const Point shift((corner & 1) != 0 ? kDistance : -kDistance,
-                              (corner & 2) != 0 ? kDistance : -kDistance,
-                              (corner & 4) != 0 ? kDistance : -kDistance);
-            const auto cell = cell_of(point + shift, kPerMetre);
-            if (cell && cells_.contains(pack(*cell))) return true;
-        }
-        return false;
+    void set_bit(VoxelKey key) {
+        const std::size_t bit = VoxelHash{}(key) % kBits;
+        bits_[bit / 64] |= std::uint64_t{1} << bit % 64;
     }
-    Points points_, kept_;
-    Labels truth_;
-    tsl::robin_set<VoxelKey, VoxelHash> cells_;
+    tsl::robin_map<VoxelKey, std::uint32_t, VoxelHash> cells_;
+    std::vector<std::uint64_t> bits_ = std::vector<std::uint64_t>(kBits / 64);
+    Cell last_low_ = Cell::Zero(), last_high_ = Cell::Zero();  // one point follows another
+    std::uint32_t last_ = 0;
 };
 
-}  // namespace
+/// How many of the points that a result removed lie near one that it kept. Only kept points near a
+/// removed one are stored, so memory goes with what was removed.
+struct ScanScores::Result {
+    Points removed{}, near{};  // near: kept
+    Labels removed_truth{};
+    CoverCount kept{};  // points cover themselves
+    Confusion confusion{};
+
+    void add(const Point& point, Label truth, Label verdict) {
+        confusion.add(truth, verdict);
+        if (verdict == Label::dynamic) {
+            removed.push_back(point);
+            removed_truth.push_back(truth);
+            return;
+        }
+        const bool dynamic = truth == Label::dynamic;
+        (dynamic ? kept.dynamic : kept.still) += 1;
+        (dynamic ? kept.covered_dynamic : kept.covered_still) += 1;
+    }
+    [[nodiscard]] CoverCount cover() const {
+        const NeighborGrid grid(near, 2.0F * kDistance);
+        std::vector<char> covered(removed.size(), 0);
+        parallel_for(removed.size(), 4096, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                covered[i] = grid.any_within(removed[i], kDistance) ? 1 : 0;
+            }
+        });
+        CoverCount count = kept;
+        for (std::size_t i = 0; i < removed.size(); ++i) {
+            const bool dynamic = removed_truth[i] == Label::dynamic;
+            (dynamic ? count.dynamic : count.still) += 1;
+            if (covered[i] != 0) (dynamic ? count.covered_dynamic : count.covered_still) += 1;
+        }
+        return count;
+    }
+};
+
+ScanScores::ScanScores(double voxel_size, std::size_t results)
+    : tally_(voxel_size, results), results_(results), removed_(std::make_unique<RemovedCells>()) {}
+ScanScores::ScanScores(ScanScores&&) noexcept = default;
+ScanScores::~ScanScores() = default;
+
+void ScanScores::add(const LabelledScan& scan, std::span<const Labels* const> verdicts) {
+    for (const Labels* verdict : verdicts) refuse_unparallel(scan, *verdict);
+    for_each_known_point(scan, [&](std::size_t i) {
+        std::uint32_t removed = 0;
+        for (std::size_t r = 0; r < results_.size(); ++r) {
+            const Label verdict = (*verdicts[r])[i];
+            removed |= (verdict == Label::dynamic ? 1U : 0U) << r;
+            results_[r].add(scan.points[i], scan.truth[i], verdict);
+        }
+        if (removed != 0) removed_->insert(scan.points[i], removed);
+        tally_.add(scan.points[i], scan.truth[i], removed);
+    });
+}
+
+std::vector<Points> ScanScores::near_removed(const LabelledScan& scan,
+                                             std::span<const Labels* const> verdicts) const {
+    std::vector<Points> near(results_.size());
+    for_each_known_point(scan, [&](std::size_t i) {
+        const std::uint32_t removed_near = removed_->near(scan.points[i]);
+        for (std::size_t r = 0; removed_near >> r != 0; ++r) {
+            const bool kept = (*verdicts[r])[i] != Label::dynamic;
+            if (kept && (removed_near >> r & 1U) != 0) near[r].push_back(scan.points[i]);
+        }
+    });
+    return near;
+}
+
+void ScanScores::add_near(const std::vector<Points>& points) {
+    for (std::size_t r = 0; r < results_.size(); ++r) {
+        Points& near = results_[r].near;
+        near.insert(near.end(), points[r].begin(), points[r].end());
+    }
+}
+
+Scores ScanScores::scores(std::size_t result) const {
+    const Result& one = results_[result];
+    Scores scores{tally_.scores(result), point_score(one.cover()), tally_.dynamic_share()};
+    scores.point.iou = one.confusion.iou();
+    return scores;
+}
 
 Scores score_labels(std::size_t scans, const ScanSource& source, double voxel_size) {
-    VoxelTally tally(voxel_size);
-    Confusion confusion;
-    CoverOfRemoved cover;
-    CoverCount count;
+    ScanScores scores(voxel_size, 1);
+    for_each_scan(scans, source,
+                  [&](const LabelledScan& scan) { scores.add(scan, std::array{&scan.verdict}); });
     for_each_scan(scans, source, [&](const LabelledScan& scan) {
-        for_each_known_point(scan, [&](std::size_t i) {
-            const bool kept = scan.verdict[i] != Label::dynamic;
-            tally.add(scan.points[i], scan.truth[i], kept);
-            confusion.add(scan.truth[i], scan.verdict[i]);
-            if (!kept) cover.add_removed(scan.points[i], scan.truth[i]);
-        });
+        scores.add_near(scores.near_removed(scan, std::array{&scan.verdict}));
     });
-    for_each_scan(scans, source, [&](const LabelledScan& scan) {
-        for_each_known_point(scan, [&](std::size_t i) {
-            if (scan.verdict[i] == Label::dynamic) return;
-            cover.add_kept(scan.points[i]);
-            const bool dynamic = scan.truth[i] == Label::dynamic;  // a kept point covers itself
-            (dynamic ? count.dynamic : count.still) += 1;
-            (dynamic ? count.covered_dynamic : count.covered_still) += 1;
-        });
-    });
-    cover.count(count);
-    Scores scores{tally.scores(), point_score(count), tally.dynamic_share()};
-    scores.point.iou = confusion.iou();
-    return scores;
+    return scores.scores(0);
 }
 
 Scores score_map(std::size_t scans, const ScanSource& source, const Points& map,
@@ -130,8 +193,9 @@ Scores score_map(std::size_t scans, const ScanSource& source, const Points& map,
     VoxelTally tally(voxel_size);
     CoverCount count;
     for_each_scan(scans, source, [&](const LabelledScan& scan) {
+        refuse_unparallel(scan, scan.verdict.empty() ? scan.truth : scan.verdict);
         for_each_known_point(scan, [&](std::size_t i) {
-            tally.add(scan.points[i], scan.truth[i], false);
+            tally.add(scan.points[i], scan.truth[i], 1);
             const bool dynamic = scan.truth[i] == Label::dynamic;
             (dynamic ? count.dynamic : count.still) += 1;
             if (!grid.any_within(scan.points[i], kDistance)) return;

@@ -36,16 +36,59 @@ struct Totals {
     }
 };
 
-VoxelScore read(const std::vector<VoxelCount>& counts, Reading reading) {
+/// The counts of the raw map and of one result; those of a voxel follow each other.
+struct Counts {
+    const std::vector<VoxelCount>& all;
+    std::size_t stride, result;
+    [[nodiscard]] std::size_t voxels() const { return all.size() / stride; }
+    [[nodiscard]] const VoxelCount& raw(std::size_t v) const { return all[v * stride]; }
+    [[nodiscard]] VoxelCount kept(std::size_t v) const {
+        VoxelCount kept = raw(v);
+        const VoxelCount& removed = all[v * stride + 1 + result];
+        kept.still -= removed.still;
+        kept.dynamic -= removed.dynamic;
+        kept.unlabelled = removed.unlabelled;
+        kept.sum -= removed.sum;
+        return kept;
+    }
+};
+
+VoxelScore read(const Counts& counts, Reading reading) {
     Totals totals;
-    for (const VoxelCount& v : counts) {
-        if (v.still + v.dynamic > 0) totals.add(reading(v), v.preserved());
+    for (std::size_t v = 0; v < counts.voxels(); ++v) {
+        totals.add(reading(counts.raw(v)), counts.kept(v).has_points());
     }
     return totals.score();
 }
 
-Point mean(const Eigen::Vector3d& sum, std::uint32_t count) {
-    return (sum / static_cast<double>(count)).cast<float>();
+void count(VoxelCount& voxel, const Point& point, Label truth) {
+    voxel.sum += point.cast<double>();
+    (truth == Label::dynamic ? voxel.dynamic : voxel.still) += 1;
+}
+
+Point mean(const VoxelCount& voxel) {
+    return (voxel.sum / static_cast<double>(voxel.still + voxel.dynamic)).cast<float>();
+}
+
+VoxelScore erasor_score(const Counts& counts, double voxel_size) {
+    const auto radius = static_cast<float>(voxel_size * std::sqrt(3.0) / 2.0);
+    Points centroids;
+    std::vector<Kind> kinds;
+    for (std::size_t v = 0; v < counts.voxels(); ++v) {
+        const VoxelCount kept = counts.kept(v);
+        if (!kept.has_points()) continue;
+        centroids.push_back(mean(kept));
+        kinds.push_back(majority(kept));
+    }
+    const NeighborGrid grid(centroids, radius);
+    std::vector<Neighbor> nearest;
+    Totals totals;
+    for (std::size_t v = 0; v < counts.voxels(); ++v) {
+        grid.nearest(mean(counts.raw(v)), 1, nearest);
+        const Kind kind = majority(counts.raw(v));
+        totals.add(kind, !nearest.empty() && kinds[nearest.front().index] == kind);
+    }
+    return totals.score();
 }
 
 }  // namespace
@@ -62,70 +105,43 @@ VoxelScore voxel_score(double static_total, double static_kept, double dynamic_t
     return score;
 }
 
-VoxelTally::VoxelTally(double voxel_size)
-    : voxel_size_(voxel_size), index_(std::make_unique<VoxelIndex>()) {}
+VoxelTally::VoxelTally(double voxel_size, std::size_t results)
+    : voxel_size_(voxel_size), index_(std::make_unique<VoxelIndex>()), stride_(1 + results) {}
 VoxelTally::VoxelTally(VoxelTally&&) noexcept = default;
 VoxelTally::~VoxelTally() = default;
 
-VoxelCount* VoxelTally::find(const Point& point, bool insert) {
+void VoxelTally::add(const Point& point, Label truth, std::uint32_t removed) {
     const auto cell = cell_of(point, static_cast<float>(1.0 / voxel_size_));
-    if (!cell) return nullptr;
-    if (!insert) {
-        const auto id = index_->find(pack(*cell));
-        return id ? &counts_[*id] : nullptr;
+    if (!cell) return;
+    const std::size_t begin = stride_ * index_->insert(pack(*cell));
+    if (begin == counts_.size()) counts_.resize(begin + stride_);
+    count(counts_[begin], point, truth);
+    for (std::size_t r = 0; r + 1 < stride_; ++r) {
+        if ((removed >> r & 1U) != 0) count(counts_[begin + 1 + r], point, truth);
     }
-    const std::uint32_t id = index_->insert(pack(*cell));
-    if (id == counts_.size()) counts_.emplace_back();
-    return &counts_[id];
-}
-
-void VoxelTally::add(const Point& point, Label truth, bool kept) {
-    VoxelCount* const v = find(point, true);
-    if (v == nullptr) return;
-    v->sum += point.cast<double>();
-    (truth == Label::dynamic ? v->dynamic : v->still) += 1;
-    if (!kept) return;
-    v->kept_sum += point.cast<double>();
-    (truth == Label::dynamic ? v->kept_dynamic : v->kept_still) += 1;
 }
 
 void VoxelTally::add_map_point(const Point& point) {
     unlabelled_ = true;
-    if (VoxelCount* const v = find(point, false)) v->kept_unlabelled += 1;
+    const auto cell = cell_of(point, static_cast<float>(1.0 / voxel_size_));
+    const auto id = cell ? index_->find(pack(*cell)) : std::nullopt;
+    if (id) counts_[*id * stride_ + 1].unlabelled += 1;
 }
 
-std::map<std::string, VoxelScore> VoxelTally::scores() const {
-    std::map<std::string, VoxelScore> result{{"excluded", read(counts_, excluded)},
-                                             {"static_wins", read(counts_, static_wins)},
-                                             {"majority", read(counts_, majority)}};
-    if (!unlabelled_) result["erasor"] = erasor_score();
-    return result;
-}
-
-VoxelScore VoxelTally::erasor_score() const {
-    const auto radius = static_cast<float>(voxel_size_ * std::sqrt(3.0) / 2.0);
-    Points kept;
-    std::vector<Kind> kinds;
-    for (const VoxelCount& v : counts_) {
-        if (!v.preserved()) continue;
-        kept.push_back(mean(v.kept_sum, v.kept_still + v.kept_dynamic));
-        kinds.push_back(v.kept_still >= v.kept_dynamic ? Kind::still : Kind::dynamic);
-    }
-    const NeighborGrid grid(kept, radius);
-    std::vector<Neighbor> nearest;
-    Totals totals;
-    for (const VoxelCount& v : counts_) {
-        grid.nearest(mean(v.sum, v.still + v.dynamic), 1, nearest);
-        const Kind kind = majority(v);
-        totals.add(kind, !nearest.empty() && kinds[nearest.front().index] == kind);
-    }
-    return totals.score();
+std::map<std::string, VoxelScore> VoxelTally::scores(std::size_t result) const {
+    const Counts counts{counts_, stride_, result};
+    std::map<std::string, VoxelScore> scores{{"excluded", read(counts, excluded)},
+                                             {"static_wins", read(counts, static_wins)},
+                                             {"majority", read(counts, majority)}};
+    if (!unlabelled_) scores["erasor"] = erasor_score(counts, voxel_size_);
+    return scores;
 }
 
 double VoxelTally::dynamic_share() const {
+    const Counts counts{counts_, stride_, 0};
     double dynamic = 0;
-    for (const VoxelCount& v : counts_) dynamic += v.dynamic > 0 ? 1 : 0;
-    return counts_.empty() ? 0.0 : dynamic / static_cast<double>(counts_.size());
+    for (std::size_t v = 0; v < counts.voxels(); ++v) dynamic += counts.raw(v).dynamic > 0 ? 1 : 0;
+    return counts_.empty() ? 0.0 : dynamic / static_cast<double>(counts.voxels());
 }
 
 }  // namespace dynamic_filter::eval

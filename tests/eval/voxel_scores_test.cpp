@@ -34,18 +34,20 @@ TEST(VoxelScore, IsUndefinedWithoutVoxelsOfAKind) {
 
 /// Voxel 0: 2 static, 1 kept. Voxel 1: 1 dynamic kept. Voxel 2: 1 dynamic removed.
 /// Voxel 3: 2 static removed, 1 dynamic kept. Voxel 4: 1 static, 2 dynamic, all removed.
+constexpr std::uint32_t kKept = 0, kRemoved = 1;  // by result 0
+
 VoxelTally worked_example() {
     VoxelTally tally(0.2);
-    tally.add(in_voxel(0, 0.05F), kStill, true);
-    tally.add(in_voxel(0, -0.05F), kStill, false);
-    tally.add(in_voxel(1), kDynamic, true);
-    tally.add(in_voxel(2), kDynamic, false);
-    tally.add(in_voxel(3), kStill, false);
-    tally.add(in_voxel(3), kStill, false);
-    tally.add(in_voxel(3), kDynamic, true);
-    tally.add(in_voxel(4), kStill, false);
-    tally.add(in_voxel(4), kDynamic, false);
-    tally.add(in_voxel(4), kDynamic, false);
+    tally.add(in_voxel(0, 0.05F), kStill, kKept);
+    tally.add(in_voxel(0, -0.05F), kStill, kRemoved);
+    tally.add(in_voxel(1), kDynamic, kKept);
+    tally.add(in_voxel(2), kDynamic, kRemoved);
+    tally.add(in_voxel(3), kStill, kRemoved);
+    tally.add(in_voxel(3), kStill, kRemoved);
+    tally.add(in_voxel(3), kDynamic, kKept);
+    tally.add(in_voxel(4), kStill, kRemoved);
+    tally.add(in_voxel(4), kDynamic, kRemoved);
+    tally.add(in_voxel(4), kDynamic, kRemoved);
     return tally;
 }
 
@@ -64,11 +66,11 @@ TEST(VoxelTally, ReadsMixedVoxelsAsNamed) {
 
 TEST(VoxelTally, ErasorReadingNeedsTheSameLabelAtTheNearestSurvivor) {
     VoxelTally tally(0.2);
-    tally.add(in_voxel(0), kStill, true);
-    tally.add(in_voxel(10), kDynamic, true);
-    tally.add(in_voxel(20), kStill, false);         // no survivor near: lost
-    tally.add(in_voxel(30), kDynamic, false);       // rejected, although ...
-    tally.add(in_voxel(31, -0.05F), kStill, true);  // ... a static survivor is 0.15 m away
+    tally.add(in_voxel(0), kStill, kKept);
+    tally.add(in_voxel(10), kDynamic, kKept);
+    tally.add(in_voxel(20), kStill, kRemoved);       // no survivor near: lost
+    tally.add(in_voxel(30), kDynamic, kRemoved);     // rejected, although ...
+    tally.add(in_voxel(31, -0.05F), kStill, kKept);  // ... a static survivor is 0.15 m away
     const auto s = tally.scores().at("erasor");
     EXPECT_DOUBLE_EQ(*s.pr, 2.0 / 3.0);
     EXPECT_DOUBLE_EQ(*s.rr, 0.5);
@@ -81,7 +83,7 @@ TEST(VoxelTally, DynamicShareCountsVoxelsWithAnyMovingPoint) {
 
 TEST(VoxelTally, AMapMadeElsewherePreservesTheVoxelsItHasPointsIn) {
     VoxelTally tally(0.2);
-    for (int n = 0; n < 4; ++n) tally.add(in_voxel(n), n < 2 ? kStill : kDynamic, false);
+    for (int n = 0; n < 4; ++n) tally.add(in_voxel(n), n < 2 ? kStill : kDynamic, kRemoved);
     tally.add_map_point(in_voxel(0, 0.09F));
     tally.add_map_point(in_voxel(3, -0.09F));
     tally.add_map_point(in_voxel(50));  // where the raw map has nothing
@@ -122,6 +124,25 @@ void expect_equal(const VoxelScore& a, const VoxelScore& b) {
     EXPECT_DOUBLE_EQ(*a.f1, *b.f1);
 }
 
+TEST(VoxelTally, ResultsBesideEachOtherScoreAsAlone) {
+    std::mt19937 random(3);
+    VoxelTally both(0.2, 2), first(0.2), second(0.2);
+    for (int i = 0; i < 3000; ++i) {
+        const auto at = [&] { return static_cast<float>(random() % 1000) / 500.0F; };
+        const Point p(at(), at(), at());
+        const Label truth = random() % 3 == 0 ? kDynamic : kStill;
+        const std::uint32_t a = random() % 4 == 0 ? 1 : 0, b = random() % 2 == 0 ? 1 : 0;
+        both.add(p, truth, a | b << 1U);
+        first.add(p, truth, a);
+        second.add(p, truth, b);
+    }
+    for (const auto& [reading, score] : first.scores()) {
+        EXPECT_EQ(both.scores(0).at(reading).f1, score.f1) << reading;
+        EXPECT_EQ(both.scores(1).at(reading).f1, second.scores().at(reading).f1) << reading;
+    }
+    EXPECT_NE(both.scores(0).at("excluded").f1, both.scores(1).at("excluded").f1);
+}
+
 TEST(VoxelTally, AgreesWithAPlainCountOnRandomPoints) {
     std::mt19937 random(7);
     // Multiples of 1/64, so that no point sits on the border of a 0.2 m voxel but 0 itself.
@@ -132,7 +153,7 @@ TEST(VoxelTally, AgreesWithAPlainCountOnRandomPoints) {
         const Point p(coordinate(), coordinate(), coordinate());
         const Label truth = random() % 3 == 0 ? kDynamic : kStill;
         const bool kept = random() % 4 != 0;
-        tally.add(p, truth, kept);
+        tally.add(p, truth, kept ? kKept : kRemoved);
         plain.add(p, truth, kept);
     }
     const auto scores = tally.scores();

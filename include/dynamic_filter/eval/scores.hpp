@@ -13,8 +13,11 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "dynamic_filter/eval/point_scores.hpp"
 #include "dynamic_filter/eval/voxel_scores.hpp"
@@ -41,6 +44,36 @@ using ScanSource = std::function<std::optional<LabelledScan>(std::size_t)>;
 
 constexpr double kVoxelSize = 0.2;       ///< [m] Sec. IV-A
 constexpr double kCoverDistance = 0.05;  ///< [m] DynamicMap_Benchmark's rule
+
+/// Scores of one or more results on the same recording, scan by scan: first add() every scan, then
+/// add_near() what near_removed() says of every scan. The clean map of a result is every point not
+/// labelled dynamic. near_removed() may run in several threads; the rest has a single caller.
+/// Memory: the voxels, the removed points, and the kept ones near those.
+class ScanScores {
+public:
+    ScanScores(double voxel_size, std::size_t results);  ///< [m]
+    ScanScores(ScanScores&&) noexcept;                   ///< the other one can only be destroyed
+    ~ScanScores();
+
+    /// `verdicts` are of the results, each one per point; the scan's own verdict is not used.
+    /// Throws Error if arrays are not parallel.
+    void add(const LabelledScan& scan, std::span<const Labels* const> verdicts);
+
+    /// By result, the kept points that may cover a removed one, once all scans are added.
+    [[nodiscard]] std::vector<Points> near_removed(const LabelledScan& scan,
+                                                   std::span<const Labels* const> verdicts) const;
+    /// What near_removed() gave, in any order.
+    void add_near(const std::vector<Points>& points);
+
+    [[nodiscard]] Scores scores(std::size_t result) const;
+
+private:
+    struct Result;
+    class RemovedCells;
+    VoxelTally tally_;
+    std::vector<Result> results_;
+    std::unique_ptr<RemovedCells> removed_;
+};
 
 /// Scores the verdicts of so many scans, on voxels of `voxel_size` [m]: the clean map is every
 /// point not labelled dynamic.

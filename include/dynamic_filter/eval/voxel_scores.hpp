@@ -37,31 +37,27 @@ struct VoxelScore {
 VoxelScore voxel_score(double static_total, double static_kept, double dynamic_total,
                        double dynamic_kept);
 
-/// Points of one voxel of the raw map, and those of them that the clean map kept.
+/// Points of one voxel, of the raw map or of a clean one.
 struct VoxelCount {
-    std::uint32_t still = 0;                             ///< points of static things
-    std::uint32_t dynamic = 0;                           ///< points of moving things
-    std::uint32_t kept_still = 0;                        ///< of the static ones, in the clean map
-    std::uint32_t kept_dynamic = 0;                      ///< of the moving ones, in the clean map
-    std::uint32_t kept_unlabelled = 0;                   ///< points of a map given without labels
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();       ///< [m] of the points' coordinates
-    Eigen::Vector3d kept_sum = Eigen::Vector3d::Zero();  ///< [m] the same of those kept
+    std::uint32_t still = 0;                        ///< points of static things
+    std::uint32_t dynamic = 0;                      ///< points of moving things
+    std::uint32_t unlabelled = 0;                   ///< points of a map given without labels
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();  ///< [m] of the labelled points' coordinates
 
-    /// Whether the clean map has a point in it.
-    [[nodiscard]] bool preserved() const { return kept_still + kept_dynamic + kept_unlabelled > 0; }
+    [[nodiscard]] bool has_points() const { return still + dynamic + unlabelled > 0; }
 };
 
-/// Tallies the raw map and the clean map. Points of unknown ground truth must be left out by the
-/// caller. Single caller.
+/// Tallies the raw map and the clean maps of one or more results. Points of unknown ground truth
+/// must be left out by the caller. Single caller.
 class VoxelTally {
 public:
-    explicit VoxelTally(double voxel_size);  ///< [m]
-    VoxelTally(VoxelTally&&) noexcept;       ///< the other one can only be destroyed
+    explicit VoxelTally(double voxel_size, std::size_t results = 1);  ///< [m]; 1 to 32 results
+    VoxelTally(VoxelTally&&) noexcept;  ///< the other one can only be destroyed
     ~VoxelTally();
 
-    /// One point of the raw map, and whether the clean map kept it.
-    void add(const Point& point, Label truth, bool kept);
-    /// One point of a clean map that was made elsewhere.
+    /// One point of the raw map, and which results removed it: bit r stands for result r.
+    void add(const Point& point, Label truth, std::uint32_t removed);
+    /// One point of a clean map that was made elsewhere; it is result 0.
     void add_map_point(const Point& point);
 
     /// How a voxel holding points of both kinds is read. Keys of the result:
@@ -70,17 +66,15 @@ public:
     /// "erasor": every voxel's centroid with its majority label finds its nearest centroid of the
     /// clean map; within half a voxel's diagonal and with the same label it is preserved. Left out
     /// for maps without labels.
-    [[nodiscard]] std::map<std::string, VoxelScore> scores() const;
+    [[nodiscard]] std::map<std::string, VoxelScore> scores(std::size_t result = 0) const;
 
     /// 0..1: share of voxels with at least one dynamic point.
     [[nodiscard]] double dynamic_share() const;
 
 private:
-    [[nodiscard]] VoxelScore erasor_score() const;
-    VoxelCount* find(const Point& point, bool insert);
-
     double voxel_size_;
     std::unique_ptr<VoxelIndex> index_;
+    std::size_t stride_;  // counts of a voxel: of the raw map, and of what each result removed
     std::vector<VoxelCount> counts_;
     bool unlabelled_ = false;
 };
