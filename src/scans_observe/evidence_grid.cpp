@@ -87,6 +87,10 @@ void EvidenceGrid::record(std::uint32_t voxel, Sight sight, unsigned weight, boo
     State& state = states_[voxel];
     const bool hit = newest && state.evidence.last_owner + 1 == scans_;
     dynamic_filter::record(state.evidence, {sight, weight, hit}, longest_run_);
+}
+
+void EvidenceGrid::update_score(std::uint32_t voxel) {
+    State& state = states_[voxel];
     state.score = is_unknown(state.evidence) ? 0.0F : score_(state.evidence);
 }
 

@@ -61,6 +61,9 @@ void EvidenceMap::check_known(std::span<const std::uint32_t> blocks) {
     parallel_for(blocks.size(), kGrain, [&](std::size_t begin, std::size_t end) {
         Batch batch{.first = 0, .end = known_};
         observe(blocks.subspan(begin, end - begin), batch, {&observers_.kept().back(), 1}, true);
+        for (std::size_t i = 0; i < batch.voxels.size(); ++i) {
+            if (batch.sights[i] != Sight::unknown) grid_.update_score(batch.voxels[i]);
+        }
     });
 }
 
@@ -73,6 +76,11 @@ void EvidenceMap::check_new() {
         for (const Observers::Asked& one : asked) {
             const bool newest = is_due_ && one.observer == &observers_.kept().back();
             observe({&blocks[begin], end - begin}, batch, one, newest);
+        }
+        for (std::size_t b = begin; b < end; ++b) {
+            grid_.voxels().each_in_block(blocks[b], [&](std::uint32_t v) {
+                if (v >= batch.first) grid_.update_score(v);
+            });
         }
     });
 }

@@ -31,16 +31,26 @@ struct Neighborhood {
         last[count] = static_cast<float>(e.last_owner);
         ++count;
     }
-    void gather(const EvidenceGrid& grid, std::uint32_t block, float sure) {
+    void add_nobody() {
+        add(Cell::Constant(static_cast<int>(kernel::kOutOfReach)), 0.0F, 0.0F, {});
+    }
+    /// For the voxels `asked`, all of this block. Who is too far from all of them keeps a place, so
+    /// that sums are rounded alike whoever is asked, but is not looked up.
+    void gather(const EvidenceGrid& grid, std::uint32_t block, const Eigen::AlignedBox3i& asked,
+                float sure) {
+        constexpr int kReach = 2;
+        const Cell low = asked.min().array() - kReach, high = asked.max().array() + kReach;
         count = 0;
         grid.neighbors().each_around(
-            grid.voxels(), 2, block, [&](std::uint32_t v, const Cell& cell) {
+            grid.voxels(), kReach, block, [&](std::uint32_t v, const Cell& cell) {
+                const bool near =
+                    (cell.array() >= low.array()).all() && (cell.array() <= high.array()).all();
+                if (!near) return add_nobody();
                 const Evidence& e = grid[v].evidence;
                 const auto looks = static_cast<float>(e.n_own + e.n_free);
                 add(cell, looks / (looks + sure), std::max(grid[v].score, -1.0F), e);
             });
-        constexpr auto kAway = static_cast<int>(kernel::kOutOfReach);
-        while (count % kernel::kVoters != 0) add(Cell::Constant(kAway), 0.0F, 0.0F, {});
+        while (count % kernel::kVoters != 0) add_nobody();
     }
     [[nodiscard]] float vote_on(const Cell& cell, const Evidence& e,
                                 const ScansConfig::Vote& config) const {
@@ -92,8 +102,13 @@ std::vector<std::optional<float>> occupancy_of(const EvidenceGrid& grid,
         Neighborhood neighborhood;
         for (std::size_t i = begin; i < end; ++i) {
             const auto [block, at] = by_block[i];
-            if (i == begin || by_block[i - 1].first != block)
-                neighborhood.gather(grid, block, sure);
+            if (i == begin || by_block[i - 1].first != block) {
+                Eigen::AlignedBox3i asked;
+                for (std::size_t k = i; k < end && by_block[k].first == block; ++k) {
+                    asked.extend(unpack(grid.voxels().key(voxels[by_block[k].second])));
+                }
+                neighborhood.gather(grid, block, asked, sure);
+            }
             const std::uint32_t v = voxels[at];
             const float vote =
                 neighborhood.vote_on(unpack(grid.voxels().key(v)), grid[v].evidence, config);

@@ -71,18 +71,22 @@ TEST(EvidenceGrid, ASightChangesTheScoreAndCountsAsHitWhereTheNewestScanHasAPoin
     EXPECT_EQ(grid[voxel].evidence.n_own, 1);  // once a scan
     EXPECT_EQ(grid[voxel].score, 0.0F);        // nobody looked
     grid.record(voxel, Sight::free, 1, true);
+    grid.update_score(voxel);
     const float free = grid[voxel].score;
     EXPECT_GT(free, 0.0F);
     for (int i = 0; i < 10; ++i) {
         grid.add_points(scan);
         grid.record(voxel, Sight::occupied, 1, true);
+        grid.update_score(voxel);
     }
     EXPECT_LT(grid[voxel].score, free);
     EXPECT_EQ(grid[voxel].evidence.last_owner, 10U);
     grid.record(voxel, Sight::occupied, 1, false);  // an older keyframe
+    grid.update_score(voxel);
     scan.points = {{9.0F, 0.1F, 0.1F}};
     grid.add_points(scan);
     grid.record(voxel, Sight::occupied, 1, true);  // the newest has no point there
+    grid.update_score(voxel);
     EXPECT_EQ(grid[voxel].evidence.hits, 10);
     EXPECT_EQ(grid[voxel].evidence.n_occ, 12);
 }

@@ -14,7 +14,7 @@ namespace dynamic_filter {
 
 /// Voxels in blocks of 4 x 4 x 4. A voxel stands for the centroid of its points in the first scan
 /// that has any there, so it can be judged at once, and never moves. Single caller; const members
-/// may run in several threads, and record() too, for different voxels. Points are in the map frame.
+/// may run in several threads, and record() and update_score() too, for different voxels. Points are in the map frame.
 class EvidenceGrid {
 public:
     EvidenceGrid(float voxel_size, const ScansConfig::Evidence& config)
@@ -26,8 +26,9 @@ public:
     /// after the others, those of a block together.
     PointVoxels add_points(const Scan& scan);
     /// Takes in what a keyframe saw of the voxel, see evidence.hpp; `newest`: it is the newest
-    /// scan.
+    /// scan. The score follows with update_score().
     void record(std::uint32_t voxel, Sight sight, unsigned weight, bool newest);
+    void update_score(std::uint32_t voxel);
 
     /// See evidence.hpp.
     void record_moved(std::uint32_t voxel, unsigned scans) {
