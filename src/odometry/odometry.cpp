@@ -22,6 +22,8 @@ constexpr double kFastestTurn = 1.5;          // [rad/s] of a sensor whose motio
 constexpr double kNarrow = 0.2, kWide = 2.0;  // [m] reach of the registration
 constexpr std::size_t kCandidates = 6;        // of a search
 constexpr SearchWindow kSmallest{2.0, 0.1}, kLargest{20.0, 0.6};
+constexpr double kNearly = 0.95;           // as many inliers
+constexpr double kYoung = 0.75;            // of lost_below: a map of one scan has many holes
 constexpr double kHabit = 0.2;             // weight of a scan in the usual share
 constexpr int kMostBeginnings = 10;        // with a first scan whose motion was not known
 constexpr double kAgreed = 0.003;          // [m], [rad]
@@ -111,10 +113,22 @@ Registration Odometry::Impl::search(const Step& step, Registration best) const {
         std::clamp(kFastestTurn * step.dt, kSmallest.turn, kLargest.turn)};
     const Pose& expected = step.prior.T_map_sensor;
     const Points around = moved(map.places(), expected.inverse());
+    // Patterns of beams look alike in places that lie apart: of those that fit nearly as well, the
+    // one near what is expected is right more often.
+    const auto shift_of = [&](const Registration& r) {
+        return (expected.inverse() * r.T_map_sensor).translation().norm();
+    };
+    const auto is_better = [&](const Registration& a, const Registration& b) {
+        const bool nearer = shift_of(a) < shift_of(b);
+        return nearer ? a.inliers > kNearly * b.inliers : kNearly * a.inliers > b.inliers;
+    };
+    const auto consider = [&](const Registration& found) {
+        if (is_better(found, best)) best = found;
+    };
+    consider(register_from(expected, step, kNarrow));
     for (const Pose& displacement :
          search_displacements(around, newest.points, window, kCandidates)) {
-        const Registration found = register_from(expected * displacement, step, 0.5 * kWide);
-        if (found.inliers > best.inliers) best = found;
+        consider(register_from(expected * displacement, step, 0.5 * kWide));
     }
     return best;
 }
@@ -192,7 +206,8 @@ Tracked Odometry::track(const Points& points, std::span<const float> times, doub
     Registration found = o.register_from(step.prior.T_map_sensor, step, reach);
     const double enough = std::max(o.config.lost_below, o.config.usual_share * o.usual_inliers);
     if ((!o.velocity_known && !guess) || found.inliers < enough) found = o.search(step, found);
-    if (found.inliers < o.config.lost_below) return o.go_on_lost(step);
+    const double least = (o.velocity_known ? 1.0 : kYoung) * o.config.lost_below;
+    if (found.inliers < least) return o.go_on_lost(step);
     if (!o.first.times.empty()) found = o.begin_again(step, found);
 
     o.lost_in_a_row = 0;

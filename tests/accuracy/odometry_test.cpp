@@ -108,6 +108,16 @@ TEST(OdometryInScenes, BeginsAtFullSpeed) {
     EXPECT_LT(test::drift(late, tracked), 0.003);
 }
 
+// Its first scan alone hardly shows surfaces: the speed has to come from the scans that follow.
+TEST(OdometryInScenes, AnIrregularPatternThatBeginsInMotionIsNotLost) {
+    auto options = scene("street", "solid");
+    options.seed = 22;
+    const Drive drive = simulate(options, 0, 40);
+    const auto tracked = track(drive.scans);
+    EXPECT_EQ(lost(tracked), 0U);
+    EXPECT_LT(test::off_between(drive, tracked, 20, 39).head<3>().norm(), 0.3);
+}
+
 TEST(OdometryInScenes, TimesOfPointsMakeSweepsBetter) {
     Drive drive = sweeping_street();
     const auto with_times = track(drive.scans);
