@@ -102,6 +102,8 @@ void add_run(CLI::App& app, std::function<int()>& chosen) {
     CLI::Option* const view =
         c.add_flag("--view", o->view, "show the run in a browser, live, at the address it prints");
     c.add_option("--port", o->port, "of the view (default: any that is free)")->needs(view);
+    c.add_flag("!--no-maps", o->maps, "write no static_map.pcd and no dynamic_points.pcd");
+    c.add_flag("!--no-report", o->report, "write no report.html")->excludes(view);
     c.add_flag("-q,--quiet", o->quiet, "say only what is wrong");
     c.callback([o, &chosen] { chosen = [o] { return run(*o); }; });
 }

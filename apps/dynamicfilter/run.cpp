@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 constexpr const char* kComplete = "complete\n";
 
 /// What a run was begun with: whoever resumes it must come with the same.
-std::string begun_with(const io::Sequence& sequence, const Config& config) {
+std::string begun_with(const io::Sequence& sequence, const Config& config, const Extras& extras) {
     std::error_code ignored;
     std::uintmax_t bytes = sequence.bag && fs::is_regular_file(sequence.root, ignored)
                                ? fs::file_size(sequence.root, ignored)
@@ -30,9 +30,10 @@ std::string begun_with(const io::Sequence& sequence, const Config& config) {
         if (fs::is_regular_file(file, ignored)) bytes += fs::file_size(file, ignored);
     }
     return fmt::format(
-        "version {}\ninput {}\nscans {} from {} to {}, {} bytes\n{}", DYNAMIC_FILTER_VERSION,
+        "version {}\ninput {}\nscans {} from {} to {}, {} bytes\n{}{}{}", DYNAMIC_FILTER_VERSION,
         fs::absolute(sequence.root).lexically_normal().string(), sequence.size(),
-        io::stem(sequence, 0), io::stem(sequence, sequence.size() - 1), bytes, to_toml(config));
+        io::stem(sequence, 0), io::stem(sequence, sequence.size() - 1), bytes,
+        extras.maps ? "" : "no maps\n", extras.report ? "" : "no report\n", to_toml(config));
 }
 
 /// Labels that no run left may be somebody's ground truth.
@@ -94,7 +95,8 @@ int run(const RunOptions& o) {
         chosen = choose_motion(sequence, config, {.refine = o.refine, .deskew = o.data.deskew});
     });
     sequence.notes.insert(sequence.notes.end(), chosen.begin(), chosen.end());
-    const std::string state = begun_with(sequence, config);
+    const Extras extras{.maps = o.maps, .report = o.report};
+    const std::string state = begun_with(sequence, config, extras);
     if (o.resume && is_complete(output, state)) {
         output.commit();
         if (!o.quiet) fmt::print("complete {}\n", output.name().string());
@@ -111,8 +113,9 @@ int run(const RunOptions& o) {
     clock.finish("prepare");
     const Pace pace{.threads = o.threads,
                     .online = o.online ? std::optional(o.speed) : std::nullopt};
-    const RunSummary summary = run_sequence(sequence, config, pace, output, clock,
-                                            {.live = live ? &*live : nullptr, .quiet = o.quiet});
+    const RunSummary summary =
+        run_sequence(sequence, config, pace, output, clock,
+                     {.live = live ? &*live : nullptr, .quiet = o.quiet}, extras);
 
     tell(summary.notes, o.quiet);
     for (const std::string& line : sequence.losses) fmt::print(stderr, "lost     {}\n", line);

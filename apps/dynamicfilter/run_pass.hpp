@@ -20,6 +20,7 @@ struct Pass {
     const OutputFolder& output;
     StageClock& clock;
     const Watchers& watchers;
+    const Extras& extras;
     RunSummary summary{};
     std::vector<bool> accepted = std::vector<bool>(sequence.size());
     std::vector<std::optional<Tracked>> tracked{};  ///< by scan; if poses are found or refined
@@ -43,7 +44,8 @@ struct Pass {
         return {.instant =
                     [this](const Verdict& verdict) {
                         tracked[verdict.index] = verdict.tracked;
-                        if (sequence.has_truth() || is_shown(verdict.index, sequence.size())) {
+                        if (sequence.has_truth() ||
+                            (extras.report && is_shown(verdict.index, sequence.size()))) {
                             instant[verdict.index] = verdict.labels;
                         }
                         if (watchers.live) {

@@ -122,6 +122,7 @@ void describe(PageRun& run, const Pass& pass) {
 
 /// The page that explains the result.
 void write_report(Pass& pass, const nlohmann::ordered_json& metrics) {
+    if (!pass.extras.report) return;
     if (viewer_page().empty()) {
         pass.summary.notes.emplace_back(
             "no report.html: built without the viewer (npm was missing)");

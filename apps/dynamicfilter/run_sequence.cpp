@@ -160,7 +160,7 @@ void write_results(Pass& pass) {
                              "changed while it was in use: " + maybe.error);
         }
         const Labels& labels = verdicts[i].labels;
-        maps.append(*maybe.frame, verdicts[i]);
+        if (pass.extras.maps) maps.append(*maybe.frame, verdicts[i]);
         if (pass.scorer && !maybe.frame->truth.empty()) {
             pass.scorer->add(labelled(*maybe.frame, pass.scoring_origin),
                              std::array<const Labels*, 2>{&labels, &pass.instant[i]});
@@ -205,10 +205,11 @@ void score(Pass& pass) {
 }  // namespace
 
 RunSummary run_sequence(const io::Sequence& sequence, const Config& config, const Pace& pace,
-                        const OutputFolder& output, StageClock& clock, const Watchers& watchers) {
+                        const OutputFolder& output, StageClock& clock, const Watchers& watchers,
+                        const Extras& extras) {
     RunSummary summary;
     with_threads(pace.threads, [&] {
-        Pass pass{sequence, config, pace, output, clock, watchers};
+        Pass pass{sequence, config, pace, output, clock, watchers, extras};
         io::write_file(output.path() / "config.toml", to_toml(config));
         filter_scans(pass);
         clock.finish("filter");

@@ -43,6 +43,11 @@ struct Watchers {
     bool quiet = false;             ///< no progress on stderr
 };
 
+/// What a run leaves beside labels and figures.
+struct Extras {
+    bool maps = true, report = true;
+};
+
 struct Pace {
     int threads = 0;               ///< 0: all cores
     std::optional<double> online;  ///< times the sensor's rate; 0: as fast as it can
@@ -52,6 +57,6 @@ struct Pace {
 /// Throws InputError if not a single scan is usable.
 RunSummary run_sequence(const io::Sequence& sequence, const Config& config, const Pace& pace,
                         const OutputFolder& output, StageClock& clock,
-                        const Watchers& watchers = {});
+                        const Watchers& watchers = {}, const Extras& extras = {});
 
 }  // namespace dynamic_filter::app

@@ -139,6 +139,24 @@ TEST_F(Command, RunLeavesWhatTheContractSays) {
     EXPECT_EQ(bytes_of("again"), bytes_of("out"));
 }
 
+TEST_F(Command, LeavesOutMapsAndReportIfAsked) {
+    const std::string line = "run " + recording().string();
+    ASSERT_EQ(run(line + " -o all"), 0);
+    ASSERT_EQ(run(line + " -o labels --no-maps --no-report"), 0) << said();
+    auto all = bytes_of("all"), labels = bytes_of("labels");
+    for (const char* map : {"static_map.pcd", "dynamic_points.pcd"}) {
+        EXPECT_EQ(all.erase(map), 1U);
+        EXPECT_FALSE(labels.contains(map));
+    }
+    EXPECT_FALSE(fs::exists(folder_ / "labels/report.html"));
+    EXPECT_EQ(labels["metrics.json"], all["metrics.json"]);
+    EXPECT_EQ(labels.size(), all.size());
+    // What was begun without maps is not complete with them.
+    EXPECT_EQ(run(line + " -o labels --resume"), 2);
+    EXPECT_EQ(run(line + " -o labels --resume --no-maps --no-report"), 0);
+    EXPECT_EQ(run(line + " -o other --no-report --view"), 2);
+}
+
 TEST_F(Command, GivesTheSameBytesForOneAndTwoThreads) {
     ASSERT_EQ(run("run " + recording().string() + " -o one --threads 1"), 0);
     ASSERT_EQ(run("run " + recording().string() + " -o two --threads 2"), 0);
