@@ -68,8 +68,8 @@ struct VoxelHistory {
     float score = 0.0F;          ///< in units of DynamicScore: above 0 something came or went
     std::size_t first = 0;       ///< Scan::index of the first with a point in it ...
     std::size_t last = 0;        ///< ... and of the last
-    std::vector<std::size_t> free_keyframes;  ///< of a dynamic voxel, Scan::index of the keyframes
-                                              ///< kept so far that saw through it, ascending
+    std::vector<std::size_t> free_keyframes;  ///< of a dynamic voxel, Scan::index of keyframes that
+                                              ///< saw through it, ascending; up to 64 are asked
 };
 
 }  // namespace dynamic_filter

@@ -133,10 +133,15 @@ std::vector<std::vector<std::size_t>> EvidenceMap::free_keyframes(
     }
     std::sort(blocks.begin(), blocks.end());
     blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+    constexpr std::size_t kMostAsked = 64;
+    const auto& kept = observers_.kept();
+    const std::size_t stride = (kept.size() + kMostAsked - 1) / kMostAsked;
     std::vector<std::vector<std::size_t>> result(voxels.size());
+    if (kept.empty()) return result;
     parallel_for(blocks.size(), kGrain, [&](std::size_t begin, std::size_t end) {
         Batch batch{.first = 0, .end = grid_.size(), .place = place};
-        for (const Observer& observer : observers_.kept()) {
+        for (std::size_t k = stride - 1; k < kept.size(); k += stride) {
+            const Observer& observer = kept[k];
             find_sights({&blocks[begin], end - begin}, batch, observer);
             for (std::size_t i = 0; i < batch.voxels.size(); ++i) {
                 if (is_free(batch.sights[i])) {

@@ -40,9 +40,10 @@ public:
         return grid_.keep_within(center, radius, most_voxels);
     }
 
-    /// For each of the voxels, the keyframes kept so far (their Scan::index, ascending) that see
-    /// through it. A voxel asked older ones at the time, and may have counted one for several. In
-    /// parallel; cost: blocks of those voxels times keyframes.
+    /// For each of the voxels, keyframes (their Scan::index, ascending) that see through it: of all
+    /// that are kept, or of every second, third ... where they are more than 64. A voxel asked
+    /// others at the time, and may have counted one for several. In parallel; cost: blocks of those
+    /// voxels times keyframes asked.
     [[nodiscard]] std::vector<std::vector<std::size_t>> free_keyframes(
         std::span<const std::uint32_t> voxels) const;
 
