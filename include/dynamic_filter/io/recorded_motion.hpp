@@ -56,6 +56,10 @@ struct MotionQuality {
     std::vector<PoseError> errors;  ///< of scans 1, 5, 10 and 20 apart, as far as there are
     Blur given;                     ///< at the recording's poses
     Blur found;                     ///< at those that the odometry finds
+    /// Whether over 20 scans the given poses err by little, everywhere: less than a metre or a
+    /// third of the way, and a tenth of a radian. Poses of another frame, format or recording do
+    /// not.
+    bool nearly_right = false;
 
     /// Whether scans overlay clearly better at other poses than those that are given.
     [[nodiscard]] bool has_bad_poses() const;

@@ -134,7 +134,7 @@ namespace {
 
 /// An offset in time or another frame, if that explains so much of the squared error.
 std::string constant_mistake(const std::vector<TwoTracks>& tracks, double mostly) {
-    constexpr double kLeastOffset = 0.01;  // [s]
+    constexpr double kLeastOffset = 0.01, kMostOffset = 1.0;  // [s]
     constexpr double kBetter = 0.1;
     constexpr double kFarthestMount = 5.0;  // [m] no vehicle is larger
     const Fit offset = fit(
@@ -151,6 +151,7 @@ std::string constant_mistake(const std::vector<TwoTracks>& tracks, double mostly
         6);
     const bool is_offset = offset.explained > mostly &&
                            std::abs(offset.parameters[0]) > kLeastOffset &&
+                           std::abs(offset.parameters[0]) < kMostOffset &&
                            offset.explained > mount.explained - kBetter;
     if (is_offset) return offset_text(offset.parameters[0]);
     // At an even speed, another frame drifts evenly, too.

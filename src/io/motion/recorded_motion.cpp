@@ -154,6 +154,23 @@ std::optional<PoseError> error_of(const std::vector<Compared>& pieces, std::size
     return PoseError{apart, median(ways), median(shifts), median(turns)};
 }
 
+/// See MotionQuality.
+bool nearly_right(const std::vector<Compared>& pieces) {
+    constexpr double kShift = 1.0, kShare = 0.3, kTurn = 0.1;  // [m], of the way, [rad]
+    bool compared = false;
+    for (const Compared& piece : pieces) {
+        for (std::size_t i = kApart.back(); i < piece.shown.size(); ++i) {
+            const Pose moved = piece.shown[i - kApart.back()].inverse() * piece.shown[i];
+            const Pose given = piece.given[i - kApart.back()].inverse() * piece.given[i];
+            const Twist off = log(moved.inverse() * given);
+            const double most = std::max(kShift, kShare * moved.translation().norm());
+            if (off.head<3>().norm() > most || off.tail<3>().norm() > kTurn) return false;
+            compared = true;
+        }
+    }
+    return compared;
+}
+
 double usual_step(const Sequence& sequence) {
     std::vector<double> steps;
     for (std::size_t i = 1; i < sequence.size(); ++i) {
@@ -184,6 +201,7 @@ MotionQuality quality_of(const std::vector<Compared>& compared, bool has_poses) 
             quality.found.*which += share * piece.at_shown.*which;
         }
     }
+    quality.nearly_right = has_poses && nearly_right(compared);
     for (const std::size_t apart : kApart) {
         if (!has_poses) break;
         if (const auto error = error_of(compared, apart)) quality.errors.push_back(*error);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <optional>
 
@@ -141,8 +142,10 @@ Finding in_sensor_finding(const std::vector<Overlay>& overlays, bool files_in_wo
             "leave out --points-in-world"};
 }
 
+/// `nearly_right` is asked before poses are said to be something else altogether: where the sensor
+/// hardly moves, drifting poses overlay better in any reading.
 void judge_poses(Preflight& result, const Sequence& sequence, const Samples& samples,
-                 const std::vector<Pair>& pairs) {
+                 const std::vector<Pair>& pairs, const std::function<bool()>& nearly_right) {
     const auto& overlays = result.overlays;
     const double given = share_of(overlays, kAsGiven);
     if (all_equal(samples)) {
@@ -174,7 +177,7 @@ void judge_poses(Preflight& result, const Sequence& sequence, const Samples& sam
     // A thousandth of any motion is as good as none.
     const bool as_if_still = best->share < 1.02 * share_of(overlays, kInWorld);
     if (as_if_still || best->reading == kInSensor) {
-        if (much) {
+        if (much && !nearly_right()) {
             result.findings.push_back(
                 {"the poses do not fit the scans: " + fits_better(overlays, kInWorld) +
                      ", as if nothing moved",
@@ -186,7 +189,7 @@ void judge_poses(Preflight& result, const Sequence& sequence, const Samples& sam
     const auto& as_best = all[static_cast<std::size_t>(best - overlays.begin())];
     const bool upright_instead =
         hang_upside_down(samples, all.front()) && !hang_upside_down(samples, as_best);
-    if (much || upright_instead) {
+    if (upright_instead || (much && !nearly_right())) {
         result.findings.push_back(pose_finding(overlays, best->reading));
     }
 }
@@ -327,9 +330,13 @@ Preflight check_recording(const Sequence& sequence, Depth depth) {
     judge_order(result, sequence, samples);
     judge_points(result, samples);
     if (result.overlays.empty()) return result;
-    judge_poses(result, sequence, samples, pairs);
+    const auto nearly_right = [&] {
+        return depth == Depth::thorough && measure_motion(sequence, OdometryConfig{}).nearly_right;
+    };
+    judge_poses(result, sequence, samples, pairs, nearly_right);
     if (!result.findings.empty() || depth == Depth::quick) return result;
-    if (auto finding = misfit(samples, pairs)) {
+    auto finding = misfit(samples, pairs);
+    if (finding && !nearly_right()) {
         result.findings.push_back(std::move(*finding));
         return result;
     }
