@@ -65,6 +65,7 @@ public:
     /// What near_removed() gave, in any order.
     void add_near(const std::vector<Points>& points);
 
+    /// Of one result, over all scans added; the cover of removed points counts what add_near() got.
     [[nodiscard]] Scores scores(std::size_t result) const;
 
 private:

@@ -44,6 +44,7 @@ struct VoxelCount {
     std::uint32_t unlabelled = 0;                   ///< points of a map given without labels
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();  ///< [m] of the labelled points' coordinates
 
+    /// Whether there is any.
     [[nodiscard]] bool has_points() const { return still + dynamic + unlabelled > 0; }
 };
 
