@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
 #include <random>
 #include <vector>
@@ -84,6 +85,30 @@ TEST(ScoreMap, OfTheKeptPointsAgreesWithScoreLabels) {
     for (const char* reading : {"excluded", "static_wins", "majority"}) {
         EXPECT_EQ(by_map.voxel.at(reading).f1, by_labels.voxel.at(reading).f1) << reading;
     }
+}
+
+TEST(ScanScores, ResultsBesideEachOtherScoreAsAlone) {
+    const auto scans = random_scans();
+    auto others = scans;  // another result on the same scans
+    for (LabelledScan& scan : others) {
+        for (Label& label : scan.verdict) label = label == kDynamic ? kStill : kDynamic;
+    }
+    ScanScores both(0.2, 2);
+    const auto verdicts = [&](std::size_t i) {
+        return std::array<const Labels*, 2>{&scans[i].verdict, &others[i].verdict};
+    };
+    for (std::size_t i = 0; i < scans.size(); ++i) both.add(scans[i], verdicts(i));
+    for (std::size_t i = scans.size(); i-- > 0;) {  // in any order
+        both.add_near(both.near_removed(scans[i], verdicts(i)));
+    }
+    for (std::size_t r = 0; r < 2; ++r) {
+        const Scores alone = score_labels(scans.size(), source_of(r == 0 ? scans : others), 0.2);
+        const Scores beside = both.scores(r);
+        EXPECT_EQ(beside.point.aa, alone.point.aa);
+        EXPECT_EQ(beside.point.iou, alone.point.iou);
+        EXPECT_EQ(beside.voxel.at("erasor").f1, alone.voxel.at("erasor").f1);
+    }
+    EXPECT_NE(both.scores(0).point.iou, both.scores(1).point.iou);
 }
 
 TEST(ScoreLabels, RefusesArraysThatAreNotParallel) {
