@@ -59,7 +59,8 @@ bool is_complete(const OutputFolder& output, const std::string& state) {
     if (found == state) return false;
     throw ConfigError(
         output.name().string() +
-        ": was begun with another recording, other settings or another version; go on "
+        ": was begun with another recording, other settings, other outputs (--no-maps, "
+        "--no-report) or another version; go on "
         "with those (see config.toml and run.log there), or start afresh with "
         "--overwrite");
 }

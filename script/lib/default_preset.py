@@ -53,7 +53,8 @@ def scene_table(bench):
 
 
 def error_tables(_):
-    text = "\n## Errors by class and by instance\n\nSeed 1; voxels that hold one kind only. An instance is a person or a vehicle of which at least 20 points were measured.\n"
+    text = ("\n## Errors by class and by instance\n\nSeed 1; voxels that hold one kind only. An instance is a person or a vehicle of which at least "
+            "20 points were measured.\n")
     for case in (("default", "crowd", "vlp16", 100, 1), ("paper", "crowd", "vlp16", 100, 1),
                  ("default", "street", "os64", 30, 1), ("default", "square", "os64", 60, 1),
                  ("default", "jam", "vlp16", -1, 1), ("default", "crowd", "vlp16", 150, 1)):
