@@ -21,6 +21,12 @@ PointScore point_score(const CoverCount& c) {
     return score;
 }
 
+void CoverCount::add(Label truth, bool covered) {
+    const bool is_dynamic = truth == Label::dynamic;
+    (is_dynamic ? dynamic : still) += 1;
+    if (covered) (is_dynamic ? covered_dynamic : covered_still) += 1;
+}
+
 void Confusion::add(Label truth, Label verdict) {
     const bool is = truth == Label::dynamic, said = verdict == Label::dynamic;
     if (is && said) ++true_positive;

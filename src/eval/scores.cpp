@@ -63,8 +63,9 @@ public:
             for (int y = low->y(); y <= high->y(); ++y) {
                 for (int z = low->z(); z <= high->z(); ++z) {
                     const VoxelKey key = pack({x, y, z});
+                    const std::size_t bit = bit_of(key);
                     cells_[key] |= results;
-                    set_bit(key);
+                    bits_[bit / 64] |= std::uint64_t{1} << bit % 64;
                 }
             }
         }
@@ -74,7 +75,7 @@ public:
         const auto cell = cell_of(point, kPerMetre);
         if (!cell) return 0;
         const VoxelKey key = pack(*cell);
-        const std::size_t bit = VoxelHash{}(key) % kBits;
+        const std::size_t bit = bit_of(key);
         if ((bits_[bit / 64] >> bit % 64 & 1U) == 0) return 0;
         const auto it = cells_.find(key);
         return it == cells_.end() ? 0 : it->second;
@@ -84,10 +85,7 @@ private:
     // A table of bits that says of most points that they are near none: it fits into the cache.
     static constexpr std::size_t kBits = std::size_t{1} << 23U;
     static constexpr float kPerMetre = 0.5F / kDistance;
-    void set_bit(VoxelKey key) {
-        const std::size_t bit = VoxelHash{}(key) % kBits;
-        bits_[bit / 64] |= std::uint64_t{1} << bit % 64;
-    }
+    static std::size_t bit_of(VoxelKey key) { return VoxelHash{}(key) % kBits; }
     tsl::robin_map<VoxelKey, std::uint32_t, VoxelHash> cells_;
     std::vector<std::uint64_t> bits_ = std::vector<std::uint64_t>(kBits / 64);
     Cell last_low_ = Cell::Zero(), last_high_ = Cell::Zero();  // one point follows another
@@ -109,9 +107,7 @@ struct ScanScores::Result {
             removed_truth.push_back(truth);
             return;
         }
-        const bool dynamic = truth == Label::dynamic;
-        (dynamic ? kept.dynamic : kept.still) += 1;
-        (dynamic ? kept.covered_dynamic : kept.covered_still) += 1;
+        kept.add(truth, true);
     }
     [[nodiscard]] CoverCount cover() const {
         const NeighborGrid grid(near, 2.0F * kDistance);
@@ -123,9 +119,7 @@ struct ScanScores::Result {
         });
         CoverCount count = kept;
         for (std::size_t i = 0; i < removed.size(); ++i) {
-            const bool dynamic = removed_truth[i] == Label::dynamic;
-            (dynamic ? count.dynamic : count.still) += 1;
-            if (covered[i] != 0) (dynamic ? count.covered_dynamic : count.covered_still) += 1;
+            count.add(removed_truth[i], covered[i] != 0);
         }
         return count;
     }
@@ -196,10 +190,7 @@ Scores score_map(std::size_t scans, const ScanSource& source, const Points& map,
         refuse_unparallel(scan, scan.verdict.empty() ? scan.truth : scan.verdict);
         for_each_known_point(scan, [&](std::size_t i) {
             tally.add(scan.points[i], scan.truth[i], 1);
-            const bool dynamic = scan.truth[i] == Label::dynamic;
-            (dynamic ? count.dynamic : count.still) += 1;
-            if (!grid.any_within(scan.points[i], kDistance)) return;
-            (dynamic ? count.covered_dynamic : count.covered_still) += 1;
+            count.add(scan.truth[i], grid.any_within(scan.points[i], kDistance));
         });
     });
     for (const Point& point : map) tally.add_map_point(point);

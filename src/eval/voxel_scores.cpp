@@ -47,7 +47,7 @@ struct Counts {
         const VoxelCount& removed = all[v * stride + 1 + result];
         kept.still -= removed.still;
         kept.dynamic -= removed.dynamic;
-        kept.unlabelled = removed.unlabelled;
+        kept.unlabelled = removed.unlabelled;  // add_map_point() puts them there
         kept.sum -= removed.sum;
         return kept;
     }

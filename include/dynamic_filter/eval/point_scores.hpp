@@ -31,6 +31,8 @@ struct CoverCount {
     std::size_t dynamic = 0;          ///< points of moving things
     std::size_t covered_still = 0;    ///< of the static ones, near the clean map
     std::size_t covered_dynamic = 0;  ///< of the moving ones, near the clean map
+    /// One point more, whose truth is known.
+    void add(Label truth, bool covered);
 };
 
 /// The scores of such counts, without IoU.
