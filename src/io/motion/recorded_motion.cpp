@@ -138,37 +138,42 @@ Compared compare(Piece piece, const OdometryConfig& config) {
     return compared;
 }
 
-std::optional<PoseError> error_of(const std::vector<Compared>& pieces, std::size_t apart) {
-    std::vector<double> ways, shifts, turns;
+/// Of each two scans so far apart.
+std::vector<PoseError> errors_of(const std::vector<Compared>& pieces, std::size_t apart) {
+    std::vector<PoseError> errors;
     for (const Compared& piece : pieces) {
         const auto& [given, shown] = std::tie(piece.given, piece.shown);
         for (std::size_t i = apart; i < shown.size(); ++i) {
             const Pose moved = shown[i - apart].inverse() * shown[i];
             const Twist off = log(moved.inverse() * given[i - apart].inverse() * given[i]);
-            ways.push_back(moved.translation().norm());
-            shifts.push_back(off.head<3>().norm());
-            turns.push_back(off.tail<3>().norm());
+            errors.push_back(
+                {apart, moved.translation().norm(), off.head<3>().norm(), off.tail<3>().norm()});
         }
     }
-    if (ways.empty()) return std::nullopt;
-    return PoseError{apart, median(ways), median(shifts), median(turns)};
+    return errors;
+}
+
+double median_of(const std::vector<PoseError>& errors, double PoseError::*which) {
+    std::vector<double> values;
+    for (const PoseError& error : errors) values.push_back(error.*which);
+    return median(std::move(values));
+}
+
+std::optional<PoseError> typical_error(const std::vector<Compared>& pieces, std::size_t apart) {
+    const std::vector<PoseError> errors = errors_of(pieces, apart);
+    if (errors.empty()) return std::nullopt;
+    return PoseError{apart, median_of(errors, &PoseError::way),
+                     median_of(errors, &PoseError::shift), median_of(errors, &PoseError::turn)};
 }
 
 /// See MotionQuality.
 bool nearly_right(const std::vector<Compared>& pieces) {
     constexpr double kShift = 1.0, kShare = 0.3, kTurn = 0.1;  // [m], of the way, [rad]
-    bool compared = false;
-    for (const Compared& piece : pieces) {
-        for (std::size_t i = kApart.back(); i < piece.shown.size(); ++i) {
-            const Pose moved = piece.shown[i - kApart.back()].inverse() * piece.shown[i];
-            const Pose given = piece.given[i - kApart.back()].inverse() * piece.given[i];
-            const Twist off = log(moved.inverse() * given);
-            const double most = std::max(kShift, kShare * moved.translation().norm());
-            if (off.head<3>().norm() > most || off.tail<3>().norm() > kTurn) return false;
-            compared = true;
-        }
-    }
-    return compared;
+    const std::vector<PoseError> errors = errors_of(pieces, kApart.back());
+    const auto is_small = [&](const PoseError& error) {
+        return error.shift <= std::max(kShift, kShare * error.way) && error.turn <= kTurn;
+    };
+    return !errors.empty() && std::all_of(errors.begin(), errors.end(), is_small);
 }
 
 double usual_step(const Sequence& sequence) {
@@ -204,7 +209,7 @@ MotionQuality quality_of(const std::vector<Compared>& compared, bool has_poses) 
     quality.nearly_right = has_poses && nearly_right(compared);
     for (const std::size_t apart : kApart) {
         if (!has_poses) break;
-        if (const auto error = error_of(compared, apart)) quality.errors.push_back(*error);
+        if (const auto error = typical_error(compared, apart)) quality.errors.push_back(*error);
     }
     return quality;
 }

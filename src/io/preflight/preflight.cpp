@@ -330,8 +330,11 @@ Preflight check_recording(const Sequence& sequence, Depth depth) {
     judge_order(result, sequence, samples);
     judge_points(result, samples);
     if (result.overlays.empty()) return result;
+    std::optional<bool> known;  // it reads scans: once is enough
     const auto nearly_right = [&] {
-        return depth == Depth::thorough && measure_motion(sequence, OdometryConfig{}).nearly_right;
+        if (depth == Depth::quick) return false;
+        if (!known) known = measure_motion(sequence, OdometryConfig{}).nearly_right;
+        return *known;
     };
     judge_poses(result, sequence, samples, pairs, nearly_right);
     if (!result.findings.empty() || depth == Depth::quick) return result;
