@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <malloc.h>
 
 #include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <charconv>
 #include <csignal>
@@ -292,9 +294,20 @@ int failed(ExitCode code, const std::exception& error) {
     return code;
 }
 
+/// The buffers of a scan come and go with every scan. What is freed stays with the process, and
+/// with all of its threads, or the kernel would have to clear new pages again and again.
+void keep_freed_memory() {
+#ifdef __GLIBC__
+    mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the most that is allowed
+    mallopt(M_TRIM_THRESHOLD, 256 << 20);
+    mallopt(M_ARENA_MAX, 2);
+#endif
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+    keep_freed_memory();
     std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error like a full disk
     CLI::App app("Removes moving objects from LiDAR scans and maps.", "dynamicfilter");
     app.set_version_flag("--version", DYNAMIC_FILTER_VERSION);

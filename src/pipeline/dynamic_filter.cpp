@@ -52,10 +52,7 @@ LocatedScan DynamicFilter::Impl::locate(const Scan& scan) const {
     if (!origin) return located;  // before the first scan
     to_voxels(scan.points, to_map_frame(scan.T_world_sensor), static_cast<float>(voxel_size),
               located.in_map);
-    VoxelFinder find(method->voxels());
-    for (std::size_t i = 0; i < scan.points.size(); ++i) {
-        if (located.in_map.keys[i] != kNoKey) located.voxels[i] = find(located.in_map.keys[i]);
-    }
+    method->voxels().find(located.in_map.keys, located.voxels);
     return located;
 }
 

@@ -13,6 +13,10 @@ constexpr unsigned kMost = std::numeric_limits<std::uint16_t>::max();
 
 /// Halves all counters until each can take so many more: their proportions are what tells.
 void make_room(Evidence& e, unsigned weight) {
+    const unsigned any_bit = static_cast<unsigned>(e.n_own | e.n_occ | e.n_free | e.n_switch |
+                                                   e.occupied | e.free | e.hits | e.passes |
+                                                   e.n_flicker | e.moved);
+    if (any_bit + weight <= kMost) return;  // nearly always, and no counter is larger
     const auto largest = [&] {
         return std::max({e.n_own, e.n_occ, e.n_free, e.n_switch, e.occupied, e.free, e.hits,
                          e.passes, e.n_flicker, e.moved});
@@ -29,6 +33,13 @@ void add(std::uint16_t& counter, unsigned weight) {
     counter = static_cast<std::uint16_t>(counter + weight);
 }
 
+/// True if all is alike that a score depends on.
+bool have_same_score(const Evidence& a, const Evidence& b) {
+    return a.occupied == b.occupied && a.free == b.free && a.hits == b.hits &&
+           a.passes == b.passes && a.n_switch == b.n_switch && a.n_flicker == b.n_flicker &&
+           is_unknown(a) == is_unknown(b);
+}
+
 /// What tells about things so thin that they lie between the beams of most scans.
 void record_pass(Evidence& e, const Observation& o, unsigned weight) {
     const bool passed = is_passed(o.sight);
@@ -43,8 +54,9 @@ float observations_of(const Evidence& e) { return static_cast<float>(e.occupied 
 
 }  // namespace
 
-void record(Evidence& e, const Observation& o, unsigned longest_run) {
-    if (o.sight == Sight::unknown) return;
+bool record(Evidence& e, const Observation& o, unsigned longest_run) {
+    if (o.sight == Sight::unknown) return false;
+    const Evidence before = e;
     const unsigned weight = std::min(o.weight, kMost / (2 * kSure));
     make_room(e, kSure * weight);
     const unsigned each = is_weak(o.sight) ? kWeak : kSure;
@@ -66,6 +78,7 @@ void record(Evidence& e, const Observation& o, unsigned longest_run) {
     }
     e.run = static_cast<std::uint8_t>(e.run + new_of_run);
     e.last = now;
+    return !have_same_score(before, e);
 }
 
 void record_owner(Evidence& evidence, std::uint32_t scan) {

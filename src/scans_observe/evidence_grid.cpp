@@ -2,6 +2,7 @@
 #include "dynamic_filter/scans_observe/evidence_grid.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace dynamic_filter {
@@ -22,6 +23,14 @@ private:
     std::vector<Entry> entries_ = std::vector<Entry>(4096);
 };
 
+/// Points whose voxels are to be found, until there are enough of them to ask memory together.
+struct Waiting {
+    std::array<std::size_t, 32> points{};
+    std::array<VoxelKey, 32> keys{};
+    std::array<std::uint32_t, 32> voxels{};
+    std::size_t count = 0;
+};
+
 }  // namespace
 
 PointVoxels EvidenceGrid::add_points(const Scan& scan) {
@@ -30,13 +39,29 @@ PointVoxels EvidenceGrid::add_points(const Scan& scan) {
     PointVoxels voxels_of_points(scan.points.size(), kNoVoxel);
     const std::size_t known = voxels_.size();
     OwnVoxels own_voxels;
+    Waiting waiting;
+    const auto find = [&] {
+        const auto voxels = std::span(waiting.voxels).first(waiting.count);
+        own(std::span(waiting.keys).first(waiting.count), voxels);
+        for (std::size_t k = 0; k < voxels.size(); ++k) {
+            voxels_of_points[waiting.points[k]] = voxels[k];
+            own_voxels.at(waiting.keys[k]) = {waiting.keys[k], voxels[k]};
+        }
+        waiting.count = 0;
+    };
     for (std::size_t i = 0; i < voxels_of_points.size(); ++i) {
         const VoxelKey key = in_map.keys[i];
         if (key == kNoKey) continue;
-        OwnVoxels::Entry& entry = own_voxels.at(key);
-        if (entry.key != key) entry = {key, own(key)};
-        voxels_of_points[i] = entry.voxel;
+        const OwnVoxels::Entry& entry = own_voxels.at(key);
+        if (entry.key == key) {
+            voxels_of_points[i] = entry.voxel;
+            continue;
+        }
+        waiting.points[waiting.count] = i;
+        waiting.keys[waiting.count] = key;
+        if (++waiting.count == waiting.keys.size()) find();
     }
+    find();
     number_by_block(known, voxels_of_points);
     find_centroids(known, in_map, voxels_of_points);
     ++scans_;
@@ -72,21 +97,23 @@ void EvidenceGrid::find_centroids(std::size_t known, const MapPoints& in_map,
     }
 }
 
-/// The voxel of that key, which this scan owns.
-std::uint32_t EvidenceGrid::own(VoxelKey key) {
-    const std::uint32_t voxel = voxels_.insert(key);
-    if (voxel == states_.size()) states_.push_back({.evidence = {.first_owner = scans_}});
+/// The voxels of those keys, which this scan owns.
+void EvidenceGrid::own(std::span<const VoxelKey> keys, std::span<std::uint32_t> voxels) {
+    voxels_.insert(keys, voxels);
+    states_.resize(voxels_.size(), {.evidence = {.first_owner = scans_}});
     touched_.resize(voxels_.blocks());
-    touched_[voxels_.block_of_voxel(voxel)] = scans_;
-    Evidence& e = states_[voxel].evidence;
-    if (e.n_own == 0 || e.last_owner != scans_) record_owner(e, scans_);
-    return voxel;
+    for (const std::uint32_t voxel : voxels) __builtin_prefetch(&states_[voxel]);
+    for (const std::uint32_t voxel : voxels) {
+        touched_[voxels_.block_of_voxel(voxel)] = scans_;
+        Evidence& e = states_[voxel].evidence;
+        if (e.n_own == 0 || e.last_owner != scans_) record_owner(e, scans_);
+    }
 }
 
-void EvidenceGrid::record(std::uint32_t voxel, Sight sight, unsigned weight, bool newest) {
+bool EvidenceGrid::record(std::uint32_t voxel, Sight sight, unsigned weight, bool newest) {
     State& state = states_[voxel];
     const bool hit = newest && state.evidence.last_owner + 1 == scans_;
-    dynamic_filter::record(state.evidence, {sight, weight, hit}, longest_run_);
+    return dynamic_filter::record(state.evidence, {sight, weight, hit}, longest_run_);
 }
 
 void EvidenceGrid::update_score(std::uint32_t voxel) {

@@ -45,83 +45,118 @@ void EvidenceMap::observe_elsewhere(StageTimes& times) {
     timed(times, "visibility_check_elsewhere", [&] { check_known(grid_.blocks_touched(false)); });
 }
 
-/// Some voxels of some blocks, and room for what an observer sees there.
-struct EvidenceMap::Batch {
-    std::uint32_t first = 0, end = 0;        // those of these numbers ...
-    std::span<const std::uint32_t> place{};  // ... and, if this is not empty, with a place here
-    Points centers{};
-    std::vector<std::uint32_t> voxels{};
-    Points centroids{};
-    Directions seen{};
-    std::vector<Sight> sights{};
+/// Voxels that are asked about, those of a block together.
+struct EvidenceMap::Places {
+    std::vector<std::uint32_t> blocks;
+    std::vector<std::size_t> first;  // of each block, the place of its first voxel below; the end
+    std::vector<std::uint32_t> voxels;
+    Points centroids;
 };
+
+/// The voxels of those blocks that are `wanted`.
+template <class Wanted>
+EvidenceMap::Places EvidenceMap::places_in(std::vector<std::uint32_t> blocks,
+                                           const Wanted& wanted) const {
+    Places places{.blocks = std::move(blocks), .first = {0}, .voxels = {}, .centroids = {}};
+    for (const std::uint32_t block : places.blocks) {
+        grid_.voxels().each_in_block(block, [&](std::uint32_t v) {
+            if (wanted(v)) places.voxels.push_back(v);
+        });
+        places.first.push_back(places.voxels.size());
+    }
+    places.centroids.reserve(places.voxels.size());
+    for (std::size_t i = 0; i < places.voxels.size(); ++i) {
+        constexpr std::size_t kAhead = 16;  // voxels of a block may lie far apart in memory
+        if (i + kAhead < places.voxels.size()) {
+            __builtin_prefetch(&grid_[places.voxels[i + kAhead]]);
+        }
+        places.centroids.push_back(grid_[places.voxels[i]].centroid);
+    }
+    return places;
+}
 
 /// The newest observer checks the voxels that were known before its scan.
 void EvidenceMap::check_known(std::span<const std::uint32_t> blocks) {
+    const Observer& newest = observers_.kept().back();
     parallel_for(blocks.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-        Batch batch{.first = 0, .end = known_};
-        observe(blocks.subspan(begin, end - begin), batch, {&observers_.kept().back(), 1}, true);
-        for (std::size_t i = 0; i < batch.voxels.size(); ++i) {
-            if (batch.sights[i] != Sight::unknown) grid_.update_score(batch.voxels[i]);
+        const auto some = blocks.subspan(begin, end - begin);
+        std::vector<std::uint32_t> in_sight;
+        for (const std::size_t b : blocks_in_sight(some, newest)) in_sight.push_back(some[b]);
+        const Places places =
+            places_in(std::move(in_sight), [&](std::uint32_t v) { return v < known_; });
+        const std::vector<Sight> sights = look(newest, places.centroids);
+        for (std::size_t i = 0; i < sights.size(); ++i) {
+            const std::uint32_t v = places.voxels[i];
+            if (grid_.record(v, sights[i], 1, true)) grid_.update_score(v);
         }
     });
 }
 
-/// The voxels that the newest scan has added ask the observers.
+/// The voxels that the newest scan has added ask the observers, oldest first. An observer is asked
+/// about all of them at once: its image is in the cache then.
 void EvidenceMap::check_new() {
-    const std::vector<std::uint32_t> blocks = grid_.blocks_from(known_);
+    const Places places =
+        places_in(grid_.blocks_from(known_), [&](std::uint32_t v) { return v >= known_; });
     const std::vector<Observers::Asked> asked = observers_.asked_by_new();
-    parallel_for(blocks.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-        Batch batch{.first = known_, .end = grid_.size()};
-        for (const Observers::Asked& one : asked) {
-            const bool newest = is_due_ && one.observer == &observers_.kept().back();
-            observe({&blocks[begin], end - begin}, batch, one, newest);
-        }
-        for (std::size_t b = begin; b < end; ++b) {
-            grid_.voxels().each_in_block(blocks[b], [&](std::uint32_t v) {
-                if (v >= batch.first) grid_.update_score(v);
-            });
+    std::vector<std::vector<Sight>> sights(asked.size());
+    parallel_for(asked.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) sights[k] = look(*asked[k].observer, places);
+    });
+    parallel_for(places.voxels.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            for (std::size_t k = 0; k < asked.size(); ++k) {
+                const bool newest = is_due_ && k + 1 == asked.size();
+                grid_.record(places.voxels[i], sights[k][i], asked[k].weight, newest);
+            }
+            grid_.update_score(places.voxels[i]);
         }
     });
 }
 
-/// Fills `batch` with the voxels that may be within sight, and what the observer sees there.
-void EvidenceMap::find_sights(std::span<const std::uint32_t> blocks, Batch& batch,
-                              const Observer& observer) const {
+/// Which of those blocks may hold a voxel that the observer sees.
+std::vector<std::size_t> EvidenceMap::blocks_in_sight(std::span<const std::uint32_t> blocks,
+                                                      const Observer& observer) const {
     SightMargins margins = margins_;
     margins.farthest = observer.reach;
     const float radius = 3.5F * grid_.voxel_size();  // of the sphere around a block, and a little
-    batch.centers.clear();
-    for (const std::uint32_t block : blocks) batch.centers.push_back(grid_.middle_of(block));
-    to_spherical(batch.centers, observer.T_sensor_map, batch.seen);
-    batch.voxels.clear();
-    batch.centroids.clear();
+    Points centers;
+    centers.reserve(blocks.size());
+    for (const std::uint32_t block : blocks) centers.push_back(grid_.middle_of(block));
+    Directions seen;
+    to_spherical(centers, observer.T_sensor_map, seen);
+    std::vector<std::size_t> in_sight;
     for (std::size_t b = 0; b < blocks.size(); ++b) {
-        const Beam center{batch.seen.azimuth[b], batch.seen.elevation[b], batch.seen.range[b]};
-        if (!may_see(observer.image, center, radius, margins)) continue;
-        grid_.voxels().each_in_block(blocks[b], [&](std::uint32_t v) {
-            const bool is_asked = batch.place.empty() || batch.place[v] != kNoVoxel;
-            if (v >= batch.first && v < batch.end && is_asked) batch.voxels.push_back(v);
-        });
+        const Beam center{seen.azimuth[b], seen.elevation[b], seen.range[b]};
+        if (may_see(observer.image, center, radius, margins)) in_sight.push_back(b);
     }
-    for (std::size_t i = 0; i < batch.voxels.size(); ++i) {
-        constexpr std::size_t kAhead = 12;  // voxels of a block lie far apart in memory
-        if (i + kAhead < batch.voxels.size()) {
-            __builtin_prefetch(&grid_[batch.voxels[i + kAhead]]);
-        }
-        batch.centroids.push_back(grid_[batch.voxels[i]].centroid);
-    }
-    to_spherical(batch.centroids, observer.T_sensor_map, batch.seen);
-    check_lines_of_sight(observer.image, batch.seen, margins, batch.sights);
+    return in_sight;
 }
 
-void EvidenceMap::observe(std::span<const std::uint32_t> blocks, Batch& batch,
-                          const Observers::Asked& asked, bool newest) {
-    find_sights(blocks, batch, *asked.observer);
-    for (std::size_t i = 0; i < batch.voxels.size(); ++i) {
-        if (batch.sights[i] == Sight::unknown) continue;
-        grid_.record(batch.voxels[i], batch.sights[i], asked.weight, newest);
+/// What the observer sees at each of the places.
+std::vector<Sight> EvidenceMap::look(const Observer& observer, const Points& centroids) const {
+    SightMargins margins = margins_;
+    margins.farthest = observer.reach;
+    Directions seen;
+    to_spherical(centroids, observer.T_sensor_map, seen);
+    std::vector<Sight> sights;
+    check_lines_of_sight(observer.image, seen, margins, sights);
+    return sights;
+}
+
+/// The same, but most blocks are out of sight.
+std::vector<Sight> EvidenceMap::look(const Observer& observer, const Places& places) const {
+    Points centroids;
+    std::vector<std::size_t> at;
+    for (const std::size_t b : blocks_in_sight(places.blocks, observer)) {
+        for (std::size_t i = places.first[b]; i < places.first[b + 1]; ++i) {
+            centroids.push_back(places.centroids[i]);
+            at.push_back(i);
+        }
     }
+    const std::vector<Sight> seen = look(observer, centroids);
+    std::vector<Sight> sights(places.voxels.size(), Sight::unknown);
+    for (std::size_t i = 0; i < at.size(); ++i) sights[at[i]] = seen[i];
+    return sights;
 }
 
 std::vector<std::vector<std::size_t>> EvidenceMap::free_keyframes(
@@ -133,23 +168,23 @@ std::vector<std::vector<std::size_t>> EvidenceMap::free_keyframes(
     }
     std::sort(blocks.begin(), blocks.end());
     blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+    const Places places = places_in(
+        std::move(blocks), [&](std::uint32_t v) { return place[v] != kNoVoxel; });
     constexpr std::size_t kMostAsked = 64;
     const auto& kept = observers_.kept();
-    const std::size_t stride = (kept.size() + kMostAsked - 1) / kMostAsked;
-    std::vector<std::vector<std::size_t>> result(voxels.size());
-    if (kept.empty()) return result;
-    parallel_for(blocks.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-        Batch batch{.first = 0, .end = grid_.size(), .place = place};
-        for (std::size_t k = stride - 1; k < kept.size(); k += stride) {
-            const Observer& observer = kept[k];
-            find_sights({&blocks[begin], end - begin}, batch, observer);
-            for (std::size_t i = 0; i < batch.voxels.size(); ++i) {
-                if (is_free(batch.sights[i])) {
-                    result[place[batch.voxels[i]]].push_back(observer.index);
-                }
-            }
-        }
+    const std::size_t stride = std::max<std::size_t>(1, (kept.size() + kMostAsked - 1) / kMostAsked);
+    const std::size_t asked = kept.size() / stride;
+    std::vector<std::vector<Sight>> sights(asked);
+    const auto observer = [&](std::size_t k) -> const Observer& { return kept[stride * (k + 1) - 1]; };
+    parallel_for(asked, 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) sights[k] = look(observer(k), places);
     });
+    std::vector<std::vector<std::size_t>> result(voxels.size());
+    for (std::size_t k = 0; k < asked; ++k) {
+        for (std::size_t i = 0; i < places.voxels.size(); ++i) {
+            if (is_free(sights[k][i])) result[place[places.voxels[i]]].push_back(observer(k).index);
+        }
+    }
     return result;
 }
 

@@ -20,6 +20,7 @@ struct Neighborhood {
     using Column = std::array<float, kMost>;
     Column x, y, z, weight, score, first, last;
     std::size_t count = 0;
+    std::array<std::pair<std::uint32_t, Cell>, kMost> found;  // kNoVoxel: too far
 
     void add(const Cell& cell, float voter_weight, float voter_score, const Evidence& e) {
         x[count] = static_cast<float>(cell.x());
@@ -40,16 +41,24 @@ struct Neighborhood {
                 float sure) {
         constexpr int kReach = 2;
         const Cell low = asked.min().array() - kReach, high = asked.max().array() + kReach;
-        count = 0;
+        std::size_t around = 0;
         grid.neighbors().each_around(
             grid.voxels(), kReach, block, [&](std::uint32_t v, const Cell& cell) {
                 const bool near =
                     (cell.array() >= low.array()).all() && (cell.array() <= high.array()).all();
-                if (!near) return add_nobody();
-                const Evidence& e = grid[v].evidence;
-                const auto looks = static_cast<float>(e.n_own + e.n_free);
-                add(cell, looks / (looks + sure), std::max(grid[v].score, -1.0F), e);
+                if (near) __builtin_prefetch(&grid[v]);
+                found[around++] = {near ? v : kNoVoxel, cell};
             });
+        count = 0;
+        for (const auto& [v, cell] : std::span(found).first(around)) {
+            if (v == kNoVoxel) {
+                add_nobody();
+                continue;
+            }
+            const Evidence& e = grid[v].evidence;
+            const auto looks = static_cast<float>(e.n_own + e.n_free);
+            add(cell, looks / (looks + sure), std::max(grid[v].score, -1.0F), e);
+        }
         while (count % kernel::kVoters != 0) add_nobody();
     }
     [[nodiscard]] float vote_on(const Cell& cell, const Evidence& e,

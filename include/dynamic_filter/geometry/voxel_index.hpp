@@ -2,12 +2,11 @@
 /// Numbers for voxels.
 #pragma once
 
-#include <tsl/robin_map.h>
-
 #include <array>
 #include <bit>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "dynamic_filter/geometry/voxel.hpp"
@@ -17,19 +16,36 @@ namespace dynamic_filter {
 /// The voxel of each point of a scan; kNoVoxel: none.
 using PointVoxels = std::vector<std::uint32_t>;
 
-/// The numbers of the blocks asked for last. A scan comes back to the same blocks with every ring
-/// or column of it.
-class BlockCache {
+/// Finds the number of a block by its first cell: open addressing, at most half full.
+class BlockTable {
 public:
-    struct Entry {
-        VoxelKey block = ~VoxelKey{0};
-        std::uint32_t number = 0;
-    };
-    /// Where the block is, if it is here; the caller fills in what is not.
-    Entry& at(VoxelKey block) { return entries_[block * 0x9E3779B97F4A7C15ULL >> 54]; }
+    /// Asks memory for what find() or insert() will read.
+    void prefetch(VoxelKey corner) const { __builtin_prefetch(&slots_[slot_of(corner)]); }
+    /// kNoVoxel: not there.
+    [[nodiscard]] std::uint32_t find(VoxelKey corner) const { return slots_[at(corner)].number; }
+    /// The number of the block, which is `next` if it was not there.
+    std::uint32_t insert(VoxelKey corner, std::uint32_t next);
 
 private:
-    std::vector<Entry> entries_ = std::vector<Entry>(1024);
+    struct Slot {
+        VoxelKey corner = 0;
+        std::uint32_t number = kNoVoxel;  // kNoVoxel: empty
+    };
+    [[nodiscard]] std::size_t slot_of(VoxelKey corner) const {
+        return VoxelHash{}(corner) & (slots_.size() - 1);
+    }
+    /// Where the block is, or the empty slot where it would be.
+    [[nodiscard]] std::size_t at(VoxelKey corner) const {
+        std::size_t slot = slot_of(corner);
+        while (slots_[slot].number != kNoVoxel && slots_[slot].corner != corner) {
+            slot = (slot + 1) & (slots_.size() - 1);
+        }
+        return slot;
+    }
+    void grow();
+
+    std::vector<Slot> slots_ = std::vector<Slot>(64);  // a power of two
+    std::size_t filled_ = 0;
 };
 
 /// Numbers voxels in the order in which they are first met: dense ids for plain arrays. Inside,
@@ -38,16 +54,21 @@ private:
 class VoxelIndex {
 public:
     std::uint32_t insert(VoxelKey key);
+    /// The same for many, in their order: `ids` is parallel to `keys`. Quicker than one by one,
+    /// because it asks memory for many places at a time.
+    void insert(std::span<const VoxelKey> keys, std::span<std::uint32_t> ids);
 
     /// Renumbers the voxels from `first` on so that those of a block follow each other: near in
     /// the arrays of the caller, too. Returns the new number of each, in the order of the old.
     std::vector<std::uint32_t> group_by_block(std::uint32_t first);
 
     [[nodiscard]] std::optional<std::uint32_t> find(VoxelKey key) const {
-        const auto block = find_block(block_of(key));
-        const std::uint32_t id = block ? id_in(blocks_[*block], key) : kNoVoxel;
+        const std::uint32_t block = table_.find(block_of(key));
+        const std::uint32_t id = block == kNoVoxel ? kNoVoxel : id_in(blocks_[block], key);
         return id == kNoVoxel ? std::nullopt : std::optional(id);
     }
+    /// The same for many: `ids` is parallel to `keys`; kNoVoxel: not there.
+    void find(std::span<const VoxelKey> keys, std::span<std::uint32_t> ids) const;
     [[nodiscard]] VoxelKey key(std::uint32_t id) const { return keys_[id]; }
     [[nodiscard]] std::size_t size() const { return keys_.size(); }
 
@@ -57,7 +78,7 @@ public:
         return block_of_voxel_[id];
     }
     /// The first of its 4 x 4 x 4 cells.
-    [[nodiscard]] Cell corner(std::uint32_t block) const { return unpack(blocks_[block].corner); }
+    [[nodiscard]] Cell corner(std::uint32_t block) const { return unpack(corners_[block]); }
     /// Calls use(id) for every voxel of the block.
     template <class Use>
     void each_in_block(std::uint32_t block, const Use& use) const {
@@ -74,14 +95,12 @@ public:
     }
     /// The number of the block with this first cell.
     [[nodiscard]] std::optional<std::uint32_t> find_block(VoxelKey corner) const {
-        const auto it = number_of_block_.find(corner);
-        return it == number_of_block_.end() ? std::nullopt : std::optional(it->second);
+        const std::uint32_t block = table_.find(corner);
+        return block == kNoVoxel ? std::nullopt : std::optional(block);
     }
 
 private:
-    friend class VoxelFinder;
     struct Block {
-        VoxelKey corner = 0;
         std::uint64_t present = 0;  // bit 16 x + 4 y + z
         std::array<std::uint32_t, 64> ids{};
     };
@@ -96,33 +115,18 @@ private:
         return (block.present >> place & 1U) != 0 ? block.ids[place] : kNoVoxel;
     }
 
-    tsl::robin_map<VoxelKey, std::uint32_t, VoxelHash> number_of_block_;
+    void prefetch(std::uint32_t block, VoxelKey key) const {
+        __builtin_prefetch(&blocks_[block].present);
+        __builtin_prefetch(&blocks_[block].ids[place_of(key)]);
+    }
+    std::uint32_t block_with(VoxelKey corner);
+    std::uint32_t insert_in(std::uint32_t block, VoxelKey key);
+
+    BlockTable table_;
     std::vector<Block> blocks_;
+    std::vector<VoxelKey> corners_;  // by block
     std::vector<VoxelKey> keys_;
     std::vector<std::uint32_t> block_of_voxel_;
-    BlockCache recent_;  // of insert()
-};
-
-/// Finds one voxel after another; quick while they share blocks. For one thread; the index must
-/// outlive it and not grow meanwhile.
-class VoxelFinder {
-public:
-    explicit VoxelFinder(const VoxelIndex& index) : index_(index) {}
-
-    /// kNoVoxel: not there.
-    std::uint32_t operator()(VoxelKey key) {
-        const VoxelKey block = VoxelIndex::block_of(key);
-        BlockCache::Entry& recent = recent_.at(block);
-        if (recent.block != block) {
-            recent = {block, index_.find_block(block).value_or(kNoVoxel)};
-        }
-        return recent.number == kNoVoxel ? kNoVoxel
-                                         : index_.id_in(index_.blocks_[recent.number], key);
-    }
-
-private:
-    const VoxelIndex& index_;
-    BlockCache recent_;
 };
 
 }  // namespace dynamic_filter

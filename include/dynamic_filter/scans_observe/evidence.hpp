@@ -44,8 +44,8 @@ struct Observation {
 
 /// Takes in what the next keyframe saw. An occupied run lasts from when a voxel is first seen
 /// occupied until it is seen free: of each, only the first `longest_run` keyframes (up to 255) tell
-/// anything new about whether the voxel is static.
-void record(Evidence& evidence, const Observation& observation, unsigned longest_run);
+/// anything new about whether the voxel is static. False if the score is the same as before.
+bool record(Evidence& evidence, const Observation& observation, unsigned longest_run);
 
 /// Notes that this scan, by the order of the scans, has a point in the voxel: once a scan.
 void record_owner(Evidence& evidence, std::uint32_t scan);

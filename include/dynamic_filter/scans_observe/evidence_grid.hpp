@@ -2,6 +2,7 @@
 /// The voxels of the map, and what is known of each.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "dynamic_filter/geometry/map_points.hpp"
@@ -26,8 +27,8 @@ public:
     /// after the others, those of a block together.
     PointVoxels add_points(const Scan& scan);
     /// Takes in what a keyframe saw of the voxel, see evidence.hpp; `newest`: it is the newest
-    /// scan. The score follows with update_score().
-    void record(std::uint32_t voxel, Sight sight, unsigned weight, bool newest);
+    /// scan. True if update_score() would change the score.
+    bool record(std::uint32_t voxel, Sight sight, unsigned weight, bool newest);
     void update_score(std::uint32_t voxel);
 
     /// See evidence.hpp.
@@ -59,7 +60,8 @@ public:
     /// See DynamicScore.
     [[nodiscard]] float expected_free(const Evidence& e) const { return score_.expected_free(e); }
 
-    struct State {
+    /// All of it in one line of cache: voxels are asked in any order.
+    struct alignas(64) State {
         Point centroid = Point::Zero();
         float score = 0.0F;  ///< DynamicScore, 0 while unknown; kept, as neighbours ask often
         Evidence evidence;
@@ -67,7 +69,7 @@ public:
     [[nodiscard]] const State& operator[](std::uint32_t voxel) const { return states_[voxel]; }
 
 private:
-    std::uint32_t own(VoxelKey key);
+    void own(std::span<const VoxelKey> keys, std::span<std::uint32_t> voxels);
     void number_by_block(std::size_t known, PointVoxels& voxels_of_points);
     void find_centroids(std::size_t known, const MapPoints& in_map,
                         const PointVoxels& voxels_of_points);

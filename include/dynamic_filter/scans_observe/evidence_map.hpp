@@ -54,13 +54,15 @@ public:
     [[nodiscard]] const Observers& observers() const { return observers_; }
 
 private:
-    struct Batch;
+    struct Places;
+    template <class Wanted>
+    [[nodiscard]] Places places_in(std::vector<std::uint32_t> blocks, const Wanted& wanted) const;
     void check_known(std::span<const std::uint32_t> blocks);
     void check_new();
-    void find_sights(std::span<const std::uint32_t> blocks, Batch& batch,
-                     const Observer& observer) const;
-    void observe(std::span<const std::uint32_t> blocks, Batch& batch, const Observers::Asked& asked,
-                 bool newest);
+    [[nodiscard]] std::vector<std::size_t> blocks_in_sight(std::span<const std::uint32_t> blocks,
+                                                           const Observer& observer) const;
+    [[nodiscard]] std::vector<Sight> look(const Observer& observer, const Points& centroids) const;
+    [[nodiscard]] std::vector<Sight> look(const Observer& observer, const Places& places) const;
 
     SightMargins margins_;
     EvidenceGrid grid_;
