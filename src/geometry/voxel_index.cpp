@@ -60,10 +60,10 @@ void VoxelIndex::insert(std::span<const VoxelKey> keys, std::span<std::uint32_t>
     std::array<std::uint32_t, kTogether> blocks{};
     for (std::size_t begin = 0; begin < keys.size(); begin += kTogether) {
         const auto some = keys.subspan(begin, std::min(kTogether, keys.size() - begin));
-        for (const VoxelKey key : some) table_.prefetch(block_of(key));
+        for (const VoxelKey key : some) prefetch(key);
         for (std::size_t i = 0; i < some.size(); ++i) {
             blocks[i] = block_with(block_of(some[i]));
-            prefetch(blocks[i], some[i]);
+            prefetch_in(blocks[i], some[i]);
         }
         for (std::size_t i = 0; i < some.size(); ++i) ids[begin + i] = insert_in(blocks[i], some[i]);
     }
@@ -73,10 +73,10 @@ void VoxelIndex::find(std::span<const VoxelKey> keys, std::span<std::uint32_t> i
     std::array<std::uint32_t, kTogether> blocks{};
     for (std::size_t begin = 0; begin < keys.size(); begin += kTogether) {
         const auto some = keys.subspan(begin, std::min(kTogether, keys.size() - begin));
-        for (const VoxelKey key : some) table_.prefetch(block_of(key));
+        for (const VoxelKey key : some) prefetch(key);
         for (std::size_t i = 0; i < some.size(); ++i) {
             blocks[i] = table_.find(block_of(some[i]));
-            if (blocks[i] != kNoVoxel) prefetch(blocks[i], some[i]);
+            if (blocks[i] != kNoVoxel) prefetch_in(blocks[i], some[i]);
         }
         for (std::size_t i = 0; i < some.size(); ++i) {
             ids[begin + i] = blocks[i] == kNoVoxel ? kNoVoxel : id_in(blocks_[blocks[i]], some[i]);

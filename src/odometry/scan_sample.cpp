@@ -14,11 +14,19 @@ constexpr double kMapSpacing = 0.4;       // in voxels of the map
 /// The first point in each voxel.
 std::vector<std::uint32_t> first_in_voxels(const Points& points, double size) {
     const auto per_metre = static_cast<float>(1.0 / size);
-    VoxelIndex seen;
-    std::vector<std::uint32_t> first;
+    std::vector<VoxelKey> keys;
+    std::vector<std::uint32_t> of_keys;  // points
     for (std::uint32_t i = 0; i < points.size(); ++i) {
         const auto cell = cell_of(points[i], per_metre);
-        if (cell && seen.insert(pack(*cell)) == first.size()) first.push_back(i);
+        if (!cell) continue;
+        keys.push_back(pack(*cell));
+        of_keys.push_back(i);
+    }
+    std::vector<std::uint32_t> voxels(keys.size());
+    VoxelIndex().insert(keys, voxels);
+    std::vector<std::uint32_t> first;
+    for (std::size_t i = 0; i < voxels.size(); ++i) {
+        if (voxels[i] == first.size()) first.push_back(of_keys[i]);
     }
     return first;
 }

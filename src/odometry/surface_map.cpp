@@ -32,21 +32,29 @@ void SurfaceMap::insert(const Points& in_map) {
 }
 
 void SurfaceMap::insert(Level& level, const Points& in_map) {
-    std::vector<std::uint32_t> touched;
-    for (const Point& p : in_map) {
-        const auto cell = cell_of(p, 1.0F / level.size);
+    std::vector<VoxelKey> keys;
+    std::vector<std::uint32_t> of_keys;  // points
+    keys.reserve(in_map.size());
+    for (std::uint32_t i = 0; i < in_map.size(); ++i) {
+        const auto cell = cell_of(in_map[i], 1.0F / level.size);
         if (!cell) continue;
-        const VoxelKey key = pack(*cell);
-        const std::uint32_t voxel = level.voxels.insert(key);
-        if (voxel == level.moments.size()) {
-            level.moments.emplace_back();
-            level.surfaces.emplace_back();
-            level.due.push_back(kFewest);
-        }
+        keys.push_back(pack(*cell));
+        of_keys.push_back(i);
+    }
+    std::vector<std::uint32_t> voxels(keys.size());
+    level.voxels.insert(keys, voxels);
+    level.moments.resize(level.voxels.size());
+    level.surfaces.resize(level.voxels.size());
+    level.due.resize(level.voxels.size(), kFewest);
+    std::vector<std::uint32_t> touched;
+    for (std::size_t i = 0; i < voxels.size(); ++i) {
+        constexpr std::size_t kAhead = 8;  // points whose voxels memory is asked for
+        if (i + kAhead < voxels.size()) __builtin_prefetch(&level.moments[voxels[i + kAhead]]);
+        const std::uint32_t voxel = voxels[i];
         Moments& m = level.moments[voxel];
         if (m.count >= kMost) continue;
         m.count += 1.0F;
-        const Point offset = p - corner_of(key, level.size) - m.mean;
+        const Point offset = in_map[of_keys[i]] - corner_of(keys[i], level.size) - m.mean;
         m.mean += offset / m.count;
         const Point d = offset * (1.0F - 1.0F / m.count);
         const std::array<float, 6> more = {offset.x() * d.x(), offset.x() * d.y(),
@@ -91,10 +99,16 @@ float Surface::variance_at(const Point& place) const {
 const Surface* SurfaceMap::at(const Point& place) const {
     const Surface* best = nullptr;
     float least = kRoughest * kRoughest;
-    for (const Level& level : levels_) {
-        const auto cell = cell_of(place, 1.0F / level.size);
+    std::array<VoxelKey, kLevels> keys{};
+    for (std::size_t l = 0; l < kLevels; ++l) {
+        const auto cell = cell_of(place, 1.0F / levels_[l].size);
         if (!cell) return nullptr;
-        const auto voxel = level.voxels.find(pack(*cell));
+        keys[l] = pack(*cell);
+        levels_[l].voxels.prefetch(keys[l]);
+    }
+    for (std::size_t l = 0; l < kLevels; ++l) {
+        const Level& level = levels_[l];
+        const auto voxel = level.voxels.find(keys[l]);
         if (!voxel || level.surfaces[*voxel].count == 0.0F) continue;
         const float variance = level.surfaces[*voxel].variance_at(place);
         if (variance >= least) continue;

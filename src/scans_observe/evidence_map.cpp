@@ -58,8 +58,12 @@ template <class Wanted>
 EvidenceMap::Places EvidenceMap::places_in(std::vector<std::uint32_t> blocks,
                                            const Wanted& wanted) const {
     Places places{.blocks = std::move(blocks), .first = {0}, .voxels = {}, .centroids = {}};
-    for (const std::uint32_t block : places.blocks) {
-        grid_.voxels().each_in_block(block, [&](std::uint32_t v) {
+    for (std::size_t b = 0; b < places.blocks.size(); ++b) {
+        constexpr std::size_t kAhead = 4;
+        if (b + kAhead < places.blocks.size()) {
+            grid_.voxels().prefetch_block(places.blocks[b + kAhead]);
+        }
+        grid_.voxels().each_in_block(places.blocks[b], [&](std::uint32_t v) {
             if (wanted(v)) places.voxels.push_back(v);
         });
         places.first.push_back(places.voxels.size());
@@ -86,6 +90,7 @@ void EvidenceMap::check_known(std::span<const std::uint32_t> blocks) {
             places_in(std::move(in_sight), [&](std::uint32_t v) { return v < known_; });
         const std::vector<Sight> sights = look(newest, places.centroids);
         for (std::size_t i = 0; i < sights.size(); ++i) {
+            if (sights[i] == Sight::unknown) continue;
             const std::uint32_t v = places.voxels[i];
             if (grid_.record(v, sights[i], 1, true)) grid_.update_score(v);
         }
@@ -105,6 +110,7 @@ void EvidenceMap::check_new() {
     parallel_for(places.voxels.size(), kGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             for (std::size_t k = 0; k < asked.size(); ++k) {
+                if (sights[k][i] == Sight::unknown) continue;
                 const bool newest = is_due_ && k + 1 == asked.size();
                 grid_.record(places.voxels[i], sights[k][i], asked[k].weight, newest);
             }
@@ -119,15 +125,21 @@ std::vector<std::size_t> EvidenceMap::blocks_in_sight(std::span<const std::uint3
     SightMargins margins = margins_;
     margins.farthest = observer.reach;
     const float radius = 3.5F * grid_.voxel_size();  // of the sphere around a block, and a little
+    const Point sensor = observer.T_sensor_map.inverse().translation();
+    const float in_reach = margins.farthest + radius + 0.1F;  // and a little: may_see() decides
     Points centers;
-    centers.reserve(blocks.size());
-    for (const std::uint32_t block : blocks) centers.push_back(grid_.middle_of(block));
+    std::vector<std::size_t> near, in_sight;
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+        const Point center = grid_.middle_of(blocks[b]);
+        if ((center - sensor).squaredNorm() > in_reach * in_reach) continue;
+        centers.push_back(center);
+        near.push_back(b);
+    }
     Directions seen;
     to_spherical(centers, observer.T_sensor_map, seen);
-    std::vector<std::size_t> in_sight;
-    for (std::size_t b = 0; b < blocks.size(); ++b) {
-        const Beam center{seen.azimuth[b], seen.elevation[b], seen.range[b]};
-        if (may_see(observer.image, center, radius, margins)) in_sight.push_back(b);
+    for (std::size_t i = 0; i < near.size(); ++i) {
+        const Beam center{seen.azimuth[i], seen.elevation[i], seen.range[i]};
+        if (may_see(observer.image, center, radius, margins)) in_sight.push_back(near[i]);
     }
     return in_sight;
 }

@@ -20,7 +20,13 @@ Verdict InstantVerdicts::judge(std::size_t index, const PointVoxels& voxels,
                                const EvidenceGrid& grid) {
     said_.resize(grid.size());
     std::vector<std::uint32_t> due;
-    for (const std::uint32_t voxel : voxels) {
+    for (std::size_t i = 0; i < voxels.size(); ++i) {
+        constexpr std::size_t kAhead = 16;  // points whose voxels memory is asked for
+        if (i + kAhead < voxels.size() && voxels[i + kAhead] != kNoVoxel) {
+            __builtin_prefetch(&grid[voxels[i + kAhead]]);
+            __builtin_prefetch(&said_[voxels[i + kAhead]]);
+        }
+        const std::uint32_t voxel = voxels[i];
         if (voxel == kNoVoxel || !is_due(said_[voxel], grid[voxel])) continue;
         said_[voxel] = {grid[voxel].score, Label::static_};  // for now, so that it is listed once
         due.push_back(voxel);

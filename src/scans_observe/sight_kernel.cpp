@@ -101,9 +101,12 @@ DF_INLINE Around nothing_around() {
     return around;
 }
 
-/// Most places are so far away that their window is 3 x 3 pixels.
-DF_INLINE Ints has_small_window(const Places& p) {
-    return (p.reach_rows <= 1.0F) & (p.reach_columns <= 1.0F);
+/// Sixteen places are looked at in a window as wide as the widest of theirs, so those of a kind go
+/// together. Most places are so far away that theirs is 3 x 3 pixels: the first kind.
+constexpr int kWindows = 4;
+DF_INLINE Ints window_of(const Places& p) {
+    const Ints wide = 1 + ((p.reach_columns > 2.0F) & 1) + ((p.reach_columns > 4.0F) & 1);
+    return ((p.reach_rows <= 1.0F) & (p.reach_columns <= 1.0F)) ? Ints{} : wide;
 }
 DF_INLINE Around beams_around_small(const SightArgs& args, const Places& p) {
     Around around = nothing_around();
@@ -208,8 +211,7 @@ DF_INLINE void put(Sixteen& into, int k, const SightArgs& args, std::size_t inde
     into.elevation[k] = args.elevation[index];
     into.range[k] = args.range[index];
 }
-template <bool small>
-DF_INLINE void judge_sixteen(const SightArgs& args, Pending& w) {
+DF_INLINE void judge_sixteen(const SightArgs& args, Pending& w, bool small) {
     const int done = w.count < kLanes ? w.count : kLanes;
     Sixteen places;
     for (int k = 0; k < done; ++k) put(places, k, args, w.index[k]);
@@ -223,7 +225,7 @@ DF_INLINE void judge_sixteen(const SightArgs& args, Pending& w) {
 }  // namespace
 
 void check_lines_of_sight(const SightArgs& args) {
-    Pending near, far;
+    Pending pending[kWindows];
     for (std::size_t begin = 0; begin < args.count; begin += kLanes) {
         const std::size_t left = args.count - begin;
         const int count = left < kLanes ? static_cast<int>(left) : kLanes;
@@ -238,21 +240,21 @@ void check_lines_of_sight(const SightArgs& args) {
         }
         const Places p = places_at(args, azimuth, elevation, range);
         const Ints sight = first_check(args, p);
-        const Ints undecided = sight == kUndecided, small = has_small_window(p);
-        const Ints to_near = undecided & ~small & 1, to_far = undecided & small & 1;
+        const Ints undecided = (sight == kUndecided) & 1, window = window_of(p);
         for (int k = 0; k < count; ++k) {  // no branches: which way they go cannot be foreseen
             const std::size_t i = begin + static_cast<std::size_t>(k);
             args.sights[i] = static_cast<std::uint8_t>(sight[k]);
-            near.index[near.count] = i;
-            near.count += to_near[k];
-            far.index[far.count] = i;
-            far.count += to_far[k];
+            Pending& alike = pending[window[k]];
+            alike.index[alike.count] = i;
+            alike.count += undecided[k];
         }
-        if (near.count >= kLanes) judge_sixteen<false>(args, near);
-        if (far.count >= kLanes) judge_sixteen<true>(args, far);
+        for (int w = 0; w < kWindows; ++w) {
+            if (pending[w].count >= kLanes) judge_sixteen(args, pending[w], w == 0);
+        }
     }
-    if (near.count > 0) judge_sixteen<false>(args, near);
-    if (far.count > 0) judge_sixteen<true>(args, far);
+    for (int w = 0; w < kWindows; ++w) {
+        if (pending[w].count > 0) judge_sixteen(args, pending[w], w == 0);
+    }
 }
 
 }  // namespace dynamic_filter::kernel::DYNAMIC_FILTER_LEVEL

@@ -14,52 +14,49 @@ namespace dynamic_filter {
 
 namespace {
 
-/// Those who may vote on the voxels of a block.
+/// Those who may vote on the voxels of a block. Cells are counted from the block's first one.
 struct Neighborhood {
     static constexpr std::size_t kMost = 8 * 8 * 8;  // a block, and two cells around it
     using Column = std::array<float, kMost>;
-    Column x, y, z, weight, score, first, last;
+    Column x{}, y{}, z{}, weight{}, score{}, first{}, last{};
     std::size_t count = 0;
-    std::array<std::pair<std::uint32_t, Cell>, kMost> found;  // kNoVoxel: too far
+    std::array<std::uint32_t, kMost> voters{};  // kNoVoxel: too far
+    std::array<Cell, kMost> cells{};
 
-    void add(const Cell& cell, float voter_weight, float voter_score, const Evidence& e) {
-        x[count] = static_cast<float>(cell.x());
-        y[count] = static_cast<float>(cell.y());
-        z[count] = static_cast<float>(cell.z());
-        weight[count] = voter_weight;
-        score[count] = voter_weight * voter_score;
-        first[count] = static_cast<float>(e.first_owner);
-        last[count] = static_cast<float>(e.last_owner);
-        ++count;
-    }
-    void add_nobody() {
-        add(Cell::Constant(static_cast<int>(kernel::kOutOfReach)), 0.0F, 0.0F, {});
-    }
     /// For the voxels `asked`, all of this block. Who is too far from all of them keeps a place, so
     /// that sums are rounded alike whoever is asked, but is not looked up.
     void gather(const EvidenceGrid& grid, std::uint32_t block, const Eigen::AlignedBox3i& asked,
                 float sure) {
         constexpr int kReach = 2;
         const Cell low = asked.min().array() - kReach, high = asked.max().array() + kReach;
-        std::size_t around = 0;
+        count = 0;
         grid.neighbors().each_around(
             grid.voxels(), kReach, block, [&](std::uint32_t v, const Cell& cell) {
                 const bool near =
                     (cell.array() >= low.array()).all() && (cell.array() <= high.array()).all();
                 if (near) __builtin_prefetch(&grid[v]);
-                found[around++] = {near ? v : kNoVoxel, cell};
+                voters[count] = near ? v : kNoVoxel;
+                cells[count++] = cell;
             });
-        count = 0;
-        for (const auto& [v, cell] : std::span(found).first(around)) {
-            if (v == kNoVoxel) {
-                add_nobody();
-                continue;
+        for (std::size_t i = 0; i < count; ++i) {
+            if (voters[i] == kNoVoxel) {
+                x[i] = kernel::kOutOfReach;
+            } else {
+                take(i, grid[voters[i]], sure);
             }
-            const Evidence& e = grid[v].evidence;
-            const auto looks = static_cast<float>(e.n_own + e.n_free);
-            add(cell, looks / (looks + sure), std::max(grid[v].score, -1.0F), e);
         }
-        while (count % kernel::kVoters != 0) add_nobody();
+        while (count % kernel::kVoters != 0) x[count++] = kernel::kOutOfReach;
+    }
+    void take(std::size_t i, const EvidenceGrid::State& voter, float sure) {
+        const Evidence& e = voter.evidence;
+        const auto looks = static_cast<float>(e.n_own + e.n_free);
+        x[i] = static_cast<float>(cells[i].x());
+        y[i] = static_cast<float>(cells[i].y());
+        z[i] = static_cast<float>(cells[i].z());
+        weight[i] = looks / (looks + sure);
+        score[i] = weight[i] * std::max(voter.score, -1.0F);
+        first[i] = static_cast<float>(e.first_owner);
+        last[i] = static_cast<float>(e.last_owner);
     }
     [[nodiscard]] float vote_on(const Cell& cell, const Evidence& e,
                                 const ScansConfig::Vote& config) const {
@@ -111,16 +108,24 @@ std::vector<std::optional<float>> occupancy_of(const EvidenceGrid& grid,
         Neighborhood neighborhood;
         for (std::size_t i = begin; i < end; ++i) {
             const auto [block, at] = by_block[i];
+            const auto cell_of_voxel = [&, corner = grid.voxels().corner(block)](std::uint32_t v) {
+                return Cell(unpack(grid.voxels().key(v)) - corner);
+            };
             if (i == begin || by_block[i - 1].first != block) {
                 Eigen::AlignedBox3i asked;
-                for (std::size_t k = i; k < end && by_block[k].first == block; ++k) {
-                    asked.extend(unpack(grid.voxels().key(voxels[by_block[k].second])));
+                std::size_t next = i;
+                for (; next < end && by_block[next].first == block; ++next) {
+                    asked.extend(cell_of_voxel(voxels[by_block[next].second]));
+                }
+                if (next < end) {
+                    grid.neighbors().prefetch(grid.voxels(), by_block[next].first);
+                    grid.neighbors().prefetch_row(by_block[std::min(next + 8, end - 1)].first);
                 }
                 neighborhood.gather(grid, block, asked, sure);
             }
             const std::uint32_t v = voxels[at];
             const float vote =
-                neighborhood.vote_on(unpack(grid.voxels().key(v)), grid[v].evidence, config);
+                neighborhood.vote_on(cell_of_voxel(v), grid[v].evidence, config);
             if (vote == 0.0F && is_unknown(grid[v].evidence)) continue;
             const float occupancy = 1.0F / (1.0F + std::exp(steepness * (grid[v].score + vote)));
             result[at] = std::min(occupancy, rest_of(grid[v].evidence, scans.instances));

@@ -73,7 +73,7 @@ TEST(VoxelNeighbors, EachAroundIsABlockAndItsMargin) {
             }
         }
         neighbors.each_around(index, 2, block, [&](std::uint32_t v, const Cell& cell) {
-            EXPECT_EQ(pack(cell), index.key(v));
+            EXPECT_EQ(pack(index.corner(block) + cell), index.key(v));
             found.push_back(v);
         });
         std::sort(found.begin(), found.end());

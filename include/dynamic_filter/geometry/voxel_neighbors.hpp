@@ -26,19 +26,28 @@ public:
     template <class Use>
     void each_within(const VoxelIndex& index, int cells, std::uint32_t voxel,
                      const Use& use) const {
-        const Cell center = unpack(index.key(voxel));
-        each_in_box(index, index.block_of_voxel(voxel), center.array() - cells,
-                    center.array() + cells, [&](std::uint32_t id, const Cell& cell) {
+        const std::uint32_t block = index.block_of_voxel(voxel);
+        const Cell center = unpack(index.key(voxel)) - index.corner(block);
+        each_in_box(index, block, center.array() - cells, center.array() + cells,
+                    [&](std::uint32_t id, const Cell& cell) {
                         use(id, (cell - center).cwiseAbs().maxCoeff());
                     });
     }
     /// Calls use(id, cell) for every voxel of a block and of the cells, at most four, around it, in
-    /// an order that does not depend on the ids.
+    /// an order that does not depend on the ids; cells are counted from the block's first one.
     template <class Use>
     void each_around(const VoxelIndex& index, int cells, std::uint32_t block,
                      const Use& use) const {
-        const Cell corner = index.corner(block);
-        each_in_box(index, block, corner.array() - cells, corner.array() + 3 + cells, use);
+        each_in_box(index, block, Cell::Constant(-cells), Cell::Constant(3 + cells), use);
+    }
+
+    /// Asks memory for what each_around() of this block will read; first of all for prefetch()
+    /// itself.
+    void prefetch_row(std::uint32_t block) const { __builtin_prefetch(&around_[block]); }
+    void prefetch(const VoxelIndex& index, std::uint32_t block) const {
+        for (const std::uint32_t other : around_[block]) {
+            if (other != kNoBlock) index.prefetch_block(other);
+        }
     }
 
 private:
@@ -49,7 +58,8 @@ private:
     /// Places of a block whose coordinate on the axis lies in [low, high]; bits of axis 0 are 16
     /// apart, of axis 1 four, of axis 2 one.
     static std::uint64_t slab(int axis, int low, int high);
-    /// The box lies within the block and those around it.
+    /// Cells are counted from the block's first one; the box lies within the block and those around
+    /// it.
     template <class Use>
     void each_in_box(const VoxelIndex& index, std::uint32_t block, const Cell& low,
                      const Cell& high, const Use& use) const;
@@ -71,10 +81,9 @@ inline std::uint64_t VoxelNeighbors::slab(int axis, int low, int high) {
 template <class Use>
 void VoxelNeighbors::each_in_box(const VoxelIndex& index, std::uint32_t block, const Cell& low,
                                  const Cell& high, const Use& use) const {
-    const Cell home = index.corner(block), from = low - home, to = high - home;
     // Places along an axis in the block below, the block itself and the one above.
     const auto parts = [&](int axis) {
-        const auto of = [&](int first) { return slab(axis, from[axis] - first, to[axis] - first); };
+        const auto of = [&](int first) { return slab(axis, low[axis] - first, high[axis] - first); };
         return std::array{of(-4), of(0), of(4)};
     };
     const auto in_x = parts(0), in_y = parts(1), in_z = parts(2);
@@ -83,12 +92,10 @@ void VoxelNeighbors::each_in_box(const VoxelIndex& index, std::uint32_t block, c
         const std::size_t x = b / 9, y = b / 3 % 3, z = b % 3;
         const std::uint64_t wanted = in_x[x] & in_y[y] & in_z[z];
         if (wanted == 0 || around[b] == kNoBlock) continue;
-        const Cell corner =
-            home +
-            4 * (Cell(static_cast<int>(x), static_cast<int>(y), static_cast<int>(z)).array() - 1)
-                    .matrix();
+        const int from_x = 4 * static_cast<int>(x) - 4, from_y = 4 * static_cast<int>(y) - 4,
+                  from_z = 4 * static_cast<int>(z) - 4;
         index.each_in_block(around[b], wanted, [&](std::uint32_t id, int place) {
-            use(id, Cell(corner + Cell(place >> 4, place >> 2 & 3, place & 3)));
+            use(id, Cell(from_x + (place >> 4), from_y + (place >> 2 & 3), from_z + (place & 3)));
         });
     }
 }
