@@ -103,9 +103,10 @@ DF_INLINE Around nothing_around() {
 
 /// Sixteen places are looked at in a window as wide as the widest of theirs, so those of a kind go
 /// together. Most places are so far away that theirs is 3 x 3 pixels: the first kind.
-constexpr int kWindows = 4;
+constexpr int kWindows = 6;
 DF_INLINE Ints window_of(const Places& p) {
-    const Ints wide = 1 + ((p.reach_columns > 2.0F) & 1) + ((p.reach_columns > 4.0F) & 1);
+    const Floats reach = p.reach_columns;
+    const Ints wide = 1 - (reach > 2.0F) - (reach > 4.0F) - (reach > 8.0F) - (reach > 16.0F);
     return ((p.reach_rows <= 1.0F) & (p.reach_columns <= 1.0F)) ? Ints{} : wide;
 }
 DF_INLINE Around beams_around_small(const SightArgs& args, const Places& p) {
@@ -211,7 +212,9 @@ DF_INLINE void put(Sixteen& into, int k, const SightArgs& args, std::size_t inde
     into.elevation[k] = args.elevation[index];
     into.range[k] = args.range[index];
 }
-DF_INLINE void judge_sixteen(const SightArgs& args, Pending& w, bool small) {
+/// Not inlined: the loops around it would be unrolled, and the code leave its cache.
+template <bool small>
+__attribute__((noinline)) void judge_sixteen(const SightArgs& args, Pending& w) {
     const int done = w.count < kLanes ? w.count : kLanes;
     Sixteen places;
     for (int k = 0; k < done; ++k) put(places, k, args, w.index[k]);
@@ -220,6 +223,11 @@ DF_INLINE void judge_sixteen(const SightArgs& args, Pending& w, bool small) {
     for (int k = 0; k < done; ++k) args.sights[w.index[k]] = static_cast<std::uint8_t>(sight[k]);
     w.count -= done;
     for (int k = 0; k < w.count; ++k) w.index[k] = w.index[k + done];
+}
+
+DF_INLINE void judge_alike(const SightArgs& args, Pending (&pending)[kWindows], int window) {
+    if (window == 0) return judge_sixteen<true>(args, pending[window]);
+    judge_sixteen<false>(args, pending[window]);
 }
 
 }  // namespace
@@ -249,11 +257,11 @@ void check_lines_of_sight(const SightArgs& args) {
             alike.count += undecided[k];
         }
         for (int w = 0; w < kWindows; ++w) {
-            if (pending[w].count >= kLanes) judge_sixteen(args, pending[w], w == 0);
+            if (pending[w].count >= kLanes) judge_alike(args, pending, w);
         }
     }
     for (int w = 0; w < kWindows; ++w) {
-        if (pending[w].count > 0) judge_sixteen(args, pending[w], w == 0);
+        if (pending[w].count > 0) judge_alike(args, pending, w);
     }
 }
 
