@@ -12,14 +12,23 @@ namespace dynamic_filter::app {
 /// static_map.pcd and dynamic_points.pcd: the original records, x y z in the world frame. The
 /// fields are those of the first frame; far from the world's origin, where a float is coarse, x y z
 /// become float64. What is no measurement (not finite, at the sensor) is no point of a map. Single
-/// caller.
+/// caller; records_of() may run in several threads after begin().
 class MapFiles {
 public:
+    /// What one frame adds to the two files.
+    struct Records {
+        std::vector<std::byte> still, dynamic;
+    };
     /// `in_world`: the records hold world coordinates already and are passed on as they are.
     MapFiles(std::filesystem::path folder, bool keep_unknown, bool in_world)
         : folder_(std::move(folder)), keep_unknown_(keep_unknown), in_world_(in_world) {}
 
+    /// Takes the fields of the first frame, and opens the files.
+    void begin(const io::Frame& first);
     /// What Verdict::stays says belongs to the static map.
+    [[nodiscard]] Records records_of(const io::Frame& frame, const Verdict& verdict) const;
+    void append(const Records& records);
+    /// Begins if need be, and appends the records of this frame.
     void append(const io::Frame& frame, const Verdict& verdict);
     void commit();
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dynamic_filter/pipeline/online_filter.hpp"
+#include "label_store.hpp"
 #include "run_sequence.hpp"
 #include "view/run_view.hpp"
 
@@ -24,7 +25,7 @@ struct Pass {
     RunSummary summary{};
     std::vector<bool> accepted = std::vector<bool>(sequence.size());
     std::vector<std::optional<Tracked>> tracked{};  ///< by scan; if poses are found or refined
-    std::vector<Labels> instant{};                  ///< by scan; of those that are scored or shown
+    LabelStore instant{output.path()};  ///< verdicts of scans that are scored or shown
     std::vector<ScanNote> scan_notes{};
     std::optional<eval::ScanScores> scorer{};  ///< of final and instant verdicts, if there is truth
     Eigen::Vector3d scoring_origin = Eigen::Vector3d::Zero();
@@ -46,7 +47,7 @@ struct Pass {
                         tracked[verdict.index] = verdict.tracked;
                         if (sequence.has_truth() ||
                             (extras.report && is_shown(verdict.index, sequence.size()))) {
-                            instant[verdict.index] = verdict.labels;
+                            instant.put(verdict.index, verdict.labels);
                         }
                         if (watchers.live) {
                             watchers.live->feed().judged(verdict.index, verdict.labels,

@@ -83,7 +83,6 @@ void take_poses(Pass& pass) {
 /// First pass: every usable scan goes through the filter.
 void filter_scans(Pass& pass) {
     Progress progress("filter", pass.sequence.size(), pass.watchers.quiet);
-    pass.instant.resize(pass.sequence.size());
     pass.tracked.resize(pass.sequence.size());
     std::vector<io::Field> fields;
     std::optional<Clock::time_point> start;
@@ -123,8 +122,9 @@ void filter_scans(Pass& pass) {
     }
 }
 
-void note(Pass& pass, std::size_t i, const io::Frame& frame, const Labels& labels) {
-    ScanNote note = note_of(labels, pass.instant[i], frame.truth);
+void note(Pass& pass, std::size_t i, const io::Frame& frame, const Labels& labels,
+          const Labels& instant) {
+    ScanNote note = note_of(labels, instant, frame.truth);
     note.index = i;
     note.position = frame.T_world_sensor.translation();
     note.stamp = frame.stamp;
@@ -148,11 +148,17 @@ void write_results(Pass& pass) {
         pass.scorer.emplace(eval::kVoxelSize, 2);
         pass.scoring_origin = scoring_origin(pass.sequence, eval::kVoxelSize);
     }
+    if (pass.extras.maps && !scans.empty()) {
+        maps.begin(io::read_frame(pass.sequence, scans.front()));
+    }
     std::vector<Verdict> verdicts(pass.sequence.size());
+    std::vector<MapFiles::Records> records(pass.sequence.size());
     const auto classify = [&](std::size_t i, MaybeFrame& maybe) {
         const io::Frame& frame = *maybe.frame;
         verdicts[i] = pass.filter.verdict({frame.points, frame.T_world_sensor, frame.stamp, i});
-        io::write_labels(folder / (io::stem(pass.sequence, i) + ".label"), verdicts[i].labels);
+        io::write_labels(folder / (io::stem(pass.sequence, i) + ".label"), verdicts[i].labels,
+                         io::Durable::contents);
+        if (pass.extras.maps) records[i] = maps.records_of(frame, verdicts[i]);
     };
     const auto use = [&](std::size_t i, MaybeFrame& maybe) {
         if (!maybe.frame) {
@@ -160,12 +166,13 @@ void write_results(Pass& pass) {
                              "changed while it was in use: " + maybe.error);
         }
         const Labels& labels = verdicts[i].labels;
-        if (pass.extras.maps) maps.append(*maybe.frame, verdicts[i]);
+        const Labels instant = pass.instant.get(i);
+        if (pass.extras.maps) maps.append(std::exchange(records[i], {}));
         if (pass.scorer && !maybe.frame->truth.empty()) {
             pass.scorer->add(labelled(*maybe.frame, pass.scoring_origin),
-                             std::array<const Labels*, 2>{&labels, &pass.instant[i]});
+                             std::array<const Labels*, 2>{&labels, &instant});
         }
-        note(pass, i, *maybe.frame, labels);
+        note(pass, i, *maybe.frame, labels, instant);
         if (pass.watchers.from_above) {
             pass.watchers.from_above->add(shifted_world(*maybe.frame, Eigen::Vector3d::Zero()),
                                           labels);
@@ -178,6 +185,7 @@ void write_results(Pass& pass) {
         return true;  // what is filtered is written even after an interruption; a second one kills
     };
     for_each_frame(pass.sequence, scans, classify, use);
+    io::sync_folder(folder);
     maps.commit();
 }
 
@@ -189,9 +197,9 @@ void score(Pass& pass) {
     const auto find = [&](std::size_t i, MaybeFrame& maybe) {
         if (maybe.frame->truth.empty()) return;
         const Labels labels = io::read_labels(folder / (io::stem(pass.sequence, i) + ".label"));
-        near[i] =
-            pass.scorer->near_removed(labelled(*maybe.frame, pass.scoring_origin),
-                                      std::array<const Labels*, 2>{&labels, &pass.instant[i]});
+        const Labels instant = pass.instant.get(i);
+        near[i] = pass.scorer->near_removed(labelled(*maybe.frame, pass.scoring_origin),
+                                            std::array<const Labels*, 2>{&labels, &instant});
     };
     const auto use = [&](std::size_t i, MaybeFrame&) {
         if (!near[i].empty()) pass.scorer->add_near(std::exchange(near[i], {}));

@@ -101,15 +101,6 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
     return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
 }
 
-/// A rename is durable only once its folder is; some file systems cannot sync folders.
-void sync_folder(const std::filesystem::path& path) {
-    const Descriptor folder(::open(folder_of(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-    if (folder.number < 0 || ::fsync(folder.number) == 0) return;
-    if (errno == EIO || errno == ENOSPC || errno == EDQUOT) {
-        throw OutputError(path, "its folder cannot be synced: " + reason());
-    }
-}
-
 std::filesystem::path temporary_name(const std::filesystem::path& path) {
     static std::atomic<unsigned> counter{0};
     return folder_of(path) / ("." + path.filename().string() + ".tmp." +
@@ -235,7 +226,7 @@ void AtomicFile::rewrite(std::size_t offset, std::string_view text) {
     }
 }
 
-void AtomicFile::commit() {
+void AtomicFile::commit(Durable durable) {
     flush();
     if (::fsync(descriptor_) != 0 && errno != EINVAL) {
         throw OutputError(path_, "cannot be synced: " + reason());
@@ -247,7 +238,16 @@ void AtomicFile::commit() {
         throw OutputError(path_, "cannot be renamed into place: " + reason());
     }
     temporary_.clear();
-    sync_folder(path_);
+    if (durable == Durable::name) sync_folder(folder_of(path_));
+}
+
+/// Some file systems cannot sync folders.
+void sync_folder(const std::filesystem::path& folder) {
+    const Descriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (opened.number < 0 || ::fsync(opened.number) == 0) return;
+    if (errno == EIO || errno == ENOSPC || errno == EDQUOT) {
+        throw OutputError(folder, "the folder cannot be synced: " + reason());
+    }
 }
 
 void write_file(const std::filesystem::path& path, std::string_view text) {

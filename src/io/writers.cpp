@@ -50,12 +50,12 @@ void write_bin(const std::filesystem::path& path, const Points& points,
     file.commit();
 }
 
-void write_labels(const std::filesystem::path& path, const Labels& labels) {
+void write_labels(const std::filesystem::path& path, const Labels& labels, Durable durable) {
     AtomicFile file(path);
     std::vector<std::uint32_t> wide(labels.size());
     for (std::size_t i = 0; i < labels.size(); ++i) wide[i] = static_cast<std::uint32_t>(labels[i]);
     file.write(std::as_bytes(std::span(wide)));
-    file.commit();
+    file.commit(durable);
 }
 
 void write_times(const std::filesystem::path& path, std::span<const double> stamps) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <vector>
 
 #include "support/cells.hpp"
@@ -57,14 +58,48 @@ TEST(VoxelIndex, GroupsNewVoxelsByBlockAndLeavesTheOldOnesAlone) {
     EXPECT_TRUE(index.group_by_block(static_cast<std::uint32_t>(size)).empty());
 }
 
-TEST(VoxelFinder, FindsWhatTheIndexFinds) {
-    VoxelIndex index;
-    for (const Cell& cell : test::scattered({-9, -9, -9}, 14, 1)) index.insert(pack(cell));
-    VoxelFinder find(index);
-    for (const Cell& cell : test::scattered({-11, -11, -11}, 18, 2)) {
-        ASSERT_EQ(find(pack(cell)), index.find(pack(cell)).value_or(kNoVoxel));
+std::vector<VoxelKey> keys_of(const std::vector<Cell>& cells) {
+    std::vector<VoxelKey> keys;
+    for (const Cell& cell : cells) keys.push_back(pack(cell));
+    return keys;
+}
+
+TEST(VoxelIndex, ManyAreInsertedAndFoundAsOneByOne) {
+    VoxelIndex one_by_one, together;
+    auto keys = keys_of(test::scattered({-9, -9, -9}, 14, 1));
+    keys.insert(keys.end(), keys.begin(), keys.begin() + 100);  // again
+    std::vector<std::uint32_t> expected, ids(keys.size());
+    for (const VoxelKey key : keys) expected.push_back(one_by_one.insert(key));
+    together.insert(keys, ids);
+    EXPECT_EQ(ids, expected);
+    EXPECT_EQ(together.size(), one_by_one.size());
+    EXPECT_EQ(together.blocks(), one_by_one.blocks());
+
+    auto asked = keys_of(test::scattered({-11, -11, -11}, 18, 2));
+    asked.push_back(~VoxelKey{0});  // kNoKey
+    std::vector<std::uint32_t> found(asked.size());
+    together.find(asked, found);
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+        ASSERT_EQ(found[i], one_by_one.find(asked[i]).value_or(kNoVoxel));
     }
-    EXPECT_EQ(VoxelFinder(VoxelIndex())(pack({0, 0, 0})), kNoVoxel);
+    VoxelIndex().find(asked, found);
+    EXPECT_TRUE(std::all_of(found.begin(), found.end(), [](auto id) { return id == kNoVoxel; }));
+}
+
+TEST(BlockTable, FindsWhatWasInsertedAndNothingElse) {
+    BlockTable table;
+    test::Random random(7);
+    std::map<VoxelKey, std::uint32_t> expected;
+    for (std::uint32_t i = 0; i < 20000; ++i) {
+        const VoxelKey corner = random.below(9000);  // zero, too
+        const auto next = static_cast<std::uint32_t>(expected.size());
+        const auto [it, fresh] = expected.try_emplace(corner, next);
+        ASSERT_EQ(table.insert(corner, next), it->second);
+    }
+    for (VoxelKey corner = 0; corner < 12000; ++corner) {
+        const auto it = expected.find(corner);
+        ASSERT_EQ(table.find(corner), it == expected.end() ? kNoVoxel : it->second);
+    }
 }
 
 }  // namespace

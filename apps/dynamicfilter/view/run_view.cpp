@@ -255,13 +255,15 @@ PageRun view_of(const io::Cloud& cloud) {
     const auto intensity = intensities(cloud);
     const Origin origin = origin_of(cloud);
     const Points points = positions_from(cloud, origin);
-    ThinnedCloud thinned(kMapPoints);
+    std::vector<ShownPoint> finite;
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (!points[i].allFinite()) continue;
         constexpr std::uint8_t kStatic = 1U | 3U << 2U | 3U << 4U;
-        thinned.add({points[i], intensity.empty() ? 0.0F : static_cast<float>(intensity[i]), 0,
-                     kStatic, OnlineFilter::kNoPlace});
+        finite.push_back({points[i], intensity.empty() ? 0.0F : static_cast<float>(intensity[i]), 0,
+                          kStatic, OnlineFilter::kNoPlace});
     }
+    ThinnedCloud thinned(kMapPoints);
+    thinned.add(finite);
     const std::vector<ShownPoint> map = shuffled(thinned.points());
     const Steps steps{&map};
     add_geometry(steps, origin, run);

@@ -9,6 +9,7 @@
 
 #include "dynamic_filter/io/sequence.hpp"
 #include "dynamic_filter/pipeline/online_filter.hpp"
+#include "label_store.hpp"
 #include "page.hpp"
 #include "thinned_cloud.hpp"
 
@@ -32,7 +33,7 @@ struct ViewInput {
     const io::Sequence& sequence;
     const OnlineFilter& filter;          ///< finished
     const std::vector<ScanNote>& scans;  ///< that were used, in order
-    const std::vector<Labels>& instant;  ///< by index in the sequence; empty where not kept
+    const LabelStore& instant;           ///< by index in the sequence; empty where not kept
     std::filesystem::path labels;        ///< folder of the final verdicts
     bool has_evidence = false;           ///< scans observe, so there are counters
 };

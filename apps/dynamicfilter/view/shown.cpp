@@ -49,7 +49,7 @@ std::vector<ShownPoint> draw(const ViewInput& in, std::size_t row, const io::Fra
     const auto places = in.filter.places_of(scan);
     Pose T_page_sensor = frame.T_world_sensor;
     T_page_sensor.translation() -= origin;
-    const Labels& instant = in.instant[index];
+    const Labels instant = in.instant.get(index);
     std::vector<ShownPoint> points;
     for (std::size_t k = 0; k < chosen.size(); ++k) {
         const std::uint32_t i = chosen[k];
@@ -116,7 +116,7 @@ Shown collect(const ViewInput& in, const Eigen::Vector3d& origin) {
         if (!maybe.frame) return true;  // it was readable a moment ago; the page can do without
         const Drawn points = std::exchange(drawn[i], {});
         shown.has_intensity |= points.has_intensity;
-        for (const ShownPoint& point : points.map) shown.map.add(point);
+        shown.map.add(points.map);
         if (is_frame(i)) {
             shown.frame_of_scan[row_of[i]] = static_cast<std::int32_t>(shown.frame_begin.size());
             shown.frame_begin.push_back(static_cast<std::uint32_t>(shown.frames.size()));

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <tsl/robin_set.h>
-
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
-#include "dynamic_filter/geometry/voxel.hpp"
+#include "dynamic_filter/geometry/voxel_index.hpp"
 #include "dynamic_filter/types.hpp"
 
 namespace dynamic_filter::app {
@@ -27,18 +26,18 @@ class ThinnedCloud {
 public:
     explicit ThinnedCloud(std::size_t most) : most_(most) {}
 
-    void add(const ShownPoint& point);
+    void add(std::span<const ShownPoint> points);
     [[nodiscard]] const std::vector<ShownPoint>& points() const { return points_; }
     [[nodiscard]] float spacing() const { return spacing_; }  ///< [m] 0: nothing is left out
 
 private:
-    [[nodiscard]] bool is_first_in_cube(const ShownPoint& point);
+    void keep_first_in_cubes(std::span<const ShownPoint> points);
     void thin();
 
     std::size_t most_;
     float spacing_ = 0.0F;
     std::vector<ShownPoint> points_;
-    std::array<tsl::robin_set<VoxelKey, VoxelHash>, 4> taken_;  // by final verdict
+    std::array<VoxelIndex, 4> taken_;  // cubes, by final verdict
 };
 
 }  // namespace dynamic_filter::app

@@ -20,6 +20,16 @@ namespace dynamic_filter::io {
 /// Reads a whole regular file. Throws InputError (missing, a folder, a device, unreadable).
 std::string read_file(const std::filesystem::path& file);
 
+/// What outlasts a power cut once a file is committed.
+enum class Durable {
+    contents,  ///< what stands under its name is whole, but the name may be missing or lead to what
+               ///< it led to before: until sync_folder()
+    name       ///< the name, too
+};
+
+/// Makes the names of all files in a folder durable. Throws OutputError where the disk fails.
+void sync_folder(const std::filesystem::path& folder);
+
 /// A file that is written beside its final path and renamed into place by commit(); without
 /// commit() (an exception, say) nothing is left. Throws OutputError with the system's reason.
 /// Single caller; movable.
@@ -34,7 +44,8 @@ public:
     void write(std::span<const std::byte> bytes);             ///< appends, buffered
     void write(std::string_view text);                        ///< as above
     void rewrite(std::size_t offset, std::string_view text);  ///< overwrites bytes already written
-    void commit();                                            ///< flushes, fsyncs, renames
+    /// Flushes, fsyncs, renames.
+    void commit(Durable durable = Durable::name);
     /// What it is called until then, for libraries that write by name.
     [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
 

@@ -74,8 +74,10 @@ std::string write_bin(const std::filesystem::path& path, const Cloud& cloud);
 /// float32 x y z [m] intensity per point, as KITTI's velodyne/*.bin; `intensity` is parallel.
 void write_bin(const std::filesystem::path& path, const Points& points,
                std::span<const float> intensity);
-/// uint32 per point, as SemanticKITTI's labels/*.label.
-void write_labels(const std::filesystem::path& path, const Labels& labels);
+/// uint32 per point, as SemanticKITTI's labels/*.label. Who writes many into a folder is quicker
+/// with Durable::contents, and one sync_folder() in the end.
+void write_labels(const std::filesystem::path& path, const Labels& labels,
+                  Durable durable = Durable::name);
 /// One row-major 3x4 matrix T_world_sensor a line, 17 significant digits where needed.
 void write_poses_kitti(const std::filesystem::path& path, std::span<const Pose> T_world_sensor);
 /// t x y z qx qy qz qw a line; `stamps` [s] are parallel, to 1 ns.

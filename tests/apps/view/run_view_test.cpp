@@ -82,7 +82,7 @@ protected:
             const Labels labels =
                 filter_.verdict({frame.points, frame.T_world_sensor, frame.stamp, i}).labels;
             io::write_labels(folder_ / ("labels_out/" + io::stem(sequence_, i) + ".label"), labels);
-            ScanNote note = note_of(labels, instant_[i], {});
+            ScanNote note = note_of(labels, instant_.get(i), {});
             note.index = i;
             note.position = frame.T_world_sensor.translation();
             notes_.push_back(note);
@@ -90,11 +90,11 @@ protected:
     }
     test::TemporaryFolder folder_;
     std::vector<test::RoomScan> scans_ = test::drive(12, true);
-    std::vector<Labels> instant_ = std::vector<Labels>(scans_.size());
+    LabelStore instant_{folder_.path()};
     io::Sequence sequence_;
     OnlineFilter filter_{Config{},
                          {.overload = Overload::wait, .horizon = 0.0, .max_bytes = 0},
-                         {.instant = [this](const Verdict& v) { instant_[v.index] = v.labels; },
+                         {.instant = [this](const Verdict& v) { instant_.put(v.index, v.labels); },
                           .settled = {},
                           .notice = {}}};
     std::vector<ScanNote> notes_;

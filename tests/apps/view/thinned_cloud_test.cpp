@@ -25,7 +25,7 @@ std::vector<ShownPoint> random_points(std::size_t count) {
 
 ThinnedCloud thinned(const std::vector<ShownPoint>& points, std::size_t most) {
     ThinnedCloud cloud(most);
-    for (const ShownPoint& p : points) cloud.add(p);
+    cloud.add(points);
     return cloud;
 }
 
