@@ -33,7 +33,7 @@ html_copy_source = False
 html_show_sphinx = False
 html_show_copyright = False
 
-TITLES = {"results-notes": "Notes on the results", "performance-notes": "Notes on the performance"}
+TITLES = {"results-notes": "Notes on the results"}
 
 
 def give_title(app, page, source):

@@ -24,7 +24,8 @@ constexpr std::array<Label, 3> kLabels = {Label::unknown, Label::static_, Label:
 std::vector<std::uint8_t> packed(const Labels& labels) {
     std::vector<std::uint8_t> bytes((labels.size() + 3) / 4);
     for (std::size_t i = 0; i < labels.size(); ++i) {
-        bytes[i / 4] = static_cast<std::uint8_t>(bytes[i / 4] | verdict_code(labels[i]) << 2 * (i % 4));
+        bytes[i / 4] =
+            static_cast<std::uint8_t>(bytes[i / 4] | verdict_code(labels[i]) << 2 * (i % 4));
     }
     return bytes;
 }

@@ -25,7 +25,7 @@ struct Pass {
     RunSummary summary{};
     std::vector<bool> accepted = std::vector<bool>(sequence.size());
     std::vector<std::optional<Tracked>> tracked{};  ///< by scan; if poses are found or refined
-    LabelStore instant{output.path()};  ///< verdicts of scans that are scored or shown
+    LabelStore instant{output.path()};              ///< verdicts of scans that are scored or shown
     std::vector<ScanNote> scan_notes{};
     std::optional<eval::ScanScores> scorer{};  ///< of final and instant verdicts, if there is truth
     Eigen::Vector3d scoring_origin = Eigen::Vector3d::Zero();

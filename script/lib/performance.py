@@ -1,8 +1,10 @@
 """Speed, latency and memory: the sections of docs/performance.md."""
 import json
 import os
+import shutil
 import statistics
 import sys
+import time
 
 from .bench import BUILD, call, run, simulated, table
 
@@ -26,7 +28,7 @@ def kernels(_):
     context = result["context"]
     rows = [[b["name"].replace("_", " "), f"{b['items/s'] / 1e6:.1f}", f"{100 * b['roofline']:.0f}"]
             for b in result["benchmarks"]]
-    return (f"\n## Kernels\n\n`build/release/kernels`, one thread, {machine()}. The roofline is measured in the same run: a copy moves "
+    return (f"`build/release/kernels`, one thread, {machine()}. The roofline is measured in the same run: a copy moves "
             f"{float(context['copy'].split()[0]):.0f} GB/s, multiply-adds reach {float(context['multiply-add'].split()[0]):.0f} Gflop/s; "
             "a kernel's share is the longer of its two least times over its time. More than 100 % means that the data stay in the cache.\n\n" +
             table(["kernel", "million items/s", "of its roofline [%]"], rows))
@@ -38,26 +40,101 @@ def stage_rates(preset, timing):
     return [f"{statistics.median(t[stage][f'{item}_per_second'] for t in timing):.0f} {item}" for stage, item in stages]
 
 
+def without_truth(recording):
+    """The same scans and poses, without labels."""
+    bare = recording.with_name(recording.name + "-without-truth")
+    if not bare.exists():
+        bare.mkdir()
+        for name in ("velodyne", "poses.txt", "times.txt"):
+            (bare / name).symlink_to(recording / name)
+    return bare
+
+
+def copy_rate(bench, recording):
+    """Scans per second of a plain copy of the recording's scans."""
+    scans = recording / "velodyne"
+    rates = []
+    for _ in range(3):
+        start = time.monotonic()
+        shutil.copytree(scans, bench.work / "copy")
+        rates.append(len(list(scans.iterdir())) / (time.monotonic() - start))
+        shutil.rmtree(bench.work / "copy")
+    return statistics.median(rates)
+
+
+def middle(timing, key):
+    return statistics.median(t[key] for t in timing)
+
+
 def sequences(bench):
-    """Whole runs beside OctoMap's insertion of the same scans."""
-    rows = []
+    """Whole processes, from start to the last file, beside OctoMap's insertion and a copy of the same scans."""
+    rows, stages = [], []
     for scene, sensor in CASES:
         recording = simulated(bench, scene, sensor, 1)
         octomap = json.loads(call(BUILD / "octomap_peer", recording, 10))["scans_per_second"]
+        copied = copy_rate(bench, recording)
         say("octomap", recording.name)
-        for preset in ("default", "paper"):
-            results = [run(bench, recording, preset=preset) for _ in range(3)]
+        for preset, truth in (("default", False), ("default", True), ("paper", False)):
+            results = [run(bench, recording if truth else without_truth(recording), preset=preset) for _ in range(3)]
             timing = [r["timing"] for r in results]
             scans = results[0]["metrics"]["scans"]
-            rate = statistics.median(t["scans_per_second"] for t in timing)
-            rows.append([scene, sensor, preset, f"{rate:.1f}",
-                         f"{1e3 * statistics.median(t['cpu_seconds'] for t in timing) / scans:.1f}",
-                         *stage_rates(preset, timing),
-                         f"{max(t['peak_rss_bytes'] for t in timing) / 1e6:.0f}", f"{octomap:.2f}", f"{rate / octomap:.0f}"])
-    return ("\n## Whole sequences\n\n`script/bench --only sequences`: `dynamicfilter run`, reading, writing and labels included, median of three; OctoMap "
-            "is the insertion alone, of every tenth of the same scans at 0.2 m, one thread. Stages: items per busy wall second; the default preset judges and integrates scans, the paper's back-end integrates submaps.\n\n" +
-            table(["scene", "sensor", "preset", "scans/s", "CPU [ms/scan]", "judge / front-end [scans/s]", "integrate / back-end", "memory [MB]",
-                   "OctoMap [scans/s]", "ratio"], rows))
+            rate = middle(timing, "scans_per_second")
+            cores = statistics.median(t["cpu_seconds"] / t["wall_seconds"] for t in timing)
+            rows.append([scene, sensor, preset, "yes" if truth else "no", f"{rate:.1f}", f"{1e3 * middle(timing, 'cpu_seconds') / scans:.1f}",
+                         f"{cores:.2f}", f"{max(t['peak_rss_bytes'] for t in timing) / 1e6:.0f}", *stage_rates(preset, timing),
+                         f"{rate / octomap:.0f}", f"{100 * rate / copied:.0f}"])
+            if preset == "default":
+                for stage in timing[0]["process"]:
+                    of_stage = [next(p for p in t["process"] if p["stage"] == stage["stage"]) for t in timing]
+                    stages.append([scene, sensor, "yes" if truth else "no", stage["stage"], f"{middle(of_stage, 'wall_seconds'):.2f}",
+                                   f"{1e3 * middle(of_stage, 'cpu_seconds') / scans:.1f}"])
+    return ("`script/bench --only sequences`: `dynamicfilter run` as a whole process, from start to exit, median of three: 300 scans of the street, "
+            "150 of the crowd; reading, refined poses where they are needed, verdicts, labels, both maps, report, and scores where there is ground truth. "
+            "Beside it in the same session: OctoMap's insertion alone, of every tenth scan at 0.2 m, one thread; and a plain copy of the scans. "
+            "The two stages are alone and per busy wall second.\n\n" +
+            table(["scene", "sensor", "preset", "ground truth", "scans/s", "CPU [ms/scan]", "cores busy", "memory [MB]", "judge / front-end alone",
+                   "integrate / back-end alone", "times OctoMap", "of a copy's rate [%]"], rows) +
+            "\nThe same runs of the default preset by stage (`process` in `timing.json`). `prepare` chooses poses and deskewing, and takes the same time "
+            "for a recording of any length.\n\n" +
+            table(["scene", "sensor", "ground truth", "stage", "wall [s]", "CPU [ms/scan]"], stages))
+
+
+def threads(bench):
+    """One thread and two, and what follows for more."""
+    rows = []
+    for scene, sensor in CASES:
+        recording = without_truth(simulated(bench, scene, sensor, 1))
+        wall = [statistics.median(run(bench, recording, preset="default", options=["--threads", n])["timing"]["wall_seconds"] for _ in range(3))
+                for n in (1, 2)]
+        serial = max(0.0, 2.0 * wall[1] / wall[0] - 1.0)  # Amdahl
+        expected = [1.0 / (serial + (1.0 - serial) / n) for n in (4, 8)]
+        rows.append([scene, sensor, f"{wall[0]:.1f}", f"{wall[1]:.1f}", f"{100 * serial:.0f}", *[f"{e:.1f}" for e in expected]])
+    return ("`script/bench --only threads`: whole processes with `--threads 1` and `--threads 2`, median of three. Reading ahead has a thread of its own "
+            "in both. The serial share follows from the two, and from it what four and eight threads would give; they were not measured.\n\n" +
+            table(["scene", "sensor", "one thread [s]", "two [s]", "serial [%]", "four would be x times as fast", "eight"], rows))
+
+
+def lengths(bench):
+    """A street driven up and down: what grows with the number of scans, and not with the map."""
+    street = without_truth(simulated(bench, "street", "os64", 1))
+    poses = (street / "poses.txt").read_text().splitlines()
+    files = sorted((street / "velodyne").iterdir())
+    there_and_back = list(range(len(files))) + list(range(len(files) - 2, 0, -1))
+    rows = []
+    for scans in (300, 3000):
+        looped = bench.work / f"street-looped-{scans}"
+        if not looped.exists():
+            (looped / "velodyne").mkdir(parents=True)
+            order = [there_and_back[i % len(there_and_back)] for i in range(scans)]
+            for i, k in enumerate(order):
+                (looped / "velodyne" / f"{i:06}.bin").symlink_to(files[k].resolve())
+            (looped / "poses.txt").write_text("".join(poses[k] + "\n" for k in order))
+            (looped / "times.txt").write_text("".join(f"{0.1 * i:.3f}\n" for i in range(scans)))
+        timing = run(bench, looped, preset="default")["timing"]
+        rows.append([scans, f"{timing['voxels'] / 1e3:.0f}", f"{timing['peak_rss_bytes'] / 1e6:.0f}",
+                     f"{1e3 * timing['cpu_seconds'] / scans:.1f}"])
+    return ("`script/bench --only lengths`: the street's 300 scans of 64 beams, driven up and down again and again.\n\n" +
+            table(["scans", "voxels [10^3]", "memory [MB]", "CPU [ms/scan]"], rows))
 
 
 def online(bench):
@@ -70,7 +147,7 @@ def online(bench):
         latency = timing["stages"]["latency"]
         rows.append([scene, sensor, f"{latency['p50']:.1f}", f"{latency['p99']:.1f}", timing["online"]["dropped"],
                      f"{100 * timing['cpu_seconds'] / (0.1 * scans):.0f}"])
-    text = ("\n## Online\n\n`dynamicfilter run --online`, 10 Hz: from the scan's arrival to its instant verdict; the share of one core includes reading, "
+    text = ("`dynamicfilter run --online`, 10 Hz: from the scan's arrival to its instant verdict; the share of one core includes reading, "
             "writing and the final verdicts.\n\n" +
             table(["scene", "sensor", "latency p50 [ms]", "p99 [ms]", "dropped", "of one core [%]"], rows))
     say("overload")
@@ -101,11 +178,11 @@ def scaling(bench):
         add(f"points: {sensor}", simulated(bench, "street", sensor, 1))
     for size in (0.4, 0.2, 0.1):
         add(f"voxels of {size} m", street, settings=[f"map.voxel_size={size}"])
-    return ("\n## Scaling\n\nThe street, default preset.\n\n" +
+    return ("The street, default preset.\n\n" +
             table(["", "scans", "points a scan [10^3]", "voxels [10^3]", "CPU [ms/scan]", "memory [MB]"], rows))
 
 
-def long_replay(bench, hours):
+def hours(bench, hours):
     """Memory and time over hours."""
     rows = json.loads(call(BUILD / "replay", simulated(bench, "street", "vlp16", 1), "hours", hours))
     third = len(rows) // 3
@@ -117,7 +194,7 @@ def long_replay(bench, hours):
         return max(row["resident_mib"] for row in part)
 
     first, last = mean(rows[:third], "ms_per_scan"), mean(rows[-third:], "ms_per_scan")
-    return (f"\n## Hours\n\n`build/release/replay RECORDING hours {hours:g}`: the street with a VLP-16, again and again, each round beginning where the last "
+    return (f"`build/release/replay RECORDING hours {hours:g}`: the street with a VLP-16, again and again, each round beginning where the last "
             f"ended, through the online filter as fast as it can, horizon 200 m. Memory goes up and down as the map is cut; at most it is "
             f"{most(rows[:third]):.0f} MiB in the first third, {most(rows[third:-third]):.0f} in the second, {most(rows[-third:]):.0f} in the last. A scan takes "
             f"{first:.2f} ms in the first third and {last:.2f} ms in the last ({100 * (last / first - 1):+.1f} %).\n\n" +
@@ -125,4 +202,11 @@ def long_replay(bench, hours):
                   [[f"{r['hours']:.2f}", f"{r['resident_mib']:.0f}", f"{r['voxels'] / 1e3:.0f}", f"{r['ms_per_scan']:.2f}"] for r in rows]))
 
 
-SECTIONS = [kernels, sequences, online, scaling]
+SECTIONS = [kernels, sequences, threads, online, scaling, lengths]
+
+
+def put(page, name, text):
+    """The page with the section's text in its place, between two comments."""
+    begin, end = f"<!-- script/bench: {name} -->\n", f"<!-- end of {name} -->\n"
+    before, rest = page.split(begin)
+    return before + begin + text + end + rest.split(end)[1]

@@ -132,6 +132,8 @@ ScanScores::~ScanScores() = default;
 
 void ScanScores::add(const LabelledScan& scan, std::span<const Labels* const> verdicts) {
     for (const Labels* verdict : verdicts) refuse_unparallel(scan, *verdict);
+    std::vector<VoxelTally::TruePoint> points;
+    points.reserve(scan.points.size());
     for_each_known_point(scan, [&](std::size_t i) {
         std::uint32_t removed = 0;
         for (std::size_t r = 0; r < results_.size(); ++r) {
@@ -140,8 +142,9 @@ void ScanScores::add(const LabelledScan& scan, std::span<const Labels* const> ve
             results_[r].add(scan.points[i], scan.truth[i], verdict);
         }
         if (removed != 0) removed_->insert(scan.points[i], removed);
-        tally_.add(scan.points[i], scan.truth[i], removed);
+        points.push_back({scan.points[i], scan.truth[i], removed});
     });
+    tally_.add(points);
 }
 
 std::vector<Points> ScanScores::near_removed(const LabelledScan& scan,
@@ -188,10 +191,12 @@ Scores score_map(std::size_t scans, const ScanSource& source, const Points& map,
     CoverCount count;
     for_each_scan(scans, source, [&](const LabelledScan& scan) {
         refuse_unparallel(scan, scan.verdict.empty() ? scan.truth : scan.verdict);
+        std::vector<VoxelTally::TruePoint> points;
         for_each_known_point(scan, [&](std::size_t i) {
-            tally.add(scan.points[i], scan.truth[i], 1);
+            points.push_back({scan.points[i], scan.truth[i], 1});
             count.add(scan.truth[i], grid.any_within(scan.points[i], kDistance));
         });
+        tally.add(points);
     });
     for (const Point& point : map) tally.add_map_point(point);
     return {tally.scores(), point_score(count), tally.dynamic_share()};

@@ -110,14 +110,27 @@ VoxelTally::VoxelTally(double voxel_size, std::size_t results)
 VoxelTally::VoxelTally(VoxelTally&&) noexcept = default;
 VoxelTally::~VoxelTally() = default;
 
-void VoxelTally::add(const Point& point, Label truth, std::uint32_t removed) {
-    const auto cell = cell_of(point, static_cast<float>(1.0 / voxel_size_));
-    if (!cell) return;
-    const std::size_t begin = stride_ * index_->insert(pack(*cell));
-    if (begin == counts_.size()) counts_.resize(begin + stride_);
-    count(counts_[begin], point, truth);
-    for (std::size_t r = 0; r + 1 < stride_; ++r) {
-        if ((removed >> r & 1U) != 0) count(counts_[begin + 1 + r], point, truth);
+void VoxelTally::add(std::span<const TruePoint> points) {
+    std::vector<VoxelKey> keys;
+    std::vector<const TruePoint*> of_keys;
+    for (const TruePoint& p : points) {
+        const auto cell = cell_of(p.point, static_cast<float>(1.0 / voxel_size_));
+        if (!cell) continue;
+        keys.push_back(pack(*cell));
+        of_keys.push_back(&p);
+    }
+    std::vector<std::uint32_t> voxels(keys.size());
+    index_->insert(keys, voxels);
+    counts_.resize(stride_ * index_->size());
+    for (std::size_t i = 0; i < voxels.size(); ++i) {
+        constexpr std::size_t kAhead = 8;  // points whose voxels are prefetched
+        if (i + kAhead < voxels.size()) __builtin_prefetch(&counts_[stride_ * voxels[i + kAhead]]);
+        const TruePoint& p = *of_keys[i];
+        VoxelCount* const of_voxel = &counts_[stride_ * voxels[i]];
+        count(of_voxel[0], p.point, p.truth);
+        for (std::size_t r = 0; r + 1 < stride_; ++r) {
+            if ((p.removed >> r & 1U) != 0) count(of_voxel[1 + r], p.point, p.truth);
+        }
     }
 }
 

@@ -8,7 +8,7 @@ namespace dynamic_filter {
 
 namespace {
 
-constexpr std::size_t kTogether = 32;  // keys whose memory is asked for at a time
+constexpr std::size_t kTogether = 32;  // keys that are prefetched together
 
 }  // namespace
 
@@ -52,9 +52,7 @@ std::uint32_t VoxelIndex::insert_in(std::uint32_t block, VoxelKey key) {
     return b.ids[place];
 }
 
-std::uint32_t VoxelIndex::insert(VoxelKey key) {
-    return insert_in(block_with(block_of(key)), key);
-}
+std::uint32_t VoxelIndex::insert(VoxelKey key) { return insert_in(block_with(block_of(key)), key); }
 
 void VoxelIndex::insert(std::span<const VoxelKey> keys, std::span<std::uint32_t> ids) {
     std::array<std::uint32_t, kTogether> blocks{};
@@ -65,7 +63,8 @@ void VoxelIndex::insert(std::span<const VoxelKey> keys, std::span<std::uint32_t>
             blocks[i] = block_with(block_of(some[i]));
             prefetch_in(blocks[i], some[i]);
         }
-        for (std::size_t i = 0; i < some.size(); ++i) ids[begin + i] = insert_in(blocks[i], some[i]);
+        for (std::size_t i = 0; i < some.size(); ++i)
+            ids[begin + i] = insert_in(blocks[i], some[i]);
     }
 }
 

@@ -48,7 +48,7 @@ void SurfaceMap::insert(Level& level, const Points& in_map) {
     level.due.resize(level.voxels.size(), kFewest);
     std::vector<std::uint32_t> touched;
     for (std::size_t i = 0; i < voxels.size(); ++i) {
-        constexpr std::size_t kAhead = 8;  // points whose voxels memory is asked for
+        constexpr std::size_t kAhead = 8;  // points whose voxels are prefetched
         if (i + kAhead < voxels.size()) __builtin_prefetch(&level.moments[voxels[i + kAhead]]);
         const std::uint32_t voxel = voxels[i];
         Moments& m = level.moments[voxel];

@@ -13,9 +13,9 @@ constexpr unsigned kMost = std::numeric_limits<std::uint16_t>::max();
 
 /// Halves all counters until each can take so many more: their proportions are what tells.
 void make_room(Evidence& e, unsigned weight) {
-    const unsigned any_bit = static_cast<unsigned>(e.n_own | e.n_occ | e.n_free | e.n_switch |
-                                                   e.occupied | e.free | e.hits | e.passes |
-                                                   e.n_flicker | e.moved);
+    const unsigned any_bit =
+        static_cast<unsigned>(e.n_own | e.n_occ | e.n_free | e.n_switch | e.occupied | e.free |
+                              e.hits | e.passes | e.n_flicker | e.moved);
     if (any_bit + weight <= kMost) return;  // nearly always, and no counter is larger
     const auto largest = [&] {
         return std::max({e.n_own, e.n_occ, e.n_free, e.n_switch, e.occupied, e.free, e.hits,

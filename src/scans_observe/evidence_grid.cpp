@@ -23,7 +23,7 @@ private:
     std::vector<Entry> entries_ = std::vector<Entry>(4096);
 };
 
-/// Points whose voxels are to be found, until there are enough of them to ask memory together.
+/// Points whose voxels are to be found, until there are enough of them to prefetch.
 struct Waiting {
     std::array<std::size_t, 32> points{};
     std::array<VoxelKey, 32> keys{};

@@ -180,14 +180,17 @@ std::vector<std::vector<std::size_t>> EvidenceMap::free_keyframes(
     }
     std::sort(blocks.begin(), blocks.end());
     blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
-    const Places places = places_in(
-        std::move(blocks), [&](std::uint32_t v) { return place[v] != kNoVoxel; });
+    const Places places =
+        places_in(std::move(blocks), [&](std::uint32_t v) { return place[v] != kNoVoxel; });
     constexpr std::size_t kMostAsked = 64;
     const auto& kept = observers_.kept();
-    const std::size_t stride = std::max<std::size_t>(1, (kept.size() + kMostAsked - 1) / kMostAsked);
+    const std::size_t stride =
+        std::max<std::size_t>(1, (kept.size() + kMostAsked - 1) / kMostAsked);
     const std::size_t asked = kept.size() / stride;
     std::vector<std::vector<Sight>> sights(asked);
-    const auto observer = [&](std::size_t k) -> const Observer& { return kept[stride * (k + 1) - 1]; };
+    const auto observer = [&](std::size_t k) -> const Observer& {
+        return kept[stride * (k + 1) - 1];
+    };
     parallel_for(asked, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) sights[k] = look(observer(k), places);
     });

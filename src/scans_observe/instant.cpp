@@ -21,7 +21,7 @@ Verdict InstantVerdicts::judge(std::size_t index, const PointVoxels& voxels,
     said_.resize(grid.size());
     std::vector<std::uint32_t> due;
     for (std::size_t i = 0; i < voxels.size(); ++i) {
-        constexpr std::size_t kAhead = 16;  // points whose voxels memory is asked for
+        constexpr std::size_t kAhead = 16;  // points whose voxels are prefetched
         if (i + kAhead < voxels.size() && voxels[i + kAhead] != kNoVoxel) {
             __builtin_prefetch(&grid[voxels[i + kAhead]]);
             __builtin_prefetch(&said_[voxels[i + kAhead]]);

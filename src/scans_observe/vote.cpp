@@ -124,8 +124,7 @@ std::vector<std::optional<float>> occupancy_of(const EvidenceGrid& grid,
                 neighborhood.gather(grid, block, asked, sure);
             }
             const std::uint32_t v = voxels[at];
-            const float vote =
-                neighborhood.vote_on(cell_of_voxel(v), grid[v].evidence, config);
+            const float vote = neighborhood.vote_on(cell_of_voxel(v), grid[v].evidence, config);
             if (vote == 0.0F && is_unknown(grid[v].evidence)) continue;
             const float occupancy = 1.0F / (1.0F + std::exp(steepness * (grid[v].score + vote)));
             result[at] = std::min(occupancy, rest_of(grid[v].evidence, scans.instances));

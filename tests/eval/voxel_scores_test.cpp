@@ -36,18 +36,23 @@ TEST(VoxelScore, IsUndefinedWithoutVoxelsOfAKind) {
 /// Voxel 3: 2 static removed, 1 dynamic kept. Voxel 4: 1 static, 2 dynamic, all removed.
 constexpr std::uint32_t kKept = 0, kRemoved = 1;  // by result 0
 
+void add(VoxelTally& tally, const Point& point, Label truth, std::uint32_t removed) {
+    const VoxelTally::TruePoint one{point, truth, removed};
+    tally.add({&one, 1});
+}
+
 VoxelTally worked_example() {
     VoxelTally tally(0.2);
-    tally.add(in_voxel(0, 0.05F), kStill, kKept);
-    tally.add(in_voxel(0, -0.05F), kStill, kRemoved);
-    tally.add(in_voxel(1), kDynamic, kKept);
-    tally.add(in_voxel(2), kDynamic, kRemoved);
-    tally.add(in_voxel(3), kStill, kRemoved);
-    tally.add(in_voxel(3), kStill, kRemoved);
-    tally.add(in_voxel(3), kDynamic, kKept);
-    tally.add(in_voxel(4), kStill, kRemoved);
-    tally.add(in_voxel(4), kDynamic, kRemoved);
-    tally.add(in_voxel(4), kDynamic, kRemoved);
+    add(tally, in_voxel(0, 0.05F), kStill, kKept);
+    add(tally, in_voxel(0, -0.05F), kStill, kRemoved);
+    add(tally, in_voxel(1), kDynamic, kKept);
+    add(tally, in_voxel(2), kDynamic, kRemoved);
+    add(tally, in_voxel(3), kStill, kRemoved);
+    add(tally, in_voxel(3), kStill, kRemoved);
+    add(tally, in_voxel(3), kDynamic, kKept);
+    add(tally, in_voxel(4), kStill, kRemoved);
+    add(tally, in_voxel(4), kDynamic, kRemoved);
+    add(tally, in_voxel(4), kDynamic, kRemoved);
     return tally;
 }
 
@@ -66,11 +71,11 @@ TEST(VoxelTally, ReadsMixedVoxelsAsNamed) {
 
 TEST(VoxelTally, ErasorReadingNeedsTheSameLabelAtTheNearestSurvivor) {
     VoxelTally tally(0.2);
-    tally.add(in_voxel(0), kStill, kKept);
-    tally.add(in_voxel(10), kDynamic, kKept);
-    tally.add(in_voxel(20), kStill, kRemoved);       // no survivor near: lost
-    tally.add(in_voxel(30), kDynamic, kRemoved);     // rejected, although ...
-    tally.add(in_voxel(31, -0.05F), kStill, kKept);  // ... a static survivor is 0.15 m away
+    add(tally, in_voxel(0), kStill, kKept);
+    add(tally, in_voxel(10), kDynamic, kKept);
+    add(tally, in_voxel(20), kStill, kRemoved);       // no survivor near: lost
+    add(tally, in_voxel(30), kDynamic, kRemoved);     // rejected, although ...
+    add(tally, in_voxel(31, -0.05F), kStill, kKept);  // ... a static survivor is 0.15 m away
     const auto s = tally.scores().at("erasor");
     EXPECT_DOUBLE_EQ(*s.pr, 2.0 / 3.0);
     EXPECT_DOUBLE_EQ(*s.rr, 0.5);
@@ -83,7 +88,7 @@ TEST(VoxelTally, DynamicShareCountsVoxelsWithAnyMovingPoint) {
 
 TEST(VoxelTally, AMapMadeElsewherePreservesTheVoxelsItHasPointsIn) {
     VoxelTally tally(0.2);
-    for (int n = 0; n < 4; ++n) tally.add(in_voxel(n), n < 2 ? kStill : kDynamic, kRemoved);
+    for (int n = 0; n < 4; ++n) add(tally, in_voxel(n), n < 2 ? kStill : kDynamic, kRemoved);
     tally.add_map_point(in_voxel(0, 0.09F));
     tally.add_map_point(in_voxel(3, -0.09F));
     tally.add_map_point(in_voxel(50));  // where the raw map has nothing
@@ -132,9 +137,9 @@ TEST(VoxelTally, ResultsBesideEachOtherScoreAsAlone) {
         const Point p(at(), at(), at());
         const Label truth = random() % 3 == 0 ? kDynamic : kStill;
         const std::uint32_t a = random() % 4 == 0 ? 1 : 0, b = random() % 2 == 0 ? 1 : 0;
-        both.add(p, truth, a | b << 1U);
-        first.add(p, truth, a);
-        second.add(p, truth, b);
+        add(both, p, truth, a | b << 1U);
+        add(first, p, truth, a);
+        add(second, p, truth, b);
     }
     for (const auto& [reading, score] : first.scores()) {
         EXPECT_EQ(both.scores(0).at(reading).f1, score.f1) << reading;
@@ -153,7 +158,7 @@ TEST(VoxelTally, AgreesWithAPlainCountOnRandomPoints) {
         const Point p(coordinate(), coordinate(), coordinate());
         const Label truth = random() % 3 == 0 ? kDynamic : kStill;
         const bool kept = random() % 4 != 0;
-        tally.add(p, truth, kept ? kKept : kRemoved);
+        add(tally, p, truth, kept ? kKept : kRemoved);
         plain.add(p, truth, kept);
     }
     const auto scores = tally.scores();

@@ -14,6 +14,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -56,8 +57,14 @@ public:
     VoxelTally(VoxelTally&&) noexcept;  ///< the other one can only be destroyed
     ~VoxelTally();
 
-    /// One point of the raw map, and which results removed it: bit r stands for result r.
-    void add(const Point& point, Label truth, std::uint32_t removed);
+    /// A point of the raw map, and which results removed it: bit r stands for result r.
+    struct TruePoint {
+        Point point;            ///< [m]
+        Label truth;            ///< not unknown
+        std::uint32_t removed;  ///< bits
+    };
+    /// Those of a scan, say: many at a time are quicker.
+    void add(std::span<const TruePoint> points);
     /// One point of a clean map that was made elsewhere; it is result 0.
     void add_map_point(const Point& point);
 

@@ -19,7 +19,7 @@ using PointVoxels = std::vector<std::uint32_t>;
 /// Finds the number of a block by its first cell: open addressing, at most half full.
 class BlockTable {
 public:
-    /// Asks memory for what find() or insert() will read.
+    /// Prefetches what find() or insert() will read.
     void prefetch(VoxelKey corner) const { __builtin_prefetch(&slots_[slot_of(corner)]); }
     /// kNoVoxel: not there.
     [[nodiscard]] std::uint32_t find(VoxelKey corner) const { return slots_[at(corner)].number; }
@@ -55,7 +55,7 @@ class VoxelIndex {
 public:
     std::uint32_t insert(VoxelKey key);
     /// The same for many, in their order: `ids` is parallel to `keys`. Quicker than one by one,
-    /// because it asks memory for many places at a time.
+    /// because it prefetches.
     void insert(std::span<const VoxelKey> keys, std::span<std::uint32_t> ids);
 
     /// Renumbers the voxels from `first` on so that those of a block follow each other: near in
@@ -69,13 +69,13 @@ public:
     }
     /// The same for many: `ids` is parallel to `keys`; kNoVoxel: not there.
     void find(std::span<const VoxelKey> keys, std::span<std::uint32_t> ids) const;
-    /// Asks memory for what each_in_block() will read.
+    /// Prefetches what each_in_block() will read.
     void prefetch_block(std::uint32_t block) const {
         constexpr std::size_t kLine = 64;  // bytes of the cache
         const char* const begin = reinterpret_cast<const char*>(&blocks_[block]);
         for (std::size_t at = 0; at < sizeof(Block); at += kLine) __builtin_prefetch(begin + at);
     }
-    /// Asks memory for what find() of this key will read first.
+    /// Prefetches what find() of this key will read first.
     void prefetch(VoxelKey key) const { table_.prefetch(block_of(key)); }
     [[nodiscard]] VoxelKey key(std::uint32_t id) const { return keys_[id]; }
     [[nodiscard]] std::size_t size() const { return keys_.size(); }

@@ -41,9 +41,9 @@ public:
         each_in_box(index, block, Cell::Constant(-cells), Cell::Constant(3 + cells), use);
     }
 
-    /// Asks memory for what each_around() of this block will read; first of all for prefetch()
-    /// itself.
+    /// Prefetches what prefetch() of this block will read.
     void prefetch_row(std::uint32_t block) const { __builtin_prefetch(&around_[block]); }
+    /// Prefetches what each_around() of this block will read.
     void prefetch(const VoxelIndex& index, std::uint32_t block) const {
         for (const std::uint32_t other : around_[block]) {
             if (other != kNoBlock) index.prefetch_block(other);
@@ -83,7 +83,9 @@ void VoxelNeighbors::each_in_box(const VoxelIndex& index, std::uint32_t block, c
                                  const Cell& high, const Use& use) const {
     // Places along an axis in the block below, the block itself and the one above.
     const auto parts = [&](int axis) {
-        const auto of = [&](int first) { return slab(axis, low[axis] - first, high[axis] - first); };
+        const auto of = [&](int first) {
+            return slab(axis, low[axis] - first, high[axis] - first);
+        };
         return std::array{of(-4), of(0), of(4)};
     };
     const auto in_x = parts(0), in_y = parts(1), in_z = parts(2);

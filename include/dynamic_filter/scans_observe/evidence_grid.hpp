@@ -15,7 +15,8 @@ namespace dynamic_filter {
 
 /// Voxels in blocks of 4 x 4 x 4. A voxel stands for the centroid of its points in the first scan
 /// that has any there, so it can be judged at once, and never moves. Single caller; const members
-/// may run in several threads, and record() and update_score() too, for different voxels. Points are in the map frame.
+/// may run in several threads, and record() and update_score() too, for different voxels. Points
+/// are in the map frame.
 class EvidenceGrid {
 public:
     EvidenceGrid(float voxel_size, const ScansConfig::Evidence& config)
