@@ -178,7 +178,7 @@ def scaling(bench):
         add(f"points: {sensor}", simulated(bench, "street", sensor, 1))
     for size in (0.4, 0.2, 0.1):
         add(f"voxels of {size} m", street, settings=[f"map.voxel_size={size}"])
-    return ("The street, default preset.\n\n" +
+    return ("The street, default preset, with ground truth.\n\n" +
             table(["", "scans", "points a scan [10^3]", "voxels [10^3]", "CPU [ms/scan]", "memory [MB]"], rows))
 
 

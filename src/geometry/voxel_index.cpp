@@ -12,6 +12,19 @@ constexpr std::size_t kTogether = 32;  // keys that are prefetched together
 
 }  // namespace
 
+KeyedPoints keys_of(std::span<const Point> points, float inverse_size) {
+    KeyedPoints keyed;
+    keyed.keys.reserve(points.size());
+    keyed.points.reserve(points.size());
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+        const auto cell = cell_of(points[i], inverse_size);
+        if (!cell) continue;
+        keyed.keys.push_back(pack(*cell));
+        keyed.points.push_back(i);
+    }
+    return keyed;
+}
+
 std::uint32_t BlockTable::insert(VoxelKey corner, std::uint32_t next) {
     std::size_t slot = at(corner);
     if (slots_[slot].number != kNoVoxel) return slots_[slot].number;

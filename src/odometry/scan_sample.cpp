@@ -14,14 +14,7 @@ constexpr double kMapSpacing = 0.4;       // in voxels of the map
 /// The first point in each voxel.
 std::vector<std::uint32_t> first_in_voxels(const Points& points, double size) {
     const auto per_metre = static_cast<float>(1.0 / size);
-    std::vector<VoxelKey> keys;
-    std::vector<std::uint32_t> of_keys;  // points
-    for (std::uint32_t i = 0; i < points.size(); ++i) {
-        const auto cell = cell_of(points[i], per_metre);
-        if (!cell) continue;
-        keys.push_back(pack(*cell));
-        of_keys.push_back(i);
-    }
+    const auto [keys, of_keys] = keys_of(points, per_metre);
     std::vector<std::uint32_t> voxels(keys.size());
     VoxelIndex().insert(keys, voxels);
     std::vector<std::uint32_t> first;

@@ -32,15 +32,7 @@ void SurfaceMap::insert(const Points& in_map) {
 }
 
 void SurfaceMap::insert(Level& level, const Points& in_map) {
-    std::vector<VoxelKey> keys;
-    std::vector<std::uint32_t> of_keys;  // points
-    keys.reserve(in_map.size());
-    for (std::uint32_t i = 0; i < in_map.size(); ++i) {
-        const auto cell = cell_of(in_map[i], 1.0F / level.size);
-        if (!cell) continue;
-        keys.push_back(pack(*cell));
-        of_keys.push_back(i);
-    }
+    const auto [keys, points] = keys_of(in_map, 1.0F / level.size);
     std::vector<std::uint32_t> voxels(keys.size());
     level.voxels.insert(keys, voxels);
     level.moments.resize(level.voxels.size());
@@ -54,7 +46,7 @@ void SurfaceMap::insert(Level& level, const Points& in_map) {
         Moments& m = level.moments[voxel];
         if (m.count >= kMost) continue;
         m.count += 1.0F;
-        const Point offset = in_map[of_keys[i]] - corner_of(keys[i], level.size) - m.mean;
+        const Point offset = in_map[points[i]] - corner_of(keys[i], level.size) - m.mean;
         m.mean += offset / m.count;
         const Point d = offset * (1.0F - 1.0F / m.count);
         const std::array<float, 6> more = {offset.x() * d.x(), offset.x() * d.y(),

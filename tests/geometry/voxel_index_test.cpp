@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <vector>
 
@@ -84,6 +85,14 @@ TEST(VoxelIndex, ManyAreInsertedAndFoundAsOneByOne) {
     }
     VoxelIndex().find(asked, found);
     EXPECT_TRUE(std::all_of(found.begin(), found.end(), [](auto id) { return id == kNoVoxel; }));
+}
+
+TEST(VoxelIndex, KeysAreOfThePointsThatHaveOne) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const Points points = {{0.1F, 0.1F, 0.1F}, {nan, 0.0F, 0.0F}, {-0.1F, 0.0F, 0.7F}, {1e9F, 0, 0}};
+    const KeyedPoints keyed = keys_of(points, 2.0F);
+    EXPECT_EQ(keyed.points, (std::vector<std::uint32_t>{0, 2}));
+    EXPECT_EQ(keyed.keys, (std::vector<VoxelKey>{pack({0, 0, 0}), pack({-1, 0, 1})}));
 }
 
 TEST(BlockTable, FindsWhatWasInsertedAndNothingElse) {

@@ -16,6 +16,14 @@ namespace dynamic_filter {
 /// The voxel of each point of a scan; kNoVoxel: none.
 using PointVoxels = std::vector<std::uint32_t>;
 
+/// The keys of points, as far as they have one.
+struct KeyedPoints {
+    std::vector<VoxelKey> keys;
+    std::vector<std::uint32_t> points;  ///< which point each key is of
+};
+/// `inverse_size` [1/m] of the voxels.
+KeyedPoints keys_of(std::span<const Point> points, float inverse_size);
+
 /// Finds the number of a block by its first cell: open addressing, at most half full.
 class BlockTable {
 public:
