@@ -60,7 +60,7 @@ void LabelStore::put(std::size_t scan, const Labels& labels) {
     while (done < bytes.size()) {
         const ssize_t put = ::pwrite(descriptor_, bytes.data() + done, bytes.size() - done,
                                      static_cast<off_t>(end_ + done));
-        if (put < 0 && errno != EINTR) fail(folder_, "labels cannot be kept on its disk");
+        if (put < 0 && errno != EINTR) fail(folder_, "cannot be written");
         if (put > 0) done += static_cast<std::size_t>(put);
     }
     places_[scan] = {end_, labels.size()};
@@ -77,7 +77,8 @@ Labels LabelStore::get(std::size_t scan) const {
     while (done < bytes.size()) {
         const ssize_t got = ::pread(descriptor_, bytes.data() + done, bytes.size() - done,
                                     static_cast<off_t>(offset + done));
-        if (got == 0 || (got < 0 && errno != EINTR)) fail(folder_, "labels cannot be read back");
+        if (got == 0 || (got < 0 && errno != EINTR))
+            fail(folder_, "what was written cannot be read back");
         if (got > 0) done += static_cast<std::size_t>(got);
     }
     Labels labels(count);

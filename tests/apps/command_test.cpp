@@ -550,8 +550,8 @@ TEST_F(Command, WhatFailsLeavesTheOldResultWhole) {
     const std::string data = recording().string();
     ASSERT_EQ(run("run " + data + " -o out"), 0) << said();
     const auto expected = bytes_of("out");
-    // No file may grow beyond 100 blocks: the maps do not fit.
-    const std::string line = "cd " + folder_.path().string() + " && (ulimit -f 100; " + COMMAND +
+    // No file may grow beyond 1000 blocks: the maps do not fit.
+    const std::string line = "cd " + folder_.path().string() + " && (ulimit -f 1000; " + COMMAND +
                              " run " + data + " -o out --overwrite >out.txt 2>&1)";
     const int status = std::system(line.c_str());
     EXPECT_EQ(WEXITSTATUS(status), 1) << said();

@@ -59,7 +59,7 @@ TEST(VoxelIndex, GroupsNewVoxelsByBlockAndLeavesTheOldOnesAlone) {
     EXPECT_TRUE(index.group_by_block(static_cast<std::uint32_t>(size)).empty());
 }
 
-std::vector<VoxelKey> keys_of(const std::vector<Cell>& cells) {
+std::vector<VoxelKey> packed(const std::vector<Cell>& cells) {
     std::vector<VoxelKey> keys;
     for (const Cell& cell : cells) keys.push_back(pack(cell));
     return keys;
@@ -67,7 +67,7 @@ std::vector<VoxelKey> keys_of(const std::vector<Cell>& cells) {
 
 TEST(VoxelIndex, ManyAreInsertedAndFoundAsOneByOne) {
     VoxelIndex one_by_one, together;
-    auto keys = keys_of(test::scattered({-9, -9, -9}, 14, 1));
+    auto keys = packed(test::scattered({-9, -9, -9}, 14, 1));
     keys.insert(keys.end(), keys.begin(), keys.begin() + 100);  // again
     std::vector<std::uint32_t> expected, ids(keys.size());
     for (const VoxelKey key : keys) expected.push_back(one_by_one.insert(key));
@@ -76,7 +76,7 @@ TEST(VoxelIndex, ManyAreInsertedAndFoundAsOneByOne) {
     EXPECT_EQ(together.size(), one_by_one.size());
     EXPECT_EQ(together.blocks(), one_by_one.blocks());
 
-    auto asked = keys_of(test::scattered({-11, -11, -11}, 18, 2));
+    auto asked = packed(test::scattered({-11, -11, -11}, 18, 2));
     asked.push_back(~VoxelKey{0});  // kNoKey
     std::vector<std::uint32_t> found(asked.size());
     together.find(asked, found);
@@ -89,7 +89,8 @@ TEST(VoxelIndex, ManyAreInsertedAndFoundAsOneByOne) {
 
 TEST(VoxelIndex, KeysAreOfThePointsThatHaveOne) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
-    const Points points = {{0.1F, 0.1F, 0.1F}, {nan, 0.0F, 0.0F}, {-0.1F, 0.0F, 0.7F}, {1e9F, 0, 0}};
+    const Points points = {
+        {0.1F, 0.1F, 0.1F}, {nan, 0.0F, 0.0F}, {-0.1F, 0.0F, 0.7F}, {1e9F, 0, 0}};
     const KeyedPoints keyed = keys_of(points, 2.0F);
     EXPECT_EQ(keyed.points, (std::vector<std::uint32_t>{0, 2}));
     EXPECT_EQ(keyed.keys, (std::vector<VoxelKey>{pack({0, 0, 0}), pack({-1, 0, 1})}));
