@@ -67,11 +67,15 @@ void LabelStore::put(std::size_t scan, const Labels& labels) {
     end_ += bytes.size();
 }
 
-Labels LabelStore::get(std::size_t scan) const {
+/// Of no labels, if none were put.
+LabelStore::Place LabelStore::place_of(std::size_t scan) const {
     const std::lock_guard hold(lock_);
     const auto place = places_.find(scan);
-    if (place == places_.end()) return {};
-    const auto [offset, count] = place->second;
+    return place == places_.end() ? Place{} : place->second;
+}
+
+Labels LabelStore::get(std::size_t scan) const {
+    const auto [offset, count] = place_of(scan);
     std::vector<std::uint8_t> bytes((count + 3) / 4);
     std::size_t done = 0;
     while (done < bytes.size()) {

@@ -31,6 +31,8 @@ private:
         std::uint64_t offset = 0;  // bytes
         std::size_t count = 0;     // labels
     };
+    [[nodiscard]] Place place_of(std::size_t scan) const;
+
     std::filesystem::path folder_;
     mutable std::mutex lock_{};
     std::map<std::size_t, Place> places_{};  // by scan

@@ -148,25 +148,31 @@ void write_results(Pass& pass) {
         pass.scorer.emplace(eval::kVoxelSize, 2);
         pass.scoring_origin = scoring_origin(pass.sequence, eval::kVoxelSize);
     }
+    const auto changed = [&](std::size_t i, const std::string& why) {
+        return InputError(pass.sequence.scan_files[i], "", "changed while it was in use: " + why);
+    };
     if (pass.extras.maps && !scans.empty()) {
-        maps.begin(io::read_frame(pass.sequence, scans.front()));
+        try {
+            maps.begin(io::read_frame(pass.sequence, scans.front()));
+        } catch (const InputError& error) {
+            throw changed(scans.front(), error.what());
+        }
     }
     std::vector<Verdict> verdicts(pass.sequence.size());
     std::vector<MapFiles::Records> records(pass.sequence.size());
+    std::vector<Labels> instants(pass.sequence.size());
     const auto classify = [&](std::size_t i, MaybeFrame& maybe) {
         const io::Frame& frame = *maybe.frame;
         verdicts[i] = pass.filter.verdict({frame.points, frame.T_world_sensor, frame.stamp, i});
         io::write_labels(folder / (io::stem(pass.sequence, i) + ".label"), verdicts[i].labels,
                          io::Durable::contents);
         if (pass.extras.maps) records[i] = maps.records_of(frame, verdicts[i]);
+        instants[i] = pass.instant.get(i);
     };
     const auto use = [&](std::size_t i, MaybeFrame& maybe) {
-        if (!maybe.frame) {
-            throw InputError(pass.sequence.scan_files[i], "",
-                             "changed while it was in use: " + maybe.error);
-        }
+        if (!maybe.frame) throw changed(i, maybe.error);
         const Labels& labels = verdicts[i].labels;
-        const Labels instant = pass.instant.get(i);
+        const Labels instant = std::exchange(instants[i], {});
         if (pass.extras.maps) maps.append(std::exchange(records[i], {}));
         if (pass.scorer && !maybe.frame->truth.empty()) {
             pass.scorer->add(labelled(*maybe.frame, pass.scoring_origin),

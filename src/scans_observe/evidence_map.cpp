@@ -119,11 +119,16 @@ void EvidenceMap::check_new() {
     });
 }
 
+SightMargins EvidenceMap::margins_for(const Observer& observer) const {
+    SightMargins margins = margins_;
+    margins.farthest = observer.reach;
+    return margins;
+}
+
 /// Which of those blocks may hold a voxel that the observer sees.
 std::vector<std::size_t> EvidenceMap::blocks_in_sight(std::span<const std::uint32_t> blocks,
                                                       const Observer& observer) const {
-    SightMargins margins = margins_;
-    margins.farthest = observer.reach;
+    const SightMargins margins = margins_for(observer);
     const float radius = 3.5F * grid_.voxel_size();  // of the sphere around a block, and a little
     const Point sensor = observer.T_sensor_map.inverse().translation();
     const float in_reach = margins.farthest + radius + 0.1F;  // and a little: may_see() decides
@@ -146,8 +151,7 @@ std::vector<std::size_t> EvidenceMap::blocks_in_sight(std::span<const std::uint3
 
 /// What the observer sees at each of the places.
 std::vector<Sight> EvidenceMap::look(const Observer& observer, const Points& centroids) const {
-    SightMargins margins = margins_;
-    margins.farthest = observer.reach;
+    const SightMargins margins = margins_for(observer);
     Directions seen;
     to_spherical(centroids, observer.T_sensor_map, seen);
     std::vector<Sight> sights;

@@ -59,6 +59,7 @@ private:
     [[nodiscard]] Places places_in(std::vector<std::uint32_t> blocks, const Wanted& wanted) const;
     void check_known(std::span<const std::uint32_t> blocks);
     void check_new();
+    [[nodiscard]] SightMargins margins_for(const Observer& observer) const;
     [[nodiscard]] std::vector<std::size_t> blocks_in_sight(std::span<const std::uint32_t> blocks,
                                                            const Observer& observer) const;
     [[nodiscard]] std::vector<Sight> look(const Observer& observer, const Points& centroids) const;
