@@ -5,11 +5,11 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <type_traits>
 #include <utility>
 
+#include "dynamic_filter/edit_distance.hpp"
 #include "dynamic_filter/error.hpp"
 
 namespace dynamic_filter {
@@ -72,21 +72,6 @@ std::string print(const T& value) {
     } else {
         return std::string(words(value)[static_cast<std::size_t>(value)]);
     }
-}
-
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i + 1;
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
-        }
-    }
-    return row.back();
 }
 
 [[noreturn]] void unknown_key(std::string_view key) {

@@ -1,4 +1,4 @@
-foreach(unit config keyframe map_contents parallel stage_times
+foreach(unit config edit_distance keyframe map_contents parallel stage_times
              geometry/beam_image geometry/map_points geometry/neighbor_grid geometry/pose geometry/principal_axes geometry/project_kernel
              geometry/range_image geometry/voxel geometry/voxel_index geometry/voxel_neighbors
              scans_observe/clusters scans_observe/contact scans_observe/evidence scans_observe/evidence_grid scans_observe/evidence_map

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -54,10 +55,18 @@ struct RunOptions {
     bool catches = true;     ///< interrupts; otherwise the caller does
 };
 
+/// Which points are scored, by their distance from the sensor [m]. Both bounds are included.
+struct RangeLimits {
+    double min = 0.0;
+    double max = std::numeric_limits<double>::infinity();
+};
+
 struct EvalOptions {
     DataOptions truth;
     std::optional<std::filesystem::path> labels, map, json;
     double voxel = eval::kVoxelSize;
+    RangeLimits ranges;
+    std::string protocol = "all";  ///< of protocol_names()
 };
 
 struct Evaluation {

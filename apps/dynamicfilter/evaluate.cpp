@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
@@ -10,6 +11,7 @@
 #include "dynamic_filter/io/cloud.hpp"
 #include "dynamic_filter/io/file.hpp"
 #include "frames.hpp"
+#include "protocols.hpp"
 #include "report.hpp"
 
 namespace dynamic_filter::app {
@@ -26,17 +28,23 @@ eval::ScanSource noting(eval::ScanSource source, std::vector<std::atomic<bool>>&
 }
 
 eval::ScanSource with_labels(const io::Sequence& sequence, const Eigen::Vector3d& origin,
-                             const std::filesystem::path& folder) {
+                             const std::filesystem::path& folder, const RangeLimits& ranges) {
     // Given the output folder of a run, its labels are meant.
     const auto labels =
         std::filesystem::is_directory(folder / "labels") ? folder / "labels" : folder;
     if (!std::filesystem::is_directory(labels)) throw InputError(labels, "", "is not a folder");
-    return scan_source(sequence, origin,
-                       [&sequence, labels](std::size_t i) -> std::optional<Labels> {
-                           const auto file = labels / (io::stem(sequence, i) + ".label");
-                           if (!std::filesystem::exists(file)) return std::nullopt;
-                           return io::read_labels(file);
-                       });
+    const auto labels_of = [&sequence, labels](std::size_t i) -> std::optional<Labels> {
+        const auto file = labels / (io::stem(sequence, i) + ".label");
+        if (!std::filesystem::exists(file)) return std::nullopt;
+        return io::read_labels(file);
+    };
+    return scan_source(sequence, origin, labels_of, ranges);
+}
+
+std::string ranges_text(const RangeLimits& ranges) {
+    if (ranges.min <= 0.0 && std::isinf(ranges.max)) return "";
+    const std::string far = std::isinf(ranges.max) ? "" : fmt::format(" to {:g} m", ranges.max);
+    return fmt::format("scored are points from {:g} m{} of the sensor\n", ranges.min, far);
 }
 
 /// Where the recording has no poses, those that the run found.
@@ -58,6 +66,9 @@ io::Sequence with_poses(const EvalOptions& o) {
 }  // namespace
 
 Evaluation scores_of(const EvalOptions& o) {
+    if (!(o.ranges.min >= 0.0 && o.ranges.max > o.ranges.min)) {
+        throw ConfigError("--min-range must be 0 or more, and less than --max-range");
+    }
     const io::Sequence sequence = with_poses(o);
     if (!sequence.has_truth()) {
         throw InputError(o.truth.data, "",
@@ -65,9 +76,10 @@ Evaluation scores_of(const EvalOptions& o) {
     }
     const Eigen::Vector3d origin = scoring_origin(sequence, o.voxel);
     std::vector<std::atomic<bool>> left_out(sequence.size());
-    const eval::ScanSource source = noting(
-        o.labels ? with_labels(sequence, origin, *o.labels) : scan_source(sequence, origin, {}),
-        left_out);
+    const eval::ScanSource source =
+        noting(o.labels ? with_labels(sequence, origin, *o.labels, o.ranges)
+                        : scan_source(sequence, origin, {}, o.ranges),
+               left_out);
     eval::Scores scores =
         o.labels ? eval::score_labels(sequence.size(), source, o.voxel)
                  : eval::score_map(sequence.size(), source,
@@ -83,7 +95,7 @@ Evaluation scores_of(const EvalOptions& o) {
 
 int evaluate(const EvalOptions& o) {
     const Evaluation e = scores_of(o);
-    fmt::print("{}", table(e.scores));
+    fmt::print("{}{}", ranges_text(o.ranges), protocol_table(o.protocol, e.scores, o.voxel));
     if (o.json) io::write_file(*o.json, text_of(to_json(e.scores)));
     if (e.left_out == 0) return kDone;
     fmt::print(stderr, "left out {} of {} scans: unreadable, or without labels\n", e.left_out,

@@ -143,22 +143,27 @@ Eigen::Vector3d scoring_origin(const io::Sequence& sequence, double voxel_size) 
     return Eigen::Vector3d::Zero();
 }
 
-eval::LabelledScan labelled(const io::Frame& frame, const Eigen::Vector3d& origin) {
+eval::LabelledScan labelled(const io::Frame& frame, const Eigen::Vector3d& origin,
+                            const RangeLimits& limits) {
     eval::LabelledScan scan{shifted_world(frame, origin), frame.truth, {}};
-    for (std::size_t p = 0; p < frame.points.size(); ++p) {  // no measurement, no truth
-        if (!is_measured(frame.points[p])) scan.truth[p] = Label::unknown;
+    for (std::size_t p = 0; p < frame.points.size(); ++p) {
+        const double range = frame.points[p].cast<double>().norm();
+        const bool is_scored =
+            is_measured(frame.points[p]) && range >= limits.min && range <= limits.max;
+        if (!is_scored) scan.truth[p] = Label::unknown;
     }
     return scan;
 }
 
 eval::ScanSource scan_source(const io::Sequence& sequence, const Eigen::Vector3d& origin,
-                             std::function<std::optional<Labels>(std::size_t)> labels_of) {
-    return [&sequence, origin,
+                             std::function<std::optional<Labels>(std::size_t)> labels_of,
+                             const RangeLimits& limits) {
+    return [&sequence, origin, limits,
             labels_of = std::move(labels_of)](std::size_t i) -> std::optional<eval::LabelledScan> {
         try {
             const io::Frame frame = io::read_frame(sequence, i);
             if (frame.truth.empty()) return std::nullopt;
-            eval::LabelledScan scan = labelled(frame, origin);
+            eval::LabelledScan scan = labelled(frame, origin, limits);
             if (labels_of) {
                 auto labels = labels_of(i);
                 if (!labels) return std::nullopt;

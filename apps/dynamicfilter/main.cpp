@@ -10,7 +10,9 @@
 #include <csignal>
 
 #include "commands.hpp"
+#include "dynamic_filter/edit_distance.hpp"
 #include "dynamic_filter/error.hpp"
+#include "protocols.hpp"
 
 namespace {
 
@@ -123,7 +125,18 @@ void add_eval(CLI::App& app, std::function<int()>& chosen) {
     c.add_option("--voxel", o->voxel, "edge of a voxel [m]")
         ->check(CLI::Range(0.01, 10.0))
         ->capture_default_str();
-    c.add_option("--json", o->json, "also write the scores here");
+    c.add_option(
+         "--protocol", o->protocol,
+         "whose rules: all, voxel (ours), erasor, strict, benchmark (DynamicMap_Benchmark) or "
+         "mos (moving IoU of SemanticKITTI-MOS)")
+        ->check(CLI::IsMember(protocol_names()))
+        ->capture_default_str();
+    c.add_option("--min-range", o->ranges.min,
+                 "leave out points nearer to the sensor than this [m]")
+        ->check(CLI::Range(0.0, 1e6));
+    c.add_option("--max-range", o->ranges.max, "leave out points farther from the sensor [m]")
+        ->check(CLI::Range(0.0, 1e6));
+    c.add_option("--json", o->json, "also write all scores to this file");
     c.callback([o, &chosen] { chosen = [o] { return evaluate(*o); }; });
 }
 
@@ -277,6 +290,11 @@ void add_others(CLI::App& app, std::function<int()>& chosen) {
     c.callback([=, &chosen] { chosen = [=] { return show_config(*config_options, *json); }; });
 }
 
+std::string did_you_mean(const std::string& given, const std::vector<std::string>& known) {
+    const std::string nearest = nearest_word(given, known);
+    return nearest.empty() ? "" : fmt::format(", did you mean '{}'?", nearest);
+}
+
 /// CLI11 would only ask for a subcommand.
 void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
     const std::string given = argc > 1 ? argv[1] : "-";
@@ -285,8 +303,32 @@ void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
     if (given.starts_with('-') || std::find(known.begin(), known.end(), given) != known.end()) {
         return;
     }
+    throw ConfigError(fmt::format("unknown command '{}'{}; the commands are: {}", given,
+                                  did_you_mean(given, known), fmt::join(known, ", ")));
+}
+
+/// CLI11 names what it did not expect, but not what may have been meant.
+[[noreturn]] void refuse_unknown_options(const CLI::App& app) {
+    const CLI::App& command = *app.get_subcommands().front();
+    std::vector<std::string> known;
+    const auto add = [&known](const CLI::App& group) {
+        for (const CLI::Option* option : group.get_options()) {
+            for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+        }
+    };
+    add(command);
+    for (const CLI::App* group : command.get_subcommands({})) add(*group);
+    std::string text;
+    for (const std::string& given : app.remaining(true)) {
+        const bool is_option = given.starts_with('-');
+        if (!text.empty() && !is_option) continue;  // the value of an unknown option
+        const std::string name = given.substr(0, given.find('='));
+        text += fmt::format("{}unknown {} '{}'{}", text.empty() ? "" : "; ",
+                            is_option ? "option" : "argument", name,
+                            is_option ? did_you_mean(name, known) : "");
+    }
     throw ConfigError(
-        fmt::format("unknown command '{}'; there are: {}", given, fmt::join(known, ", ")));
+        fmt::format("{}; `dynamicfilter {} --help` lists the options", text, command.get_name()));
 }
 
 int failed(ExitCode code, const std::exception& error) {
@@ -322,7 +364,15 @@ int main(int argc, char** argv) {
     add_others(app, chosen);
     try {
         refuse_unknown_command(app, argc, argv);
-        app.parse(argc, argv);
+        try {
+            app.parse(argc, argv);
+        } catch (const CLI::ParseError& error) {
+            // An unknown option is what to say first; that another one is missing may follow from
+            // it.
+            const bool is_help = error.get_exit_code() == 0;
+            if (!is_help && !app.remaining(true).empty()) refuse_unknown_options(app);
+            throw;
+        }
         const int code = chosen();
         // A result that could not be printed (a full disk, say) is not a result.
         if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {

@@ -45,15 +45,16 @@ def run(data, output=None, **options):
     return {"output": str(folder), "metrics": _json.loads(metrics), "timing": _json.loads(timing)}
 
 
-def evaluate(truth, *, labels=None, map=None, voxel=0.2, **options):
+def evaluate(truth, *, labels=None, map=None, voxel=0.2, min_range=0.0, max_range=float("inf"), **options):
     """Scores labels or a map against a recording's ground truth, as `dynamicfilter eval` does.
 
     labels: folder of label files (N uint32 a scan), or of a run; or map: cloud file in the world's
-    frame [m]. voxel: edge of a voxel [m]. Options: as of open_recording().
+    frame [m]. voxel: edge of a voxel [m]. min_range, max_range: only points at this distance from the
+    sensor [m] are scored. Options: as of open_recording().
     Returns the scores as a dict of shares 0..1, and how many `scans` were scored and `left_out`.
     Raises ConfigError, InputError, TypeError and ValueError.
     """
-    return _json.loads(_dynamicfilter.evaluate(truth, labels, map, voxel, options))
+    return _json.loads(_dynamicfilter.evaluate(truth, labels, map, voxel, min_range, max_range, options))
 
 
 def check(data, **options):

@@ -92,12 +92,21 @@ py::tuple run(const fs::path& data, const std::optional<fs::path>& output, py::d
 }
 
 std::string evaluate(const fs::path& truth, const std::optional<fs::path>& labels,
-                     const std::optional<fs::path>& map, double voxel, py::dict options) {
+                     const std::optional<fs::path>& map, double voxel, double min_range,
+                     double max_range, py::dict options) {
     if (labels.has_value() == map.has_value()) {
         throw py::type_error("evaluate() takes either labels or map");
     }
     if (!(voxel >= 0.01 && voxel <= 10.0)) throw py::value_error("voxel: expected 0.01 to 10 m");
-    const app::EvalOptions o{data_options(truth, options), labels, map, std::nullopt, voxel};
+    if (!(min_range >= 0.0 && max_range > min_range)) {
+        throw py::value_error("min_range: expected 0 m or more, and less than max_range");
+    }
+    const app::EvalOptions o{.truth = data_options(truth, options),
+                             .labels = labels,
+                             .map = map,
+                             .json = std::nullopt,
+                             .voxel = voxel,
+                             .ranges = {min_range, max_range}};
     refuse_unknown("evaluate", options);
     const py::gil_scoped_release others_go_on;
     const app::Evaluation e = app::scores_of(o);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The command as a user types it: exit codes, what a run leaves behind, and what it says of bad
 // input.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -237,10 +238,55 @@ TEST_F(Command, EvalOfLabelsAndOfTheMapAgreeWithTheRun) {
     EXPECT_EQ(run("eval --truth " + recording().string()), 2);
 }
 
+TEST_F(Command, EvalRepeatsTheProtocolsOfOthers) {
+    ASSERT_EQ(run("run " + recording().string() + " -o out"), 0);
+    const std::string eval = "eval --truth " + recording().string() + " --labels out";
+    const auto metrics = nlohmann::json::parse(slurp(folder_ / "out/metrics.json"));
+    const auto two_digits = [](double share) { return fmt::format("{:.2f}", 100.0 * share); };
+    ASSERT_EQ(run(eval + " --protocol mos"), 0) << said();
+    expect_said("moving IoU " + two_digits(metrics["point"]["iou"]) + " %");
+    ASSERT_EQ(run(eval + " --protocol benchmark"), 0);
+    expect_said("AA " + two_digits(metrics["point"]["aa"]) + " %");
+    for (const auto& [protocol, reading] : std::map<std::string, std::string>{
+             {"voxel", "excluded"}, {"erasor", "erasor"}, {"strict", "static_wins"}}) {
+        ASSERT_EQ(run(eval + " --protocol " + protocol), 0);
+        expect_said("RR " + two_digits(metrics["voxel"][reading]["rr"]) + " %");
+    }
+    EXPECT_EQ(run(eval + " --protocol nobody"), 2);
+    ASSERT_EQ(
+        run("eval --truth " + recording().string() + " --map out/static_map.pcd --protocol erasor"),
+        0);
+    expect_said("this rule needs labels");
+}
+
+TEST_F(Command, EvalScoresWithinTheRangeAskedFor) {
+    ASSERT_EQ(run("run " + recording().string() + " -o out"), 0);
+    const std::string eval = "eval --truth " + recording().string() + " --labels out --json s.json";
+    const auto scores = [&](const std::string& options) {
+        EXPECT_EQ(run(eval + options), 0) << said();
+        return nlohmann::json::parse(slurp(folder_ / "s.json"));
+    };
+    const auto all = scores(""), same = scores(" --min-range 0 --max-range 1000");
+    EXPECT_EQ(all, same);
+    const auto near = scores(" --max-range 8");
+    expect_said("scored are points from 0 m to 8 m of the sensor");
+    EXPECT_NE(near["point"], all["point"]);
+    // Nothing is nearer than the sensor's own body: no voxel of either kind, so no score.
+    EXPECT_TRUE(scores(" --max-range 0.01")["point"]["sa"].is_null());
+    EXPECT_EQ(run(eval + " --min-range 5 --max-range 5"), 2);
+    expect_said("--min-range must be 0 or more, and less than --max-range");
+}
+
 TEST_F(Command, UsageErrorsExitWithTwo) {
     EXPECT_EQ(run(""), 2);
     EXPECT_EQ(run("fly"), 2);
-    expect_said("unknown command 'fly'; there are: run, eval, simulate, convert");
+    expect_said("unknown command 'fly'; the commands are: run, eval, simulate, convert");
+    EXPECT_EQ(run("rnu data"), 2);
+    expect_said("unknown command 'rnu', did you mean 'run'?");
+    EXPECT_EQ(run("eval --truth data --lables out"), 2);
+    expect_said("unknown option '--lables', did you mean '--labels'?");
+    EXPECT_EQ(run("run data out"), 2);
+    expect_said("unknown argument 'out'; `dynamicfilter run --help` lists the options");
     EXPECT_EQ(run("run"), 2);
     EXPECT_EQ(run("run " + recording().string() + " --set map.voxle_size=1"), 2);
     expect_said("map.voxel_size");
@@ -621,7 +667,7 @@ TEST_F(Command, PointsThatLasLeavesOutAreNotCounted) {
 }
 
 TEST_F(Command, ReportsOfRunsAndMapsAreSetSideBySide) {
-    if (app::viewer_page().empty()) GTEST_SKIP() << "built WITHOUT THE VIEWER: npm was missing";
+    if (app::viewer_page().empty()) GTEST_SKIP() << "built WITHOUT THE VIEWER: script/bootstrap fetches what it needs";
     ASSERT_EQ(run("run " + recording().string() + " -o out"), 0);
     const std::string report = slurp(folder_ / "out/report.html");
     EXPECT_NE(report.find("\"scans\":24"), std::string::npos);

@@ -8,7 +8,7 @@ here=$(dirname "$0")
 if [ "$1" = node ]; then
     if ! command -v node >/dev/null || [ ! -d "$here/node_modules" ]; then
         echo "SKIPPED: no node, or no tests/peers/node_modules;" \
-             "run 'npm ci --ignore-scripts' in tests/peers" >&2
+             "run script/bootstrap tests" >&2
         exit 77
     fi
 fi

@@ -9,7 +9,7 @@ skip() {
   exit 77
 }
 command -v node > /dev/null || skip "there is no node"
-[ -f "$html" ] || skip "there is no $html (node viewer/build.mjs $html)"
-[ -d "$here/../../viewer/node_modules/playwright-core" ] || skip "there is no viewer/node_modules (npm ci --ignore-scripts in viewer/)"
+[ -f "$html" ] || skip "there is no $html (viewer/build.py $html)"
+[ -d "$here/../../viewer/node_modules/playwright-core" ] || skip "there is no viewer/node_modules (script/bootstrap tests)"
 [ -x "${CHROMIUM:-/usr/bin/chromium}" ] || skip "there is no ${CHROMIUM:-/usr/bin/chromium} (apt-get install --no-install-recommends chromium)"
 VIEWER_HTML=$html exec node --test --test-reporter=spec "$here/viewer.test.mjs"

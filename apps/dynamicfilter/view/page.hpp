@@ -13,7 +13,7 @@
 
 namespace dynamic_filter::app {
 
-/// The page as it was built in, or empty: built without it (no npm).
+/// The page as it was built in, or empty: built without viewer/node_modules.
 std::string_view viewer_page();
 
 /// Numbers of one type, little endian, as rows of columns.
