@@ -31,8 +31,15 @@ CLI::Validator whole_from(std::size_t least) {
     return CLI::Validator(check, fmt::format("whole, {} or more", least));
 }
 
+/// How `--help` shows a choice; the completion of shells reads it there.
+std::string one_of(const std::vector<std::string>& choices) {
+    return fmt::format("{{{}}}", fmt::join(choices, ","));
+}
+
 void add_config_options(CLI::App& command, ConfigOptions& o) {
-    command.add_option("--preset", o.preset, "default or paper")->capture_default_str();
+    command.add_option("--preset", o.preset, "which settings to begin with")
+        ->type_name(one_of({"default", "paper"}))
+        ->capture_default_str();
     command.add_option("--config", o.file, "TOML file with settings (see `dynamicfilter config`)");
     command.add_option("--set", o.assignments, "one setting, e.g. map.voxel_size=0.1")
         ->take_all()
@@ -42,8 +49,8 @@ void add_config_options(CLI::App& command, ConfigOptions& o) {
 void add_reading_options(CLI::App& command, DataOptions& o) {
     command.add_option("--poses", o.open.poses,
                        "pose file, or none: find them by odometry (default: the recording's own)");
-    command.add_option("--format", o.format,
-                       "kitti, benchmark, folder or bag (default: recognised)");
+    command.add_option("--format", o.format, "of the recording (default: recognised)")
+        ->type_name(one_of({"kitti", "benchmark", "folder", "bag"}));
     command.add_option("--topic", o.open.topic, "of a bag's scans (default: the only one)");
     command.add_option("--pose-topic", o.open.pose_topic,
                        "of a bag's poses, or /tf (default: chosen)");
@@ -144,14 +151,16 @@ void add_simulate(CLI::App& app, std::function<int()>& chosen) {
     auto o = std::make_shared<SimulateOptions>();
     auto& s = o->simulation;
     CLI::App& c = *app.add_subcommand("simulate", "Make a recording with exact labels");
-    c.add_option("SCENE", s.scene, fmt::format("{}", fmt::join(sim::scene_names(), ", ")))
+    c.add_option("SCENE", s.scene, "what to simulate")
+        ->type_name(one_of(sim::scene_names()))
         ->required();
     c.add_option("-o,--output", o->output, "output folder")->required();
     c.add_option("--pedestrians", s.pedestrians, "how many (default: the scene's own number)");
     c.add_option("--seed", s.seed, "same seed, same bytes")
         ->check(whole_from(0))
         ->capture_default_str();
-    c.add_option("--sensor", s.sensor, fmt::format("{}", fmt::join(sim::sensor_names(), ", ")))
+    c.add_option("--sensor", s.sensor, "LiDAR to simulate")
+        ->type_name(one_of(sim::sensor_names()))
         ->capture_default_str();
     c.add_option("--frames", s.frames, "number of scans (default: the whole scene)")
         ->check(whole_from(1));

@@ -14,6 +14,9 @@ Labels are N uint8, one a point: UNKNOWN (0), STATIC (9) or DYNAMIC (251), as in
 Lengths are in metres, stamps in seconds, poses 4 x 4 matrices T_world_sensor.
 """
 import json as _json
+import warnings as _warnings
+
+import numpy as _np
 
 from . import _dynamicfilter
 from ._dynamicfilter import (ConfigError, DynamicFilter, Error, Frame, InputError, OutputError,
@@ -23,7 +26,55 @@ UNKNOWN, STATIC, DYNAMIC = 0, 9, 251
 
 __all__ = ["ConfigError", "DYNAMIC", "DynamicFilter", "Error", "Frame", "InputError",
            "OutputError", "Recording", "STATIC", "UNKNOWN", "check", "evaluate", "open_recording",
-           "read_cloud", "run", "simulate"]
+           "read_cloud", "run", "simulate", "write_cloud"]
+
+
+def write_cloud(file, cloud):
+    """Writes a cloud: .pcd, .ply, .las, .npy, .bin, .xyz, .txt or .csv, by the file's extension.
+
+    cloud: a structured array of N records with x, y and z, as read_cloud() returns it, or an array
+    N x 3 or more columns: x, y, z, intensity, c4, c5, ... Integers of 8 to 64 bits, float32 and float64
+    are kept as they are where the format can hold them; what it cannot hold is said as a UserWarning.
+    Masked points become NaN. The file replaces an earlier one when it is whole.
+    Raises OutputError, TypeError and ValueError.
+    """
+    array = _records(cloud)
+    kinds = {"i", "u", "f"}
+    fields = []
+    for name in array.dtype.names:
+        kind, shape = array.dtype[name].subdtype or (array.dtype[name], ())
+        if kind.kind not in kinds or kind.itemsize > 8 or kind == _np.float16 or len(shape) > 1:
+            raise TypeError(f"cloud: field {name!r} is {array.dtype[name]}; expected integers or floats of 32 or 64 bits")
+        fields.append((name, kind.newbyteorder("<"), shape))
+    missing = [axis for axis in "xyz" if axis not in array.dtype.names]
+    if missing:
+        raise ValueError(f"cloud: has no field {', '.join(missing)}; its fields are {', '.join(array.dtype.names)}")
+    packed = _np.empty(array.shape, _np.dtype(fields))
+    for name in array.dtype.names:
+        packed[name] = array[name]
+    described = [(name, kind.str[1:], int(_np.prod(shape, dtype=int))) for name, kind, shape in fields]
+    loss = _dynamicfilter.write_cloud(file, described, packed.tobytes())
+    if loss:
+        _warnings.warn(loss, stacklevel=2)
+
+
+def _records(cloud):
+    """As a structured array of one dimension, without a mask."""
+    array = cloud.filled(_np.nan) if isinstance(cloud, _np.ma.MaskedArray) and cloud.dtype.kind == "f" else _np.asarray(cloud)
+    if array.dtype.names is not None:
+        if array.ndim != 1:
+            raise ValueError(f"cloud: expected one record a point, got shape {array.shape}")
+        return array
+    if array.ndim != 2 or array.shape[1] < 3:
+        raise ValueError(f"cloud: expected N records, or an array N x 3 or more columns, got shape {array.shape}")
+    if array.dtype.kind not in "iuf":
+        raise TypeError(f"cloud: expected numbers, got {array.dtype}")
+    names = ["x", "y", "z", "intensity"][:array.shape[1]] + [f"c{i}" for i in range(4, array.shape[1])]
+    kind = array.dtype if array.dtype.kind == "f" else _np.dtype("<f8")
+    records = _np.empty(len(array), [(name, kind) for name in names])
+    for i, name in enumerate(names):
+        records[name] = array[:, i]
+    return records
 
 
 def run(data, output=None, **options):

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <set>
 
 namespace dynamic_filter::python {
@@ -48,9 +49,16 @@ std::vector<float> read_times(const py::array& array) {
 
 bool is_single(const py::array& array) { return py::isinstance<py::array_t<float>>(array); }
 
-/// An array of float32 or float64, without a copy.
+/// A masked array's data with NaN in place of what is masked, as numpy would hide the mask from us.
+py::object without_mask(const py::object& given) {
+    const py::object masked = py::module_::import("numpy.ma").attr("MaskedArray");
+    if (!py::isinstance(given, masked)) return given;
+    return given.attr("filled")(std::numeric_limits<double>::quiet_NaN());
+}
+
+/// An array of float32 or float64, without a copy unless it is masked.
 py::array floats_from(const py::object& given, const char* name, const char* expected) {
-    const py::array array = py::array::ensure(given);
+    const py::array array = py::array::ensure(without_mask(given));
     if (!array) {
         throw py::type_error(
             fmt::format("{}: expected an array {} of float32 or float64", name, expected));

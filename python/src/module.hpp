@@ -51,6 +51,10 @@ void take_switch(pybind11::dict& options, const char* name, std::string& to);
 /// Takes what says how to read a recording out of `options`. Raises TypeError, throws ConfigError.
 app::DataOptions data_options(const std::filesystem::path& data, pybind11::dict& options);
 
+/// A message with the command's options in it, with Python's arguments in their place:
+/// `--pose-fix inverse` becomes `pose_fix="inverse"`.
+std::string in_python(const std::string& message);
+
 /// Raises ValueError if there cannot be so many.
 void refuse_threads(int threads);
 

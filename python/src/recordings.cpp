@@ -2,8 +2,14 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <map>
+#include <span>
+#include <string>
+#include <tuple>
+
 #include "arrays.hpp"
 #include "dynamic_filter/io/cloud.hpp"
+#include "dynamic_filter/io/writers.hpp"
 #include "frames.hpp"
 #include "module.hpp"
 
@@ -21,6 +27,26 @@ py::array read_cloud(const fs::path& file) {
     }
     const auto [kept, owner] = handed_over(std::move(cloud));
     return fields_array(kept, owner);
+}
+
+/// `fields`: (name, numpy's type without the byte order, values a point); `records`: packed, little
+/// endian. What numpy has under other names is put into that form by the package's write_cloud().
+std::string write_cloud(const fs::path& file, const py::list& fields, const py::bytes& records) {
+    static const std::map<std::string, io::FieldType> kTypes{
+        {"i1", io::FieldType::i8},  {"u1", io::FieldType::u8},  {"i2", io::FieldType::i16},
+        {"u2", io::FieldType::u16}, {"i4", io::FieldType::i32}, {"u4", io::FieldType::u32},
+        {"i8", io::FieldType::i64}, {"u8", io::FieldType::u64}, {"f4", io::FieldType::f32},
+        {"f8", io::FieldType::f64}};
+    io::Cloud cloud;
+    for (const py::handle& field : fields) {
+        const auto [name, type, count] =
+            field.cast<std::tuple<std::string, std::string, std::uint32_t>>();
+        io::add_field(cloud, name, kTypes.at(type), count);
+    }
+    const auto bytes = std::as_bytes(std::span(static_cast<std::string_view>(records)));
+    cloud.data.assign(bytes.begin(), bytes.end());
+    const py::gil_scoped_release others_go_on;
+    return io::write_cloud(file, cloud).loss;
 }
 
 io::Sequence open_recording(const fs::path& data, const py::kwargs& options) {
@@ -108,6 +134,7 @@ Scans are read when asked for and not kept. Any thread may read; the GIL is free
 
 Returns a structured array of N records with the file's fields, types, units and frame:
 cloud["x"], cloud["intensity"]. Raises InputError.)");
+    module.def("write_cloud", &write_cloud);
     module.def("open_recording", &open_recording, py::arg("data"),
                R"(Opens a recording: a bag, or a folder with scans and poses.
 

@@ -10,3 +10,5 @@ target_compile_definitions(apps_command_test PRIVATE COMMAND="$<TARGET_FILE:dyna
 
 add_test(NAME apps/kill COMMAND ${CMAKE_CURRENT_LIST_DIR}/kill_test.sh $<TARGET_FILE:dynamicfilter>)
 add_test(NAME apps/interrupt COMMAND ${CMAKE_CURRENT_LIST_DIR}/interrupt_test.sh $<TARGET_FILE:dynamicfilter>)
+add_test(NAME apps/completion COMMAND ${CMAKE_CURRENT_LIST_DIR}/completion_test.sh $<TARGET_FILE:dynamicfilter>
+  ${PROJECT_SOURCE_DIR}/packaging/dynamicfilter.bash)

@@ -1,5 +1,5 @@
 # The package, as it is built; skipped loudly where it is not.
-foreach(unit api arrays examples filter memory odometry programs threads)
+foreach(unit api arrays clouds examples filter memory odometry programs threads)
   if(DF_BUILD_PYTHON)
     add_test(NAME python/${unit}
       COMMAND ${DF_PYTHON} ${CMAKE_CURRENT_LIST_DIR}/${unit}_test.py)

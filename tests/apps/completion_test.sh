@@ -1,0 +1,32 @@
+#!/bin/bash
+# What bash offers where a user presses Tab.   completion_test.sh COMMAND SCRIPT
+set -u
+command=$1
+source "$2"
+failed=0
+offers() {  # EXPECTED (some of the offered words) WORDS...: the last of these is what is typed so far
+    local expected=$1
+    shift
+    COMP_WORDS=("$command" "$@") COMP_CWORD=$# COMPREPLY=()
+    _dynamicfilter "$command"
+    for word in $expected; do
+        [[ " ${COMPREPLY[*]} " == *" $word "* ]] || { echo "no '$word' for '$*', but: ${COMPREPLY[*]}"; failed=1; }
+    done
+    [[ -n $expected || ${#COMPREPLY[@]} -eq 0 ]] || { echo "files were expected for '$*', not: ${COMPREPLY[*]}"; failed=1; }
+}
+compopt() { :; }  # works within a completion only
+offers "run render report" r
+offers "--resume --refine" run data --re
+offers "default paper" run data --preset ""
+offers "paper" run data --preset = p
+offers "auto on off" run data --refine ""
+offers "inverse mm" check data --pose-fix ""
+offers "kitti benchmark folder bag" check data --format ""
+offers "map.voxel_size=" run data --set map.v
+offers "crowd street square hall jam platform" simulate ""
+offers "vlp16 os64" simulate crowd --sensor ""
+offers "erasor mos" eval --protocol ""
+offers "kitti benchmark autoware" convert a b --to ""
+offers "" run data --poses ""
+offers "" run ""
+exit $failed
