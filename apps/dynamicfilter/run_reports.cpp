@@ -125,7 +125,8 @@ void write_report(Pass& pass, const nlohmann::ordered_json& metrics) {
     if (!pass.extras.report) return;
     if (viewer_page().empty()) {
         pass.summary.notes.emplace_back(
-            "no report.html: this command was built without the viewer; run script/bootstrap and script/build");
+            "no report.html: this command was built without the viewer; run script/bootstrap and "
+            "script/build");
         return;
     }
     PageRun run = view_of({pass.sequence, pass.filter, pass.scan_notes, pass.instant,

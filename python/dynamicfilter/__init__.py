@@ -20,7 +20,9 @@ import numpy as _np
 
 from . import _dynamicfilter
 from ._dynamicfilter import (ConfigError, DynamicFilter, Error, Frame, InputError, OutputError,
-                             Recording, __version__, open_recording, read_cloud, simulate)
+                             Recording, open_recording, read_cloud, simulate)
+
+__version__ = _dynamicfilter.__version__
 
 UNKNOWN, STATIC, DYNAMIC = 0, 9, 251
 

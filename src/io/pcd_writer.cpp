@@ -17,7 +17,8 @@ void append_value(fmt::memory_buffer& text, FieldType type, const std::byte* byt
     with_type(type, [&]<class T>(std::type_identity<T>) {
         // "{}" prints the fewest digits that read back as the same number.
         if constexpr (sizeof(T) == 1) {
-            fmt::format_to(std::back_inserter(text), "{} ", static_cast<int>(little_endian<T>(bytes)));
+            fmt::format_to(std::back_inserter(text), "{} ",
+                           static_cast<int>(little_endian<T>(bytes)));
         } else {
             fmt::format_to(std::back_inserter(text), "{} ", little_endian<T>(bytes));
         }

@@ -98,7 +98,8 @@ std::string write_text_cloud(const std::filesystem::path& path, const Cloud& clo
         for (const Field& field : fields) {
             if (!text.empty()) text += separator;
             with_type(field.type, [&](auto type) {
-                append_number(text, little_endian<typename decltype(type)::type>(record + field.offset));
+                append_number(text,
+                              little_endian<typename decltype(type)::type>(record + field.offset));
             });
         }
         file.write(text + "\n");

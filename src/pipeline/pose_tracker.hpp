@@ -21,8 +21,8 @@ public:
     /// sensor's motion during the scan if the times of its points are known. False: the scan has a
     /// pose, which is taken as it is. Throws Error if only some scans have poses.
     bool track(Scan& scan);
-    /// Tells instant verdicts the poses of their scans; returns the labels of the scan tracked last,
-    /// if its verdict is among them.
+    /// Tells instant verdicts the poses of their scans; returns the labels of the scan tracked
+    /// last, if its verdict is among them.
     Labels attach(std::vector<Verdict>& verdicts);
     /// The labels of the scan tracked last: what moves is no landmark. Empty: nothing is known.
     void learn(const Labels& labels);

@@ -667,7 +667,8 @@ TEST_F(Command, PointsThatLasLeavesOutAreNotCounted) {
 }
 
 TEST_F(Command, ReportsOfRunsAndMapsAreSetSideBySide) {
-    if (app::viewer_page().empty()) GTEST_SKIP() << "built WITHOUT THE VIEWER: script/bootstrap fetches what it needs";
+    if (app::viewer_page().empty())
+        GTEST_SKIP() << "built WITHOUT THE VIEWER: script/bootstrap fetches what it needs";
     ASSERT_EQ(run("run " + recording().string() + " -o out"), 0);
     const std::string report = slurp(folder_ / "out/report.html");
     EXPECT_NE(report.find("\"scans\":24"), std::string::npos);

@@ -2,6 +2,7 @@
 # What bash offers where a user presses Tab.   completion_test.sh COMMAND SCRIPT
 set -u
 command=$1
+# shellcheck disable=SC1090  # an argument
 source "$2"
 failed=0
 offers() {  # EXPECTED (some of the offered words) WORDS...: the last of these is what is typed so far

@@ -84,11 +84,11 @@ TEST(VoxelKernel, EveryLevelAgreesBitByBit) {
     for (const auto& level : DYNAMIC_FILTER_LEVELS_OF(to_voxels)) {
         MapPoints out{Points(points.size()), std::vector<VoxelKey>(points.size() + 1, 7)};
         level.run({.xyz = points.front().data(),
-                         .count = points.size(),
-                         .matrix = matrix.data(),
-                         .half_cells_per_metre = 2.0F / 0.1F,
-                         .map_xyz = out.points.front().data(),
-                         .keys = out.keys.data()});
+                   .count = points.size(),
+                   .matrix = matrix.data(),
+                   .half_cells_per_metre = 2.0F / 0.1F,
+                   .map_xyz = out.points.front().data(),
+                   .keys = out.keys.data()});
         EXPECT_EQ(out.keys.back(), 7U) << level.name;  // a guard
         out.keys.pop_back();
         EXPECT_EQ(out.keys, expected.keys) << level.name;

@@ -92,7 +92,8 @@ std::string page_with(std::span<const std::string> runs) {
     const std::string_view page = viewer_page();
     const std::size_t at = page.find(kMarker);
     if (at == std::string_view::npos) {
-        throw Error("this command was built without the viewer; run script/bootstrap and script/build");
+        throw Error(
+            "this command was built without the viewer; run script/bootstrap and script/build");
     }
     std::string text(page.substr(0, at + kMarker.size()));
     text += '\n';

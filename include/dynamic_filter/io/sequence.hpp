@@ -62,9 +62,9 @@ struct Sequence {
                                         ///< the bag, or nothing
     bool has_poses = true;              ///< false: nobody knows them, and T_world_sensor is empty
     bool wants_times = false;           ///< frames get the times of their points
-    std::optional<Sweep> sweep;        ///< from which those times follow if scans do not hold them
-    /// Parallel, or empty: how the sensor moved. If the sequence wants_times, the motion during each
-    /// scan is undone with it, and frames have no times any more.
+    std::optional<Sweep> sweep;         ///< from which those times follow if scans do not hold them
+    /// Parallel, or empty: how the sensor moved. If the sequence wants_times, the motion during
+    /// each scan is undone with it, and frames have no times any more.
     std::vector<Twist> velocities;
     std::vector<double> stamps;    ///< parallel [s]; made up at 10 Hz where not measured
     bool measured_stamps = false;  ///< they come from the recording

@@ -34,7 +34,8 @@ TEST(Page, NamesCannotEndTheTagThatHoldsThem) {
 }
 
 TEST(Page, ARunMovesFromItsReportToAnotherPage) {
-    if (viewer_page().empty()) GTEST_SKIP() << "built WITHOUT THE VIEWER: script/bootstrap fetches what it needs";
+    if (viewer_page().empty())
+        GTEST_SKIP() << "built WITHOUT THE VIEWER: script/bootstrap fetches what it needs";
     const test::TemporaryFolder folder;
     const std::string own = embedded(small_run("a"), 0);
     const auto report = folder.put("report.html", page_with({&own, 1}));
@@ -52,7 +53,8 @@ TEST(Page, OtherFilesAreNoReports) {
 
 TEST(Page, RefersToNothingOutside) {
     const std::string page(viewer_page());
-    if (page.empty()) GTEST_SKIP() << "built WITHOUT THE VIEWER: script/bootstrap fetches what it needs";
+    if (page.empty())
+        GTEST_SKIP() << "built WITHOUT THE VIEWER: script/bootstrap fetches what it needs";
     for (const char* outside : {"src=\"http", "href=\"http", "@import", "url(http"}) {
         EXPECT_EQ(page.find(outside), std::string::npos) << outside;
     }
