@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "commands.hpp"
+#include "draw/picture.hpp"
 #include "frames.hpp"
 #include "progress.hpp"
 #include "report.hpp"
@@ -45,14 +46,20 @@ int demo(const DemoOptions& o) {
     write_simulation(scene, recorded.path());
     recorded.commit();
 
-    TopView view;
     const io::Sequence sequence = open({.data = recording, .format = "kitti", .open = {}});
     clock.finish("simulate");
-    const RunSummary summary =
-        run_sequence(sequence, preset("default"), {}, result, clock, {.from_above = &view});
+    const RunSummary summary = run_sequence(sequence, preset("default"), {}, result, clock);
     result.commit();
-    io::write_png(output.path() / "before.png", view.draw(true));
-    io::write_png(output.path() / "after.png", view.draw(false));
+    // Seen from where the whole hall is in view.
+    RenderOptions picture;
+    picture.data.data = result.name();
+    picture.width = 1600;
+    picture.height = 560;
+    picture.azimuth_deg = 85.0;
+    picture.elevation_deg = 40.0;
+    io::write_png(output.path() / "before.png", picture_of(picture));
+    picture.clean = true;
+    io::write_png(output.path() / "after.png", picture_of(picture));
     output.commit();
 
     fmt::print("\n{}", to_text(summary));
@@ -61,7 +68,9 @@ int demo(const DemoOptions& o) {
         "\npictures {0}/before.png (removed points in red) and {0}/after.png\n"
         "report   {0}/result/report.html (open it in a browser)\n"
         "maps     {0}/result/static_map.pcd and dynamic_points.pcd\n"
-        "next     build/release/dynamicfilter run YOUR_DATA\n",
+        "\nYour own recording, a bag or a folder with scans:\n"
+        "  build/release/dynamicfilter check YOUR_RECORDING\n"
+        "  build/release/dynamicfilter run YOUR_RECORDING -o out\n",
         o.output.string());
     return kDone;
 }

@@ -59,7 +59,8 @@ void Progress::advance() {
         printed_at_ = seconds;
     } else {
         if (done_ < next_line_) return;
-        next_line_ = std::min(total_, done_ + std::max<std::size_t>(1, total_ / 10));
+        // A log of a whole run is to fit on a screen.
+        next_line_ = ((4 * done_ / total_ + 1) * total_ + 3) / 4;
     }
     print(seconds);
 }

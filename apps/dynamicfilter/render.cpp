@@ -6,10 +6,9 @@
 
 #include "commands.hpp"
 #include "config_file.hpp"
-#include "draw/canvas.hpp"
 #include "draw/cleaning.hpp"
+#include "draw/picture.hpp"
 #include "dynamic_filter/error.hpp"
-#include "dynamic_filter/io/cloud.hpp"
 #include "frames.hpp"
 #include "motion.hpp"
 
@@ -18,34 +17,6 @@ namespace dynamic_filter::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Maps to draw: what stays, and what was removed.
-struct Maps {
-    Points kept, removed;
-};
-
-Maps maps_of(const fs::path& in, bool clean) {
-    const bool is_run = fs::is_directory(in);
-    const io::Cloud kept = io::read_cloud(is_run ? in / "static_map.pcd" : in);
-    const Eigen::Vector3d origin = origin_of(kept);
-    Maps maps{positions_from(kept, origin), {}};
-    std::erase_if(maps.kept, [](const Point& p) { return !p.allFinite(); });
-    if (is_run && !clean && fs::exists(in / "dynamic_points.pcd")) {
-        maps.removed = positions_from(io::read_cloud(in / "dynamic_points.pcd"), origin);
-    }
-    return maps;
-}
-
-io::Image draw(const Maps& maps, const RenderOptions& o) {
-    constexpr float kOutermost = 0.002F;
-    const Eigen::AlignedBox3f box =
-        box_of(maps.kept.empty() ? maps.removed : maps.kept, kOutermost);
-    Canvas canvas(o.width, o.height, camera_for(box, o.width, o.height, o));
-    const auto size = static_cast<float>(o.point_size);
-    canvas.draw(maps.kept, size, [&](std::size_t i) { return height_color(maps.kept[i], box); });
-    canvas.draw(maps.removed, size, [](std::size_t) { return kRemovedColor; });
-    return canvas.picture({250, 250, 250});
-}
 
 std::string extension_of(const fs::path& file) {
     std::string extension = file.extension().string();
@@ -70,7 +41,7 @@ int render(const RenderOptions& o) {
                              "holds no static_map.pcd; expected the output folder of a run, a "
                              "cloud, or, to animate a recording, -o NAME.webp");
         }
-        io::write_png(o.output, draw(maps_of(in, o.clean), o));
+        io::write_png(o.output, picture_of(o));
     } else {
         throw ConfigError(o.output.string() +
                           ": is neither .png (a picture) nor .webp (a "

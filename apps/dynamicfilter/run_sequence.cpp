@@ -179,10 +179,6 @@ void write_results(Pass& pass) {
                              std::array<const Labels*, 2>{&labels, &instant});
         }
         note(pass, i, *maybe.frame, labels, instant);
-        if (pass.watchers.from_above) {
-            pass.watchers.from_above->add(shifted_world(*maybe.frame, Eigen::Vector3d::Zero()),
-                                          labels);
-        }
         if (pass.watchers.live) {
             pass.watchers.live->feed().corrected(i, maybe.frame->points, labels);
         }

@@ -13,7 +13,6 @@
 #include "dynamic_filter/map_contents.hpp"
 #include "output_folder.hpp"
 #include "stage_clock.hpp"
-#include "top_view.hpp"
 #include "view/live_view.hpp"
 
 namespace dynamic_filter::app {
@@ -38,7 +37,6 @@ struct RunSummary {
 
 /// Who looks on, if anybody.
 struct Watchers {
-    TopView* from_above = nullptr;  ///< collects the final verdicts
     LiveView* live = nullptr;       ///< is told of every scan
     bool quiet = false;             ///< no progress on stderr
 };

@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <string>
 #include <thread>
 
 namespace dynamic_filter::app {
@@ -28,6 +30,21 @@ TEST(CatchInterrupts, TheFirstIsNotedAndALaterOneKills) {
         };
         EXPECT_EXIT((at_once(), std::exit(interrupted() ? 7 : 1)), testing::ExitedWithCode(7), "");
         EXPECT_EXIT(later(), testing::KilledBySignal(number), "");
+    }
+}
+
+TEST(Progress, ALogHasFiveLinesOfAStageWhateverItsLength) {
+    for (const std::size_t total : {3U, 4U, 10U, 323U, 30000U}) {
+        testing::internal::CaptureStderr();
+        {
+            Progress progress("filter", total, false);
+            for (std::size_t i = 0; i < total; ++i) progress.advance();
+        }
+        const std::string log = testing::internal::GetCapturedStderr();
+        const auto lines = static_cast<std::size_t>(std::count(log.begin(), log.end(), '\n'));
+        EXPECT_EQ(lines, std::min<std::size_t>(total, 5)) << log;
+        const std::string last = std::to_string(total) + "/" + std::to_string(total);
+        EXPECT_NE(log.find("filter " + last), std::string::npos) << log;
     }
 }
 
