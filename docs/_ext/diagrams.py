@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws the diagrams of docs/how-it-works.md into docs/images. Colours are legible on light and on dark."""
+"""Draws the diagrams of docs/how-it-works.md and docs/paper.md into docs/images. Colours are legible on light and on dark."""
 import math
 from pathlib import Path
 

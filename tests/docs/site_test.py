@@ -92,7 +92,8 @@ wrong += [f"api/cpp.html lacks {header.name}" for header in installed()
           if f"{header.relative_to(root / 'include/dynamic_filter')}<" not in text_of("api/cpp.html")
           and header.name != "dynamic_filter.hpp"]
 # Equations are there already, in the page.
-assert text_of("how-it-works.html").count("<math") > 30
+for page, least in (("how-it-works", 30), ("paper", 15), ("scores", 3)):
+    assert text_of(f"{page}.html").count("<math") > least, page
 
 assert not wrong, "\n".join(sorted(wrong))
 print(f"{len(pages)} pages, {len(keys)} settings, {len(TYPES)} names of Python")
