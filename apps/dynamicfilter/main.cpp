@@ -40,82 +40,97 @@ void add_config_options(CLI::App& command, ConfigOptions& o) {
     command.add_option("--preset", o.preset, "which settings to begin with")
         ->type_name(one_of({"default", "paper"}))
         ->capture_default_str();
-    command.add_option("--config", o.file, "TOML file with settings (see `dynamicfilter config`)");
-    command.add_option("--set", o.assignments, "one setting, e.g. map.voxel_size=0.1")
+    command.add_option("--config", o.file,
+                       "TOML file with settings, as `dynamicfilter config` prints them");
+    command
+        .add_option("--set", o.assignments, "change one setting, for instance map.voxel_size=0.1")
         ->take_all()
         ->expected(1);
 }
 
 void add_reading_options(CLI::App& command, DataOptions& o) {
-    command.add_option("--poses", o.open.poses,
-                       "pose file, or none: find them by odometry (default: the recording's own)");
-    command.add_option("--format", o.format, "of the recording (default: recognised)")
+    command.add_option(
+        "--poses", o.open.poses,
+        "pose file; `none` finds the poses by odometry (default: the recording's own poses)");
+    command
+        .add_option("--format", o.format,
+                    "format of the recording (default: recognised by its files)")
         ->type_name(one_of({"kitti", "benchmark", "folder", "bag"}));
-    command.add_option("--topic", o.open.topic, "of a bag's scans (default: the only one)");
+    command.add_option("--topic", o.open.topic,
+                       "topic of the scans in a bag (default: the only one)");
     command.add_option("--pose-topic", o.open.pose_topic,
-                       "of a bag's poses, or /tf (default: chosen)");
+                       "topic of the poses in a bag, or /tf (default: the one that fits)");
     std::vector<std::string> fixes{"none"};
     for (const io::PoseFix fix : io::pose_fixes()) fixes.push_back(io::to_string(fix));
     command
         .add_option("--pose-fix", o.pose_fix,
-                    fmt::format("put poses right: {}; `check` says which", fmt::join(fixes, ", ")))
+                    fmt::format("correct the poses: {}; `check` says which one is needed",
+                                fmt::join(fixes, ", ")))
         ->check(CLI::IsMember(fixes));
     command.add_flag("--points-in-world", o.open.points_in_world,
-                     "scans are in the frame of the poses, not in the sensor's");
-    command.add_option("--time-unit", o.time_unit, "of the stamps: s, ms, us, ns")
+                     "the points are in the world frame, not in the sensor's frame");
+    command.add_option("--time-unit", o.time_unit, "unit of the stamps")
         ->check(CLI::IsMember({"s", "ms", "us", "ns"}))
         ->capture_default_str();
     command
         .add_option("--deskew", o.deskew,
-                    "undo the sensor's motion during each scan: on, off, or auto: where scans "
-                    "overlay better then")
+                    "undo the sensor's motion during each scan; auto does so if the scans overlay "
+                    "better then")
         ->check(CLI::IsMember({"auto", "on", "off"}))
         ->expected(0, 1)
         ->default_str("auto");
 }
 
 void add_selection_options(CLI::App& command, DataOptions& o) {
-    command.add_option("--first", o.open.first, "index of the first scan")->check(whole_from(0));
-    command.add_option("--last", o.open.last, "index of the last scan")->check(whole_from(0));
-    command.add_option("--stride", o.open.stride, "use every n-th scan")->check(whole_from(1));
+    command.add_option("--first", o.open.first, "index of the first scan to use")
+        ->check(whole_from(0));
+    command.add_option("--last", o.open.last, "index of the last scan to use")
+        ->check(whole_from(0));
+    command.add_option("--stride", o.open.stride, "use every n-th scan only")->check(whole_from(1));
 }
 
 void add_run(CLI::App& app, std::function<int()>& chosen) {
     auto o = std::make_shared<RunOptions>();
     CLI::App& c = *app.add_subcommand("run", "Remove moving objects from a recording");
-    c.add_option("DATA", o->data.data, "bag (.mcap, .bag, .db3), or folder with scans and poses")
+    c.add_option("DATA", o->data.data,
+                 "a bag (.mcap, .bag, .db3), or a folder with scans and poses")
         ->required();
     c.add_option("-o,--output", o->output, "output folder (default: results/<UTC stamp>)");
     add_reading_options(c, o->data);
     add_config_options(c, o->config);
     add_selection_options(c, o->data);
-    c.add_option("--refine", o->refine,
-                 "register scans anew, beginning from the given poses: on, off, or auto: where "
-                 "scans overlay better then")
+    c.add_option(
+         "--refine", o->refine,
+         "refine the given poses by registering the scans; auto does so if the scans overlay "
+         "better then")
         ->check(CLI::IsMember({"auto", "on", "off"}))
         ->capture_default_str();
-    c.add_option("--threads", o->threads, "of each stage; 0: all cores")
+    c.add_option("--threads", o->threads, "number of threads; 0 uses all cores")
         ->check(CLI::Range(0, 1024));
-    CLI::Option* const online =
-        c.add_flag("--online", o->online,
-                   "replay as a sensor would; scans that it cannot keep up with are dropped");
-    c.add_option("--speed", o->speed,
-                 "with --online: times the sensor's rate; 0: as fast as it can, nothing dropped")
+    CLI::Option* const online = c.add_flag(
+        "--online", o->online,
+        "replay the recording as a sensor would send it; scans are dropped if the filter is too "
+        "slow for them");
+    c.add_option(
+         "--speed", o->speed,
+         "with --online: how many times as fast as the sensor; 0 is as fast as possible, and drops "
+         "nothing")
         ->needs(online)
         ->check(CLI::Range(0.0, 1e6))
         ->capture_default_str();
-    CLI::Option* const overwrite =
-        c.add_flag("--overwrite", o->overwrite,
-                   "replace what an earlier run left in the output folder, once this one is done");
+    CLI::Option* const overwrite = c.add_flag(
+        "--overwrite", o->overwrite,
+        "replace the result of an earlier run in the output folder, once this run is complete");
     c.add_flag("--resume", o->resume,
-               "finish a run that was interrupted or killed, with the bytes of an unbroken one")
+               "continue a run that was interrupted or killed; the result is that of an "
+               "uninterrupted run")
         ->excludes(overwrite);
-    CLI::Option* const view =
-        c.add_flag("--view", o->view, "show the run in a browser, live, at the address it prints");
-    c.add_option("--port", o->port, "of the view (default: any that is free)")->needs(view);
-    c.add_flag("!--no-maps", o->maps, "write no static_map.pcd and no dynamic_points.pcd");
-    c.add_flag("!--no-report", o->report, "write no report.html")->excludes(view);
-    c.add_flag("-q,--quiet", o->quiet, "say only what is wrong");
+    CLI::Option* const view = c.add_flag(
+        "--view", o->view, "show the run live in a browser, at the address that it prints");
+    c.add_option("--port", o->port, "port of the view (default: any free one)")->needs(view);
+    c.add_flag("!--no-maps", o->maps, "do not write static_map.pcd and dynamic_points.pcd");
+    c.add_flag("!--no-report", o->report, "do not write report.html")->excludes(view);
+    c.add_flag("-q,--quiet", o->quiet, "print only warnings and errors");
     c.callback([o, &chosen] { chosen = [o] { return run(*o); }; });
 }
 
@@ -125,17 +140,16 @@ void add_eval(CLI::App& app, std::function<int()>& chosen) {
     c.add_option("--truth", o->truth.data, "recording with ground truth")->required();
     CLI::Option_group& result = *c.add_option_group("result");
     result.add_option("--labels", o->labels,
-                      "folder of label files, or the output folder of a run");
+                      "folder with label files, or the output folder of a run");
     result.add_option("--map", o->map, "clean map (.pcd or .ply) in the world frame");
     result.require_option(1);
     add_reading_options(c, o->truth);
     c.add_option("--voxel", o->voxel, "edge of a voxel [m]")
         ->check(CLI::Range(0.01, 10.0))
         ->capture_default_str();
-    c.add_option(
-         "--protocol", o->protocol,
-         "whose rules: all, voxel (ours), erasor, strict, benchmark (DynamicMap_Benchmark) or "
-         "mos (moving IoU of SemanticKITTI-MOS)")
+    c.add_option("--protocol", o->protocol,
+                 "rules by which to score: voxel is this project's, strict FreeDOM's, benchmark "
+                 "DynamicMap_Benchmark's, mos SemanticKITTI-MOS'")
         ->check(CLI::IsMember(protocol_names()))
         ->capture_default_str();
     c.add_option("--min-range", o->ranges.min,
@@ -150,13 +164,14 @@ void add_eval(CLI::App& app, std::function<int()>& chosen) {
 void add_simulate(CLI::App& app, std::function<int()>& chosen) {
     auto o = std::make_shared<SimulateOptions>();
     auto& s = o->simulation;
-    CLI::App& c = *app.add_subcommand("simulate", "Make a recording with exact labels");
+    CLI::App& c = *app.add_subcommand("simulate", "Simulate a recording with exact labels");
     c.add_option("SCENE", s.scene, "what to simulate")
         ->type_name(one_of(sim::scene_names()))
         ->required();
     c.add_option("-o,--output", o->output, "output folder")->required();
-    c.add_option("--pedestrians", s.pedestrians, "how many (default: the scene's own number)");
-    c.add_option("--seed", s.seed, "same seed, same bytes")
+    c.add_option("--pedestrians", s.pedestrians,
+                 "number of pedestrians (default: the scene's own number)");
+    c.add_option("--seed", s.seed, "seed of the random numbers; the same seed gives the same bytes")
         ->check(whole_from(0))
         ->capture_default_str();
     c.add_option("--sensor", s.sensor, "LiDAR to simulate")
@@ -166,18 +181,18 @@ void add_simulate(CLI::App& app, std::function<int()>& chosen) {
         ->check(whole_from(1));
     c.add_option("--rate", s.rate_hz, "scans per second (default: the scene's own)")
         ->check(CLI::Range(0.0, 100.0));
-    c.add_option("--rounds", s.rounds, "of the robot, in crowd (default: 2)")
+    c.add_option("--rounds", s.rounds,
+                 "rounds that the robot drives in the scene crowd (default: 2)")
         ->check(CLI::Range(1, 100));
-    c.add_flag(
-        "--sweep", s.sweep,
-        "measure points one after the other while all moves on, as a real sensor does; scans "
-        "are PCD files then, with the time of each point");
+    c.add_flag("--sweep", s.sweep,
+               "measure the points of a scan one after the other while everything moves, as a real "
+               "sensor does; the scans are then PCD files with the time of each point");
     c.add_option("--pose-noise", s.pose_noise_m, "standard deviation of each axis [m]")
         ->check(CLI::Range(0.0, 10.0));
     c.add_option("--pose-noise-deg", s.pose_noise_deg, "standard deviation of each axis [deg]")
         ->check(CLI::Range(0.0, 90.0));
     c.add_flag("--overwrite", o->overwrite, "replace an earlier recording in the output folder");
-    c.add_flag("-q,--quiet", o->quiet, "say only what is wrong");
+    c.add_flag("-q,--quiet", o->quiet, "print only warnings and errors");
     c.callback([o, &chosen] { chosen = [o] { return simulate(*o); }; });
 }
 
@@ -191,26 +206,28 @@ void add_convert(CLI::App& app, std::function<int()>& chosen) {
          "a recording, all its points in the world's frame")
         ->required();
     c.add_option("--to", o->to,
-                 "layout of a folder: kitti (default), benchmark, or autoware (map tiles)")
+                 "layout of the output folder: kitti (default), benchmark, or autoware (map tiles)")
         ->check(CLI::IsMember({"kitti", "benchmark", "autoware"}));
-    c.add_option("--labels", o->labels,
-                 "output folder of a run, or its labels (default: the recording's ground truth)");
+    c.add_option(
+        "--labels", o->labels,
+        "output folder of a run, or its labels (default: the ground truth of the recording)");
     add_reading_options(c, o->data);
     add_selection_options(c, o->data);
-    c.add_flag("--overwrite", o->overwrite, "replace what is there");
+    c.add_flag("--overwrite", o->overwrite, "replace an existing output");
     c.callback([o, &chosen] { chosen = [o] { return convert(*o); }; });
 }
 
 void add_report(CLI::App& app, std::function<int()>& chosen) {
     auto o = std::make_shared<ReportOptions>();
-    CLI::App& c = *app.add_subcommand("report", "Set runs and maps side by side on one page");
-    c.add_option("RESULT", o->results,
-                 "output folders of runs, or clean maps of others (.pcd, .ply, ...) in the world "
-                 "frame; four at most")
+    CLI::App& c = *app.add_subcommand("report", "Show runs and maps side by side on one page");
+    c.add_option(
+         "RESULT", o->results,
+         "output folders of runs, or clean maps of other programs (.pcd, .ply, ...) in the world "
+         "frame; at most four")
         ->required()
         ->expected(1, 4);
-    c.add_option("-o,--output", o->output, "the page")->capture_default_str();
-    c.add_option("--truth", o->truth.data, "recording with ground truth, to score maps");
+    c.add_option("-o,--output", o->output, "file of the page")->capture_default_str();
+    c.add_option("--truth", o->truth.data, "recording with ground truth, by which maps are scored");
     add_reading_options(c, o->truth);
     c.add_option("--voxel", o->voxel, "edge of a voxel for the scores [m]")
         ->check(CLI::Range(0.01, 10.0))
@@ -220,38 +237,44 @@ void add_report(CLI::App& app, std::function<int()>& chosen) {
     auto s = std::make_shared<ServeOptions>();
     CLI::App& serve_command =
         *app.add_subcommand("serve", "Show reports in a browser, on this machine");
-    serve_command.add_option("DIR", s->folder, "output folder of a run, or a folder of such")
+    serve_command
+        .add_option("DIR", s->folder, "output folder of a run, or a folder that holds several")
         ->required();
-    serve_command.add_option("--port", s->port, "default: any that is free");
+    serve_command.add_option("--port", s->port, "port (default: any free one)");
     serve_command.callback([s, &chosen] { chosen = [s] { return serve(*s); }; });
 }
 
 void add_render(CLI::App& app, std::function<int()>& chosen) {
     auto o = std::make_shared<RenderOptions>();
-    CLI::App& c = *app.add_subcommand("render", "Draw a map, or a recording being cleaned");
+    CLI::App& c =
+        *app.add_subcommand("render", "Draw a map, or animate how a recording is cleaned");
     c.add_option("IN", o->data.data,
                  "output folder of a run, cloud file, or a recording to animate")
         ->required();
-    c.add_option("-o,--output", o->output, ".png; of a recording, .webp")->required();
-    CLI::Option* const above = c.add_flag("--top", o->from_above, "from straight above");
-    c.add_flag("--clean", o->clean, "without the removed points");
+    c.add_option("-o,--output", o->output,
+                 "picture to write: .png of a run or cloud, .webp of a recording")
+        ->required();
+    CLI::Option* const above = c.add_flag("--top", o->from_above, "look straight down");
+    c.add_flag("--clean", o->clean, "leave out the removed points");
     c.add_option("--width", o->width, "[pixels]")
         ->check(CLI::Range(16, 16384))
         ->capture_default_str();
     c.add_option("--height", o->height, "[pixels]")
         ->check(CLI::Range(16, 16384))
         ->capture_default_str();
-    c.add_option("--azimuth", o->azimuth_deg, "direction of view, from the x axis [deg]")
+    c.add_option("--azimuth", o->azimuth_deg,
+                 "where the camera stands, as an angle from the x axis [deg]")
         ->excludes(above)
         ->capture_default_str();
-    c.add_option("--elevation", o->elevation_deg, "below the horizon [deg]")
+    c.add_option("--elevation", o->elevation_deg,
+                 "how far the camera looks down from the horizon [deg]")
         ->excludes(above)
         ->check(CLI::Range(1.0, 89.0))
         ->capture_default_str();
-    c.add_option("--point-size", o->point_size, "[pixels]")
+    c.add_option("--point-size", o->point_size, "size of a point [pixels]")
         ->check(CLI::Range(0.5, 50.0))
         ->capture_default_str();
-    c.add_option("--pictures", o->pictures, "of an animation")
+    c.add_option("--pictures", o->pictures, "number of pictures of an animation")
         ->check(CLI::Range(2, 1000))
         ->capture_default_str();
     add_reading_options(c, o->data);
@@ -262,7 +285,8 @@ void add_render(CLI::App& app, std::function<int()>& chosen) {
 
 void add_others(CLI::App& app, std::function<int()>& chosen) {
     auto demo_options = std::make_shared<DemoOptions>();
-    CLI::App& d = *app.add_subcommand("demo", "Simulate, filter, score and draw: no data needed");
+    CLI::App& d = *app.add_subcommand(
+        "demo", "Simulate a crowd, remove it, score and draw the result; needs no data");
     d.add_option("-o,--output", demo_options->output, "output folder")->capture_default_str();
     d.callback([=, &chosen] { chosen = [=] { return demo(*demo_options); }; });
 
@@ -283,19 +307,19 @@ void add_others(CLI::App& app, std::function<int()>& chosen) {
     add_reading_options(o, track->data);
     add_selection_options(o, track->data);
     add_config_options(o, track->config);
-    o.add_flag("-q,--quiet", track->quiet, "say only what is wrong");
+    o.add_flag("-q,--quiet", track->quiet, "print only warnings and errors");
     o.callback([=, &chosen] { chosen = [=] { return odometry(*track); }; });
 
     auto file = std::make_shared<std::filesystem::path>();
     CLI::App& i = *app.add_subcommand("info", "Describe a point cloud file or a recording");
-    i.add_option("FILE", *file, "cloud or folder")->required();
+    i.add_option("FILE", *file, "point cloud file, bag or folder")->required();
     i.callback([=, &chosen] { chosen = [=] { return info(*file); }; });
 
     auto config_options = std::make_shared<ConfigOptions>();
     CLI::App& c = *app.add_subcommand("config", "Print all settings as TOML or JSON");
     add_config_options(c, *config_options);
     auto json = std::make_shared<bool>(false);
-    c.add_flag("--json", *json, "as JSON, with bounds");
+    c.add_flag("--json", *json, "print JSON, with the bounds of each setting");
     c.callback([=, &chosen] { chosen = [=] { return show_config(*config_options, *json); }; });
 }
 
