@@ -172,8 +172,8 @@ TEST(BeamPattern, FindsTheSpacingOfSpinningSensors) {
         const BeamPattern beams = estimate_beam_pattern(std::span(&scan, 1));
         const double rows = (s.highest - s.lowest) / (s.rings - 1) * kDeg,
                      columns = 360.0 / s.columns * kDeg;
-        EXPECT_NEAR(beams.elevation_spacing, rows, 0.1 * rows) << s.rings << " " << s.columns;
-        EXPECT_NEAR(beams.azimuth_spacing, columns, 0.1 * columns) << s.rings << " " << s.columns;
+        EXPECT_NEAR(beams.elevation_spacing, rows, 0.01 * rows) << s.rings << " " << s.columns;
+        EXPECT_NEAR(beams.azimuth_spacing, columns, 0.01 * columns) << s.rings << " " << s.columns;
     }
 }
 

@@ -34,7 +34,9 @@ protected:
     void expect_survives_truncation(const std::string& bytes, std::size_t may_lose) {
         for (std::size_t n = 0; n < bytes.size(); ++n) {
             try {
-                EXPECT_EQ(read(bytes.substr(0, n)).size(), 2U);
+                const Cloud back = read(bytes.substr(0, n));
+                ASSERT_EQ(back.size(), 2U);
+                EXPECT_EQ(positions(back), (Points{{1, 2, 3}, {4, 5, 6}}));
                 EXPECT_LE(bytes.size() - n, may_lose);
             } catch (const InputError&) {
             }

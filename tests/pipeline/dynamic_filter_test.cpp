@@ -482,18 +482,32 @@ TEST(ScansObserve, TheLatestMapHoldsWhatCameAndStayed) {
 TEST(ScansObserve, AFootOnTheGroundIsDynamicAndTheGroundIsNot) {
     const auto scans = drive(24, true);
     const Outcome result = run(scans, Config{});
-    int low = 0, found = 0;
+    int low = 0, found = 0, ground = 0, kept = 0;
     for (std::size_t s = 0; s < scans.size(); ++s) {
-        for (std::size_t i = 0; i < scans[s].truth.size(); ++i) {
-            const double z =
-                (scans[s].scan.T_world_sensor * scans[s].scan.points[i].cast<double>()).z();
-            if (scans[s].truth[i] != Label::dynamic || z < 0.12 || z > 0.2) continue;
+        const auto& [scan, truth] = std::tie(scans[s].scan, scans[s].truth);
+        Points feet;
+        for (std::size_t i = 0; i < truth.size(); ++i) {
+            const Point at = (scan.T_world_sensor * scan.points[i].cast<double>()).cast<float>();
+            if (truth[i] != Label::dynamic || at.z() < 0.12F || at.z() > 0.2F) continue;
+            feet.push_back(at);
             ++low;
             found += result.final[s].labels[i] == Label::dynamic ? 1 : 0;
         }
+        for (std::size_t i = 0; i < truth.size(); ++i) {
+            const Point at = (scan.T_world_sensor * scan.points[i].cast<double>()).cast<float>();
+            const bool beside_a_foot =
+                truth[i] == Label::static_ && at.z() < 0.05F &&
+                std::any_of(feet.begin(), feet.end(),
+                            [&](const Point& foot) { return (foot - at).head<2>().norm() < 1.0F; });
+            if (!beside_a_foot) continue;
+            ++ground;
+            kept += result.final[s].labels[i] == Label::static_ ? 1 : 0;
+        }
     }
     ASSERT_GT(low, 10);
-    EXPECT_GE(found, 0.25 * low);
+    ASSERT_GT(ground, 10);
+    EXPECT_GE(found, 0.4 * low);
+    EXPECT_EQ(kept, ground);
 }
 
 std::vector<RoomScan> without_poses(std::size_t count) {

@@ -89,8 +89,9 @@ TEST(EvidenceMap, LargeVoxelsKeepTheirCorners) {
     config.map.voxel_size = 1.0;
     const EvidenceMap map = filled(drive(12, false), config);
     for (std::uint32_t v = 0; v < map.grid().voxels().size(); ++v) {
-        EXPECT_GE(probability_of(map, v).value_or(1.0F), 0.5F)
-            << map.grid()[v].centroid.transpose();
+        const auto probability = probability_of(map, v);
+        ASSERT_TRUE(probability) << map.grid()[v].centroid.transpose();
+        EXPECT_GE(*probability, 0.5F) << map.grid()[v].centroid.transpose();
     }
 }
 

@@ -48,7 +48,7 @@ TEST(Lidar, ResidualsHaveTheSensorsNoise) {
             EXPECT_LT(std::abs(along), 6.0 * sensor.sigma);
         }
     }
-    EXPECT_NEAR(std::sqrt(squares / static_cast<double>(count)), sensor.sigma, 0.1 * sensor.sigma);
+    EXPECT_NEAR(std::sqrt(squares / static_cast<double>(count)), sensor.sigma, 0.02 * sensor.sigma);
 }
 
 TEST(Lidar, RangesAreQuantisedAndWithinLimits) {
