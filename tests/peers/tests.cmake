@@ -1,5 +1,5 @@
 # What is written is read by others: npm's packages (script/bootstrap tests), Python's SQLite and
-# numpy, and where they are installed Open3D (python3-open3d) and ROS 1 (python3-rosbag,
+# numpy, Open3D (python3-open3d) and ROS 1 (python3-rosbag,
 # python3-sensor-msgs). A peer that is not there is a test that says "Skipped".
 
 foreach(writer write_bags write_clouds)
