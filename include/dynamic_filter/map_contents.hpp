@@ -30,10 +30,10 @@ struct MapContents {
     std::string observer;       ///< kind of the observers: "keyframes" or "submaps"
     std::size_t observers = 0;  ///< how many have observed, or are in the buffer
     std::size_t voxels = 0;     ///< number of voxels of the map
-    std::optional<BeamPattern>
-        beams;  ///< angles between the beams of the sensor; empty: not measured yet
-    std::vector<std::size_t>
-        keyframes;  ///< Scan::index of the keyframes that VoxelHistory::free_keyframes can name
+    /// Angles between the beams of the sensor; empty: not measured yet.
+    std::optional<BeamPattern> beams;
+    /// Scan::index of the keyframes that VoxelHistory::free_keyframes can name.
+    std::vector<std::size_t> keyframes;
     std::vector<Throughput> throughput;  ///< one entry per main stage, in processing order
 
     /// Adds the contents of another map of the same method.

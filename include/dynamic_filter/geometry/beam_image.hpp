@@ -112,8 +112,8 @@ private:
     [[nodiscard]] int tile_columns() const { return grid_.columns / kTile + 1; }
 
     ImageGrid grid_;
-    int first_column_ = 0,
-        stored_columns_ = 0;  // the field of view: the circle without its widest gap
+    // The field of view: the circle without its widest gap.
+    int first_column_ = 0, stored_columns_ = 0;
     std::size_t beams_ = 0;
     std::vector<std::uint32_t> pixels_;
     std::vector<std::uint16_t> farthest_of_nine_cm_;

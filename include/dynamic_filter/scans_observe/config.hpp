@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Every number that decides in the method "scans": default, unit, bounds, meaning and reason.
+/// All constants of the method "scans" with default, unit, bounds, meaning and reason.
 ///
-/// The first one is a choice of the user. All others are constants of the method: they were found
-/// on simulated crowds and streets and on pieces of KITTI together (docs/results.md says which),
-/// and are settings so that an ablation can change them and a run can tell what was in force.
+/// The first one is a choice of the user. All others are constants of the method. They were fitted
+/// together on simulated crowds and streets and on parts of KITTI (docs/results.md lists the
+/// recordings). They are settings so that an ablation can change them, and so that a run can record
+/// the values that it used.
 ///
-/// - Units: what visit_scans() says of each field.
+/// - Units: visit_scans() names the unit of each field.
 /// - Ownership: values.
 /// - Threads: plain data.
 /// - Errors: none.
@@ -16,18 +17,18 @@
 
 namespace dynamic_filter {
 
-/// Settings of the method in which scans observe. What each means: visit_scans().
+/// Settings of the method "scans". visit_scans() explains each of them.
 struct ScansConfig {
     int max_keyframes = 400;
 
-    /// Which keyframes are asked, and how far they look.
+    /// Which keyframes are used for a voxel, and how far they look.
     struct Observers {
         double near_reach = 40.0;
         int least_points = 1000;
         double images_asked = 32.0;
     } observers;
 
-    /// What one keyframe says about one place: see line_of_sight.hpp.
+    /// When a keyframe sees a place as occupied or free; see line_of_sight.hpp.
     struct Sight {
         double nearest = 0.3;
         double farthest = 80.0;
@@ -48,7 +49,7 @@ struct ScansConfig {
         double clear_unseen = 2.0;
     } sight;
 
-    /// How the counters of a voxel become a score: see evidence.hpp.
+    /// How the counters of a voxel give its score; see evidence.hpp.
     struct Evidence {
         double flicker = 0.3;
         double switch_power = 0.95;
@@ -64,7 +65,7 @@ struct ScansConfig {
         double static_limit = 1.8;
     } evidence;
 
-    /// How much neighbours count: see vote.hpp.
+    /// Weights of neighboring voxels; see vote.hpp.
     struct Vote {
         double company = 1.25;
         double neighborhood = 1.75;
@@ -75,7 +76,7 @@ struct ScansConfig {
         double ask_again = 0.2;
     } vote;
 
-    /// Clusters of a scan, and their tracks over time: see clusters.hpp and instances.hpp.
+    /// Clusters of a scan and their tracks over time; see clusters.hpp and instances.hpp.
     struct Instances {
         double every = 0.15;
         double reach = 60.0;
@@ -95,7 +96,7 @@ struct ScansConfig {
         double share = 0.7;
     } instances;
 
-    /// Points on a static surface, below something that moves: see contact.hpp.
+    /// Points of moving objects on a static surface, such as feet on the ground; see contact.hpp.
     struct Contact {
         int fewest = 6;
         double flat = 0.04;
