@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// The settings of the odometry: for scans without poses, and for poses that are refined.
+/// Settings of the odometry, which estimates poses for scans without poses and refines given poses.
 ///
-/// - Units: what visit_odometry() says of each field.
-/// - Ownership: texts of a Setting live for ever.
+/// - Units: visit_odometry() names the unit of each field.
+/// - Ownership: texts of a Setting are string literals and stay valid for the whole program.
 /// - Threads: plain data and pure functions; thread-safe.
 /// - Errors: none.
 #pragma once
@@ -12,7 +12,7 @@
 
 namespace dynamic_filter {
 
-/// What visit_odometry() explains.
+/// Settings of the odometry. visit_odometry() explains each of them.
 struct OdometryConfig {
     bool refine = false;
     double voxel = 0.5;

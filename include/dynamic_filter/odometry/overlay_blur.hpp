@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// How well scans overlay if they were taken at given poses.
+/// Measures how well scans overlay at given poses.
 ///
 /// - Units: [m].
-/// - Frames: poses T_world_sensor, points in the sensor's.
+/// - Frames: poses T_world_sensor, points in the sensor frame.
 /// - Shapes: poses are parallel to scans.
 /// - Threads: pure functions; thread-safe.
 /// - Errors: none.
@@ -16,10 +16,10 @@
 
 namespace dynamic_filter {
 
-/// [m] How far points lie off the surfaces of the map that the scans before make, and how rough
-/// those are: the geometric mean of both together. The motion during scans is undone where the
-/// times of their points are known. The scans' own poses are not looked at. 0 for fewer than two
-/// scans.
+/// Blur [m] of the overlaid scans: the geometric mean of two values, the distance of points from
+/// the surfaces of the map that the previous scans make, and the roughness of these surfaces. If
+/// the times of the points are known, motion compensation is done. Poses inside the scans are not
+/// used. Returns 0 for fewer than two scans.
 double overlay_blur(std::span<const Scan> scans, std::span<const Pose> T_world_sensor,
                     const OdometryConfig& config);
 

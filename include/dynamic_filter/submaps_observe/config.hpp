@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Every setting of the paper's method, in which submaps observe, and of Removert.
+/// All settings of the paper's method ("submaps") and of Removert ("removert").
 ///
-/// - Units: what visit_submaps() says of each field.
+/// - Units: visit_submaps() names the unit of each field.
 /// - Ownership: values.
 /// - Threads: plain data.
 /// - Errors: none.
@@ -12,15 +12,15 @@
 
 namespace dynamic_filter {
 
-/// What takes points back (Sec. III-B2).
+/// How points that were wrongly removed are reverted (Sec. III-B2).
 enum class Reverting { map, visibility, none };
 
-/// How many scans make a submap (Sec. III-B).
+/// How many keyframes make a submap (Sec. III-B).
 struct SubmapConfig {
     int keyframes = 20;
 };
 
-/// Scan to map (Sec. III-B).
+/// Scan-to-map front-end (Sec. III-B).
 struct FrontEndConfig {
     bool enabled = true;
     double image_step_deg = 0.5;
@@ -34,7 +34,7 @@ struct FrontEndConfig {
     double revert_image_scale = 2.0;
 };
 
-/// Map to map (Sec. III-C).
+/// Map-to-map back-end (Sec. III-C).
 struct BackEndConfig {
     bool enabled = true;
     int max_submaps = 20;
