@@ -23,8 +23,8 @@ struct Evidence {
     /// As n_occ, but weighted, and only the first keyframes of each occupied run.
     std::uint16_t occupied = 0;
     std::uint16_t free = 0;  ///< as n_free, but weighted
-    std::uint16_t hits =
-        0;  ///< as n_occ, but only keyframes of `occupied` with a point in the voxel
+    /// As n_occ, but only keyframes of `occupied` with a point in the voxel.
+    std::uint16_t hits = 0;
     /// As n_free, but only keyframes with a beam through the voxel itself.
     std::uint16_t passes = 0;
     std::uint16_t n_flicker = 0;       ///< changes between hits and passes
