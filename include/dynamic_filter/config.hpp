@@ -47,31 +47,37 @@ struct Config {
 /// Calls f(setting, member) for every field, in the order of the struct.
 template <class C, class F>
 void visit(C& c, F&& f) {
-    f(
-        Setting{
-            "method", "", "Table II",
-            "scans (each scan observes), submaps (the paper's) or removert (the paper's opponent)"},
-        c.method);
-    f(Setting{"map.voxel_size", "m", "III-C1", "edge of a voxel", 0.02, 5}, c.map.voxel_size);
-    f(Setting{"map.occupancy_threshold", "1", "III-C1", "voxels at or above it are static", 0, 1},
+    f(Setting{"method", "", "Table II",
+              "how moving objects are found: scans (each keyframe is an observer), submaps (the "
+              "paper's method) or removert (the method with which the paper compares)"},
+      c.method);
+    f(Setting{"map.voxel_size", "m", "III-C1", "edge length of a voxel", 0.02, 5},
+      c.map.voxel_size);
+    f(Setting{"map.occupancy_threshold", "1", "III-C1",
+              "a voxel is static if its occupancy is at least this", 0, 1},
       c.map.occupancy_threshold);
     f(Setting{"map.search_radius", "m", "r",
-              "a local map is made of voxels, or of submaps, this near to its pose", 0, 1e6},
+              "a local map consists of the voxels, or of the submaps, within this distance of its "
+              "pose",
+              0, 1e6},
       c.map.search_radius);
-    f(Setting{"map.keep_unknown", "", "", "points without a verdict go into the static map"},
+    f(Setting{"map.keep_unknown", "", "",
+              "whether points without a verdict go into the static map"},
       c.map.keep_unknown);
-    f(
-        Setting{
-            "map.time", "", "",
-            "the static map holds what never moved (always), or what was there when its place was "
-            "last seen (latest), also if it came; labels are the same",
-            0, 0, methods_of(Method::scans)},
-        c.map.time);
+    f(Setting{"map.time", "", "",
+              "what the static map holds: only what never moved (always), or what was in each "
+              "place when the place was last seen, so also objects that came and stayed (latest); "
+              "labels are the same for both",
+              0, 0, methods_of(Method::scans)},
+      c.map.time);
     visit_odometry(c.odometry, f);
     f(Setting{"keyframe.interval", "s", "III-B",
-              "a scan this long after the last keyframe becomes one", 0, 3600},
+              "a scan becomes a keyframe if it is at least this much later than the last keyframe",
+              0, 3600},
       c.keyframe.interval);
-    f(Setting{"keyframe.distance", "m", "III-B", "... or this far from it", 0.01, 1000},
+    f(Setting{"keyframe.distance", "m", "III-B",
+              "a scan also becomes a keyframe if it is at least this far from the last keyframe",
+              0.01, 1000},
       c.keyframe.distance);
     visit_scans(c.scans, f);
     visit_submaps(c, f);
