@@ -10,7 +10,8 @@ namespace dynamic_filter {
 
 namespace {
 
-constexpr double kRestart = 1.0;  // [s] back in time: no scan is as late, the recording began anew
+// [s] back in time; no scan is that late, so the recording began again.
+constexpr double kRestart = 1.0;
 
 std::string seconds(double value) {
     char text[32];

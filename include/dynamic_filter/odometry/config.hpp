@@ -52,8 +52,10 @@ void visit_odometry(C& o, F&& f) {
           50, o.nearest);
     field("odometry.farthest", "m", "points farther from the sensor are not used", 5, 1000,
           o.farthest);
-    field("odometry.speed", "m/s", "largest speed of the sensor at the start of the recording", 0.1,
-          300, o.speed);
+    field("odometry.speed", "m/s",
+          "largest speed of the sensor; used until its velocity is known, and to limit a search in "
+          "a wide area",
+          0.1, 300, o.speed);
     field("odometry.acceleration", "m/s^2",
           "typical change of the velocity of the sensor; it limits the motion in directions in "
           "which the scans do not show it",

@@ -16,10 +16,11 @@
 
 namespace dynamic_filter {
 
-/// Blur [m] of the overlaid scans: the geometric mean of two values, the distance of points from
-/// the surfaces of the map that the previous scans make, and the roughness of these surfaces. If
-/// the times of the points are known, motion compensation is done. Poses inside the scans are not
-/// used. Returns 0 for fewer than two scans.
+/// Blur [m] of the overlaid scans. Each point is compared with the surface at its place in the map
+/// that the previous scans make; its value is the root of d^2 + v, with its distance d from the
+/// surface and the variance v of the surface (its roughness). The blur is the geometric mean over
+/// all points. If the times of the points are known, motion compensation is done. Poses inside the
+/// scans are not used. Returns 0 for fewer than two scans.
 double overlay_blur(std::span<const Scan> scans, std::span<const Pose> T_world_sensor,
                     const OdometryConfig& config);
 

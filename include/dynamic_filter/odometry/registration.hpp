@@ -39,8 +39,9 @@ struct Registration {
 Registration register_points(const SurfaceMap& map, const Points& points, const Pose& start,
                              const PosePrior& prior, double reach);
 
-/// Blur [m] of the points on the map: the geometric mean of the distance of the points from the
-/// surfaces, and of the roughness of these surfaces.
+/// Blur [m] of the points on the map: the geometric mean over all points of the root of d^2 + v,
+/// with the distance d of the point from the surface and the variance v of the surface (its
+/// roughness). A point counts at most 0.5 m, also where the map has no surface.
 double blur_on_map(const SurfaceMap& map, const Points& points, const Pose& T_map_sensor);
 
 }  // namespace dynamic_filter
