@@ -25,7 +25,7 @@ std::string names_of(const Topics& topics) {
     return names;
 }
 
-/// What `convert` made of the scans of another topic, or of them all.
+/// True for output topics of `convert`, which repeat the scans of another topic or of all topics.
 bool is_part_of_another(const std::string& name, const std::map<std::string, CloudTopic>& clouds) {
     if (name == "/static_map" && clouds.size() > 1) return true;
     for (const std::string_view part : {"_static", "_dynamic"}) {
@@ -36,7 +36,8 @@ bool is_part_of_another(const std::string& name, const std::map<std::string, Clo
     return false;
 }
 
-/// "; /velodyne_packets is velodyne_msgs/VelodyneScan..." for what a driver has yet to decode.
+/// Text such as "; /velodyne_packets is velodyne_msgs/VelodyneScan..." for topics with raw packets
+/// that a driver must decode first.
 std::string tell_packets(const BagContents& contents) {
     std::string told;
     for (const auto& [name, type] : contents.packets) {
@@ -80,7 +81,8 @@ const CloudTopic& choose_clouds(const BagContents& contents, const std::filesyst
     return *whole.front();
 }
 
-/// Header stamps; where a driver left them at zero, when the message was recorded.
+/// Orders scans by the stamps of their headers, or by the time of recording if the driver left the
+/// stamps at zero.
 std::vector<FoundScan> in_order(CloudTopic topic, std::vector<std::string>& notes) {
     const bool unset = std::all_of(topic.scans.begin(), topic.scans.end(),
                                    [](const FoundScan& s) { return s.stamp == 0.0; });
@@ -94,7 +96,7 @@ std::vector<FoundScan> in_order(CloudTopic topic, std::vector<std::string>& note
     return std::move(topic.scans);
 }
 
-/// Where the sensor is at a time, and when that was said.
+/// Poses of the sensor over time, and the times at which they were published.
 struct PoseSource {
     std::function<std::optional<Pose>(double stamp)> T_world_sensor;
     std::vector<double> stamps;
@@ -142,7 +144,7 @@ PoseSource from_topic(const std::string& name, const PoseTopic& topic, const Fra
                                name, topic.child, sensor)};
 }
 
-/// Empty, and a note that says why: there are none.
+/// Chooses the source of the poses. If there are none, returns nothing, and a note says why.
 std::optional<PoseSource> choose_poses(const BagContents& contents, const CloudTopic& clouds,
                                        const OpenOptions& options,
                                        std::vector<std::string>& notes) {
@@ -176,7 +178,7 @@ std::optional<PoseSource> choose_poses(const BagContents& contents, const CloudT
     return first;
 }
 
-/// A file with stamps, interpolated; or one row for each scan.
+/// Assigns poses from a file: interpolated if it has stamps, otherwise one row per scan.
 void assign_file_poses(Sequence& sequence, const std::filesystem::path& file) {
     PoseFile poses = read_poses(file);
     if (poses.stamps.empty()) {

@@ -81,7 +81,7 @@ PoseFile read_rows(Lines& lines) {
     return file;
 }
 
-/// A comment may hold commas in a file of blanks, so the first line of data decides.
+/// Decides by the first line of data, because comments may contain commas in any file.
 bool is_csv(const std::string& text, const std::filesystem::path& file) {
     Lines lines(text, file);
     bool comment_has_comma = false;
@@ -143,7 +143,7 @@ void refuse_other_kind(std::string_view text, const std::filesystem::path& file)
                                                 : ""));
 }
 
-/// As spreadsheets write where the comma is decimal. One row tells.
+/// Throws if the first row has decimal commas, as some spreadsheets write them.
 void refuse_decimal_commas(std::string_view text, const std::filesystem::path& file) {
     Lines lines(text, file);
     while (lines.next() && is_comment(trim(lines.line()))) {

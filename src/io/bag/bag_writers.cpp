@@ -15,7 +15,7 @@ namespace {
 
 using Create = std::unique_ptr<BagWriter> (*)(const std::filesystem::path&);
 
-/// nullptr: no bag.
+/// Returns nullptr if the extension is not that of a bag.
 Create creator_for(const std::filesystem::path& path) {
     const std::string extension = to_lower(path.extension().string());
     if (extension == ".mcap") return create_mcap;

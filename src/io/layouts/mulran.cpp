@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The data set's calibration: where the sensor is on the vehicle.
+/// Pose of the sensor on the vehicle, from the calibration of the data set.
 Pose T_vehicle_sensor() {
     constexpr double degree = std::numbers::pi / 180.0;
     Pose pose = Pose::Identity();
