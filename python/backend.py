@@ -28,7 +28,8 @@ def tag():
 
 
 def build():
-    python = pathlib.Path(sys.executable).resolve()  # an environment of pip's would not last
+    # The Python of a temporary environment of pip would disappear.
+    python = pathlib.Path(sys.executable).resolve()
     subprocess.run(["cmake", "--preset", "release", "-DDYNAMIC_FILTER_PYTHON=ON",
                     f"-DPython3_EXECUTABLE={python}"], cwd=ROOT, check=True, stdout=sys.stderr)
     subprocess.run(["cmake", "--build", BUILD, "--target", "_dynamicfilter", "dynamicfilter"],
@@ -49,7 +50,7 @@ def files(name):
 
 
 def add(wheel, path, content, mode=0o644):
-    entry = zipfile.ZipInfo(path)  # of 1980: same sources, same bytes
+    entry = zipfile.ZipInfo(path)  # has a date in 1980, so the same sources give the same bytes
     entry.external_attr = (0o100000 | mode) << 16
     wheel.writestr(entry, content, zipfile.ZIP_DEFLATED)
 

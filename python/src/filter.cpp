@@ -70,7 +70,7 @@ py::list corrections(KeptFilter& filter, const py::object& asked) {
     return list;
 }
 
-/// Negative ones count from the newest.
+/// Negative numbers count back from the newest scan.
 std::size_t scan_number(KeptFilter& filter, const py::object& asked) {
     auto scan = taken<py::ssize_t>(asked, "scan", "the number of a scan");
     if (scan < 0) scan += static_cast<py::ssize_t>(filter.size());
@@ -119,7 +119,7 @@ py::array poses(KeptFilter& filter) {
     return poses_array(T_world_sensor);
 }
 
-/// Two views of the same voxels.
+/// Two arrays over the same voxels.
 py::tuple map_arrays(std::vector<StaticVoxel> map) {
     const auto [voxels, owner] = handed_over(std::move(map));
     const auto n = static_cast<py::ssize_t>(voxels.size());

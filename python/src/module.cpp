@@ -7,7 +7,8 @@ PYBIND11_MODULE(_dynamicfilter, module) {
     namespace py = pybind11;
     using namespace dynamic_filter;
     module.attr("__version__") = DYNAMIC_FILTER_VERSION;
-    module.attr("__name__") = "dynamicfilter";  // where users find what is in it
+    // Users see the contents of the module under this name.
+    module.attr("__name__") = "dynamicfilter";
     const auto& error = py::register_exception<Error>(module, "Error");
     py::register_exception<ConfigError>(module, "ConfigError", error);
     py::register_exception<InputError>(module, "InputError", error);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// What the command does, from Python: the same code. Results are JSON texts here.
+/// The subcommands as Python functions, with the same code as the command. Results are JSON texts
+/// here.
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
@@ -24,12 +25,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The command ends after an interrupt, Python goes on: it gets its handlers back.
+/// An interrupt ends the command, but not Python; so the handlers of Python are restored
+/// afterwards.
 class Interruptible {
 public:
     Interruptible() {
         for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], nullptr, &old_[i]);
-        app::catch_interrupts(false);  // nobody's interpreter is killed
+        app::catch_interrupts(false);  // so that a second interrupt does not end the interpreter
     }
     Interruptible(const Interruptible&) = delete;
     Interruptible& operator=(const Interruptible&) = delete;

@@ -41,7 +41,7 @@ io::Frame frame_at(const io::Sequence& sequence, py::ssize_t i) {
     return io::read_frame(sequence, static_cast<std::size_t>(i < 0 ? i + size : i));
 }
 
-/// A view of what a frame holds; the frame lives as long as it.
+/// An array over data of a frame; it keeps the frame alive.
 template <class View>
 auto view(View of) {
     return [of](const py::object& self) -> py::object {
@@ -94,7 +94,7 @@ void bind_recordings(py::module_& module) {
 
 Scans are read when asked for and not kept. Any thread may read; the GIL is free meanwhile.)")
         .def("__len__", &io::Sequence::size, "How many scans there are.")
-        // By index until IndexError; so is iteration.
+        // Access by index until IndexError; iteration works in the same way.
         .def("__getitem__", &frame_at, py::arg("i"),
              "Reads scan i; -1 is the last. Raises InputError if it cannot be used, IndexError if "
              "there is none.")
