@@ -105,12 +105,12 @@ std::vector<Mistake> mistakes(const std::vector<Pose>& of_another) {
              });
          },
          kitti_row},
-        {"stamps in ns", "if it is ns",
+        {"stamps in ns", "if the unit is ns",
          [](Copy& c) {
              for (double& t : c.stamps) t *= 1e9;
          },
          tum_row},
-        {"stamps in ms", "if it is ms",
+        {"stamps in ms", "if the unit is ms",
          [](Copy& c) {
              for (double& t : c.stamps) t *= 1e3;
          },

@@ -74,7 +74,7 @@ py::list corrections(KeptFilter& filter, const py::object& asked) {
 std::size_t scan_number(KeptFilter& filter, const py::object& asked) {
     auto scan = taken<py::ssize_t>(asked, "scan", "the number of a scan");
     if (scan < 0) scan += static_cast<py::ssize_t>(filter.size());
-    if (scan < 0) throw py::index_error("scan: there are not so many");
+    if (scan < 0) throw py::index_error("scan: there are fewer scans");
     return static_cast<std::size_t>(scan);
 }
 

@@ -13,7 +13,8 @@ PYBIND11_MODULE(_dynamicfilter, module) {
     py::register_exception<ConfigError>(module, "ConfigError", error);
     py::register_exception<InputError>(module, "InputError", error);
     py::register_exception<OutputError>(module, "OutputError", error);
-    error.attr("__doc__") = "What goes wrong with input or output; one sentence says what.";
+    error.attr("__doc__") =
+        "Base class of all errors of this package; the message is one sentence.";
     module.attr("ConfigError").attr("__doc__") = "A setting or an argument is wrong.";
     module.attr("InputError").attr("__doc__") = "An input cannot be read, or contradicts itself.";
     module.attr("OutputError").attr("__doc__") = "An output cannot be written.";

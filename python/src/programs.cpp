@@ -66,7 +66,7 @@ app::RunOptions run_options(const fs::path& data, const std::optional<fs::path>&
     take(options, "online", online);
     refuse_threads(o.threads);
     if (!(online.value_or(0.0) >= 0.0)) {
-        throw py::value_error("online: expected times the sensor's rate, 0 or more");
+        throw py::value_error("online: expected a multiple of the sensor's rate, 0 or more");
     }
     o.online = online.has_value();
     o.speed = online.value_or(0.0);

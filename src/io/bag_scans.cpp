@@ -119,8 +119,8 @@ PoseSource from_topic(const std::string& name, const PoseTopic& topic, const Fra
     };
     if (sensor == topic.parent) {
         return {body_pose, trajectory.stamps, true,
-                fmt::format("poses from {}; its frame '{}' is that of the points, too, so they are "
-                            "taken back into the sensor's",
+                fmt::format("poses from {}; its frame '{}' is also the frame of the points, so the "
+                            "points are transformed into the sensor frame",
                             name, sensor)};
     }
     const bool linked = !topic.child.empty() && sensor != topic.child &&
@@ -139,8 +139,8 @@ PoseSource from_topic(const std::string& name, const PoseTopic& topic, const Fra
     const bool same = topic.child.empty() || sensor == topic.child;
     return {body_pose, trajectory.stamps, false,
             same ? fmt::format("poses from {}", name)
-                 : fmt::format("poses from {}; nothing links its frame '{}' to the scans' '{}', so "
-                               "they are taken for the same",
+                 : fmt::format("poses from {}; no transform links its frame '{}' to the frame '{}' "
+                               "of the scans, so both are assumed to be the same",
                                name, topic.child, sensor)};
 }
 
@@ -184,8 +184,9 @@ void assign_file_poses(Sequence& sequence, const std::filesystem::path& file) {
     if (poses.stamps.empty()) {
         if (poses.poses.size() != sequence.stamps.size()) {
             throw InputError(file, "",
-                             fmt::format("{} poses without stamps for {} scans", poses.poses.size(),
-                                         sequence.stamps.size()));
+                             fmt::format("{} poses without stamps for {} scans; give one pose per "
+                                         "scan, or poses with stamps (TUM)",
+                                         poses.poses.size(), sequence.stamps.size()));
         }
         sequence.T_world_sensor = std::move(poses.poses);
         sequence.trajectory = {sequence.stamps, sequence.T_world_sensor};
@@ -223,8 +224,8 @@ void refuse_if_all_lost(const Sequence& sequence, const std::filesystem::path& d
     const auto& of = sequence.trajectory.stamps;
     throw InputError(
         data, "",
-        fmt::format("no scan has a pose: scans are from {:.3f} to {:.3f} s, poses {}; poses of "
-                    "another recording, or another clock or unit of time?",
+        fmt::format("no scan has a pose: scans are from {:.3f} to {:.3f} s, poses {}; are the "
+                    "poses of another recording, of another clock, or in another unit of time?",
                     sequence.stamps.front(), sequence.stamps.back(),
                     of.empty() ? "at no time"
                                : fmt::format("from {:.3f} to {:.3f} s", of.front(), of.back())));

@@ -171,7 +171,8 @@ AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
     std::error_code unresolved;
     if (std::filesystem::is_symlink(path_, unresolved)) {
         const auto target = std::filesystem::canonical(path_, unresolved);
-        if (unresolved) throw OutputError(path_, "is a link to nothing; remove it first");
+        if (unresolved)
+            throw OutputError(path_, "is a link to a missing file; remove the link first");
         path_ = target;
     }
     refuse_special(path_);

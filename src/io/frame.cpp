@@ -25,7 +25,8 @@ Label label_of(std::uint32_t raw) {
 
 Labels intensity_truth(const Cloud& cloud, const std::filesystem::path& file) {
     const Field* intensity = cloud.find("intensity");
-    if (intensity == nullptr) throw InputError(file, "", "has no intensity, which holds the truth");
+    if (intensity == nullptr)
+        throw InputError(file, "", "has no intensity, which must hold the ground truth");
     Labels truth;
     truth.reserve(cloud.size());
     for (const double value : values(cloud, *intensity)) {

@@ -73,8 +73,8 @@ void require_folder(const fs::path& data) {
     }
     if (present(data / "run.log") && present(data / "config.toml")) {
         throw InputError(data, "",
-                         "is what a run left, not a recording; run.log there names the recording, "
-                         "and static_map.pcd is its clean map");
+                         "is the output of a run, not a recording; give the recording that run.log "
+                         "there names (static_map.pcd is the clean map)");
     }
 }
 

@@ -88,8 +88,7 @@ NpyHeader parse_header(std::span<const std::byte> bytes) {
     take_type(header, value_of(dictionary, "descr"));
     if (!value_of(dictionary, "fortran_order").starts_with("False")) {
         throw Malformed(
-            "columns behind each other (Fortran order) are not read; save "
-            "numpy.ascontiguousarray of it");
+            "an array in Fortran order is not read; save numpy.ascontiguousarray of it");
     }
     take_shape(header, value_of(dictionary, "shape"));
     return header;

@@ -78,7 +78,8 @@ Columns columns_of(std::string_view header, const Lines& lines) {
     for (const auto cell : split_at(header, ',')) {
         const Title title = title_of(cell);
         if (const auto role = role_of(title.name)) {
-            if (columns.of[*role]) lines.fail("two columns mean " + quote(role_names[*role]));
+            if (columns.of[*role])
+                lines.fail("two columns of the CSV header stand for " + quote(role_names[*role]));
             columns.of[*role] = columns.count;
             if (*role == time) columns.seconds = seconds_of(title.unit, lines);
         }

@@ -221,14 +221,16 @@ void prepare_deskew(Sequence& sequence) {
         put_in_order(sequence.trajectory);
     }
     if (sequence.trajectory.stamps.size() < 2) {
-        sequence.notes.push_back("no poses over time: the scans' motion is not undone");
+        sequence.notes.push_back(
+            "no poses over time: the sensor's motion during each scan is not undone; give poses "
+            "with stamps");
         return;
     }
     const Cloud first = read_scan(sequence, 0);
     if (!sequence.sweep && point_times(first, sequence.stamps.front()).empty()) {
         sequence.notes.push_back(
             "the points have no times of their own (no field t, time, timestamp or offset_time "
-            "that varies): the scans' motion is not undone");
+            "that varies): the sensor's motion during each scan is not undone");
         return;
     }
     sequence.deskew = true;

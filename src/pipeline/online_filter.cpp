@@ -129,7 +129,8 @@ void OnlineFilter::Engine::push(QueuedScan scan) {
     }
     for (QueuedScan& d : dropped) {
         answer(d, std::nullopt);
-        tell({NoticeKind::dropped, d.scan.index, "newer scans came while it waited"});
+        tell({NoticeKind::dropped, d.scan.index,
+              "the queue was full: newer scans came while this one waited"});
     }
     if (!refused) return;
     answer(scan, std::nullopt);
@@ -232,10 +233,10 @@ void OnlineFilter::Engine::begin_map_if_broken(const QueuedScan& next) {
     before_last = last = std::nullopt;
     Notice notice{restarts ? NoticeKind::restart : NoticeKind::jump, next.scan.index,
                   "stamps went back by more than a second; a new map begins"};
-    if (lost) notice.text = "the odometry lost its way some scans ago; a new map begins";
+    if (lost) notice.text = "the odometry has been lost for some scans; a new map begins";
     if (jump) {
         notice.text = "the pose is " + std::to_string(std::lround(*jump)) +
-                      " m from where the poses before led; a new map begins";
+                      " m from where the previous poses lead; a new map begins";
     }
     tell(notice);
 }

@@ -66,8 +66,8 @@ public:
 
     void finish() {
         if (unannounced_ == 0) return;
-        defects_.push_back(
-            {fmt::format("{} messages of channels never announced are left out", unannounced_)});
+        defects_.push_back({fmt::format(
+            "{} messages of channels without a channel record are left out", unannounced_)});
     }
 
 private:

@@ -82,8 +82,9 @@ public:
                 {fmt::format("ends at byte {}, before its index at byte {}", size, index_at_)});
         }
         if (unannounced_ > 0) {
-            defects.push_back({fmt::format(
-                "{} messages of connections never announced are left out", unannounced_)});
+            defects.push_back(
+                {fmt::format("{} messages of connections without a connection record are left out",
+                             unannounced_)});
         }
     }
 
@@ -205,7 +206,7 @@ private:
         };
         try {
             const Decompressed content = content_of(chunk);
-            if (!content.complete) note("is damaged or cut off; what could be had of it was read");
+            if (!content.complete) note("is damaged or cut off; only its readable part was read");
             ByteReader in(content.bytes);
             while (in.left() > 0) {
                 const std::size_t offset = in.at();

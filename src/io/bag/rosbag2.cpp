@@ -86,7 +86,7 @@ std::vector<std::byte> uncompressed(std::span<const std::byte> bytes) {
     }
     const auto size = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
     if (size == ZSTD_CONTENTSIZE_ERROR || size == ZSTD_CONTENTSIZE_UNKNOWN) {
-        throw Malformed("is compressed, and does not say to how much");
+        throw Malformed("is compressed, but does not contain its uncompressed size");
     }
     Decompressed content = decompress("zstd", bytes, size);
     if (!content.complete) throw Malformed("is compressed, and damaged");

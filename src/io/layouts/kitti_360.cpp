@@ -69,7 +69,7 @@ Trajectory read_trajectory(const fs::path& file) {
         if (!number) lines.fail(quote(token) + " is no number of a scan");
         const auto at = static_cast<double>(*number);
         if (!trajectory.stamps.empty() && at <= trajectory.stamps.back()) {
-            lines.fail(fmt::format("scan {} comes behind {}; expected growing numbers", at,
+            lines.fail(fmt::format("scan {} comes after scan {}; expected increasing numbers", at,
                                    trajectory.stamps.back()));
         }
         const Pose pose = read_pose_row(rest, lines);
@@ -107,8 +107,8 @@ std::string what_is_missing(const fs::path& poses, const fs::path& calibration) 
     if (!present(poses)) return "no poses found; looked for " + poses.string();
     for (const char* name : {"calib_cam_to_velo.txt", "calib_cam_to_pose.txt"}) {
         if (present(calibration / name)) continue;
-        return "no poses: those of " + poses.string() + " are the vehicle's, and without " +
-               (calibration / name).string() + " nothing says where the sensor is on it";
+        return "no poses: " + poses.string() + " holds poses of the vehicle, and without " +
+               (calibration / name).string() + " the place of the sensor on it is not known";
     }
     return "";
 }

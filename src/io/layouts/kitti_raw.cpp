@@ -89,11 +89,10 @@ Pose find_T_imu_velo(const fs::path& drive, std::vector<std::string>& notes) {
         notes.push_back("the sensor's place on the vehicle from " + (folder / name).string());
         return read_T_velo_imu(folder / name).inverse();
     }
-    notes.push_back(
-        fmt::format("no {} in {} or above; the sensor is taken to be 0.81 m before, "
-                    "0.32 m right of and 0.80 m above the inertial unit, as on KITTI's "
-                    "car, and to look the same way",
-                    name, drive.string()));
+    notes.push_back(fmt::format(
+        "no {} in {} or above; the sensor is assumed to be 0.81 m in front of, 0.32 m right of and "
+        "0.80 m above the inertial unit, as on KITTI's car, and to have the same orientation",
+        name, drive.string()));
     return Pose(Eigen::Translation3d(0.81, -0.32, 0.80));
 }
 

@@ -71,7 +71,9 @@ std::optional<Layout> find_mulran(const fs::path& data) {
     layout.notes.push_back("vehicle poses from " + poses.string() +
                            ", interpolated at the scans' times, converted with MulRan's "
                            "calibration of the Ouster");
-    if (lost != 0) layout.notes.push_back(fmt::format("{} scans have no pose around them", lost));
+    if (lost != 0)
+        layout.notes.push_back(
+            fmt::format("{} scans have no poses before and after them, and are rejected", lost));
     return layout;
 }
 

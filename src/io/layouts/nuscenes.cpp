@@ -66,7 +66,7 @@ std::string scene_token(const fs::path& tables, const std::string& wanted) {
     });
     if (token.empty() || (wanted.empty() && count > 1)) {
         throw InputError(tables, "",
-                         fmt::format("choose a scene by its name behind the folder's, such as "
+                         fmt::format("choose a scene by appending its name to the folder, such as "
                                      "{}; there are: {}",
                                      (tables.parent_path() / "scene-0061").string(), names));
     }

@@ -18,7 +18,8 @@ namespace dynamic_filter::io {
 namespace {
 
 constexpr const char* kOtherPoses =
-    "look whether they are of this recording, and of the same times; give others with --poses";
+    "check that the poses are of this recording and of the same times; give other poses with "
+    "--poses";
 
 double share_of(const std::vector<Overlay>& overlays, const std::string& reading) {
     const auto found = std::find_if(overlays.begin(), overlays.end(),
@@ -68,7 +69,7 @@ std::string meaning_of(const std::string& reading) {
 }
 
 std::string fits_better(const std::vector<Overlay>& overlays, const std::string& reading) {
-    return fmt::format("scans overlay by {:.0f} % so, by {:.0f} % as given",
+    return fmt::format("scans overlay by {:.0f} % this way, by {:.0f} % as given",
                        100.0 * share_of(overlays, reading), 100.0 * share_of(overlays, kAsGiven));
 }
 
@@ -126,7 +127,7 @@ void judge_upside_down(Preflight& result, const Samples& samples) {
             share_of(result.overlays, name) > 0.97 * share_of(result.overlays, kAsGiven);
         if (!alike || hang_upside_down(samples, *reading)) continue;
         Finding finding = pose_finding(result.overlays, name);
-        finding.what += ", where the sensor hangs upside down";
+        finding.what += ", with which the sensor hangs upside down";
         result.findings.push_back(std::move(finding));
         return;
     }
@@ -153,7 +154,7 @@ void judge_poses(Preflight& result, const Sequence& sequence, const Samples& sam
     if (all_equal(samples)) {
         if (stands_still(samples, pairs)) return;
         result.findings.push_back(
-            {"all poses are equal, but what the scans show moves",
+            {"all poses are equal, but the scans show that the sensor moves",
              "--poses FILE with the trajectory; scans in the world's frame need it as well"});
         return;
     }
@@ -176,14 +177,14 @@ void judge_poses(Preflight& result, const Sequence& sequence, const Samples& sam
         if (much) result.findings.push_back(in_sensor_finding(overlays, files_in_world));
         return;
     }
-    // With poses in millimetres, the motion is a thousandth of the real one, as if the sensor stood
-    // still.
+    // In the interpretation "millimetres", only a thousandth of the given motion is left, which is
+    // nearly the same as no motion.
     const bool as_if_still = best->share < 1.02 * share_of(overlays, kInWorld);
     if (as_if_still || best->reading == kInSensor) {
         if (much && !nearly_right()) {
             result.findings.push_back(
-                {"the poses do not fit the scans: " + fits_better(overlays, kInWorld) +
-                     ", as if nothing moved",
+                {"the poses do not fit the scans; if the sensor is assumed not to move, " +
+                     fits_better(overlays, kInWorld),
                  kOtherPoses});
         }
         return;
@@ -260,13 +261,13 @@ void judge_stamps(Preflight& result, const Sequence& sequence) {
     for (const auto& [unit, seconds] : {std::pair{"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}}) {
         if (step * seconds > 0.5 * kLongest || step * seconds < 10.0 * kShortest) continue;
         result.findings.push_back({fmt::format("the stamps are not in seconds: scans are {:.4g} "
-                                               "apart, which are {:.3g} s if it is {}",
+                                               "apart, which is {:.3g} s if the unit is {}",
                                                step, step * seconds, unit),
                                    fmt::format("--time-unit {}", unit)});
         return;
     }
     result.findings.push_back({fmt::format("scans are {:.3g} s apart", step),
-                               "look at the stamps; they should be in seconds"});
+                               "check the stamps; they should be in seconds"});
 }
 
 /// Natural order puts "10.pcd" after "9.pcd"; the order of other names may not be that of time.
@@ -279,8 +280,8 @@ void judge_order(Preflight& result, const Sequence& sequence, const Samples& sam
     if (back == samples.end()) return;
     const auto next = std::next(back);
     result.findings.push_back(
-        {fmt::format("the order of the names is not that in time: by its points {} was taken "
-                     "{:.3g} s before {}, which comes first by its name",
+        {fmt::format("the order of the file names is not the order in time: by the times of its "
+                     "points, {} was taken {:.3g} s before {}, whose name comes first",
                      sequence.scan_files[next->first].filename().string(),
                      *back->second.began - *next->second.began,
                      sequence.scan_files[back->first].filename().string()),
@@ -293,8 +294,9 @@ void judge_motion(Preflight& result, Sequence sequence) {
     const OdometryConfig config;
     const std::string mistake = find_pose_mistake(sequence, config);
     if (!mistake.empty()) {
-        result.findings.push_back(
-            {mistake, "run refines such poses by itself, as with --refine on; better poses help"});
+        result.findings.push_back({mistake,
+                                   "`run` refines such poses without being asked (as with --refine "
+                                   "on); more accurate poses give better results"});
     }
     if (sequence.deskew || !sequence.velocities.empty()) return;
     const Blur blur = measure_motion(sequence, config).found;
