@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Builds the wheel (PEP 517, 427): the package, its module, and the command beside Python's own.
+"""Builds the wheel (PEP 517, 427): the package, its module, and the command in the folder of scripts.
 
     python3 backend.py DIR      # what script/wheel calls
 """
@@ -21,7 +21,7 @@ def version():
 
 
 def tag():
-    """The module is for this Python and links the libraries of this system."""
+    """The tag of the wheel: the module needs this version of Python and the libraries of this system."""
     platform = re.sub(r"[-.]", "_", sysconfig.get_platform())
     python = f"cp{sys.version_info.major}{sys.version_info.minor}"
     return f"{python}-{python}-{platform}"
@@ -37,7 +37,7 @@ def build():
 
 
 def files(name):
-    """Path in the wheel, content."""
+    """Yields the path in the wheel and the content of each file."""
     suffix = sysconfig.get_config_var("EXT_SUFFIX")
     package = BUILD / "python" / "dynamicfilter"
     for file in ("__init__.py", "__init__.pyi", "py.typed", "_dynamicfilter" + suffix):

@@ -165,17 +165,21 @@ void bind_programs(py::module_& module) {
         py::arg("rate") = 0.0, py::arg("pose_noise") = 0.0, py::arg("pose_noise_deg") = 0.0,
         py::arg("sweep") = false, py::arg("rounds") = 0, py::arg("overwrite") = false,
         py::arg("quiet") = true,
-        R"(Makes a recording with exact labels, in KITTI's layout, in the folder `output`.
+        R"(Simulates a recording with exact labels, and writes it in KITTI's layout to the folder `output`.
 
-scene: crowd, street, square, hall, jam or platform; sensor: see `dynamicfilter simulate --help`;
-pedestrians: -1: the scene's own number; seed: same seed, same bytes; frames: None: the whole scene;
-rate: scans per second, 0: the scene's own; pose_noise [m], pose_noise_deg [deg]: standard deviation
-of each axis; sweep: points are measured one after the other while the sensor moves, as a turning one
-does it, and the scans are PCD files with a field t [s] instead of KITTI's; rounds: of the robot, in
-crowd, 0: the scene's own; overwrite: replaces an earlier
-recording; quiet: False shows the progress on stderr. Returns the number of points. Raises
-ConfigError (also if there is an earlier recording), OutputError, and KeyboardInterrupt, which
-leaves nothing.)");
+scene: crowd, street, square, hall, jam or platform.
+sensor: see `dynamicfilter simulate --help`.
+pedestrians: number of people; -1: the default of the scene.
+seed: the same seed gives the same bytes.
+frames: number of scans; None: the whole scene.
+rate: scans per second; 0: the default of the scene.
+pose_noise [m], pose_noise_deg [deg]: standard deviation of each axis.
+sweep: True measures points one after the other while the sensor moves, like a rotating sensor; scans
+are then PCD files with a field t [s].
+rounds: rounds of the robot in the scene crowd; 0: the default.
+overwrite: True replaces an earlier recording. quiet: False shows the progress on stderr.
+Returns the number of points. Raises ConfigError (also if there is an earlier recording), OutputError,
+and KeyboardInterrupt, after which no files are left.)");
 }
 
 }  // namespace dynamic_filter::python
