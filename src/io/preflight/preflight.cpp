@@ -183,8 +183,8 @@ void judge_poses(Preflight& result, const Sequence& sequence, const Samples& sam
     if (as_if_still || best->reading == kInSensor) {
         if (much && !nearly_right()) {
             result.findings.push_back(
-                {"the poses do not fit the scans; if the sensor is assumed not to move, " +
-                     fits_better(overlays, kInWorld),
+                {"the poses do not fit the scans: " + fits_better(overlays, kInWorld) +
+                     "; the first value assumes that the sensor does not move",
                  kOtherPoses});
         }
         return;
