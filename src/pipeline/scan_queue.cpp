@@ -62,7 +62,7 @@ std::optional<Notice> ScanQueue::refusal(const Scan& scan) const {
     });
     if (waits || (taken_ && repeats(taken_->run, taken_->stamp, taken_->T_world_sensor))) {
         return because(NoticeKind::duplicate,
-                       "the scan of " + seconds(scan.stamp) + " at this pose was already pushed");
+                       "the scan of " + seconds(scan.stamp) + " at this pose was pushed before");
     }
     if (taken_ && taken_->run == run_ && scan.stamp < taken_->stamp) {
         return because(NoticeKind::late, "its stamp " + seconds(scan.stamp) +
