@@ -67,11 +67,11 @@ struct VoxelHistory {
     std::uint32_t n_occ = 0;           ///< keyframes that saw the voxel occupied
     std::uint32_t n_free = 0;          ///< keyframes that saw through the voxel
     std::uint32_t n_switch = 0;        ///< changes between occupied and free, in order of time
-    /// The count n_free, weighted by certainty: a sure observation counts 1, a weak one 1/8.
+    /// The count n_free in units of sure observations; a weak observation counts an eighth.
     float free = 0.0F;
-    /// Value of `free` that is expected of a static voxel with these counts.
+    /// Value of `free` expected of a static voxel with these counts, in units of sure observations.
     float expected_free = 0.0F;
-    float score = 0.0F;     ///< DynamicScore; above 0: evidence that something came or went
+    float score = 0.0F;     ///< in units of DynamicScore; above 0 something came or went
     std::size_t first = 0;  ///< Scan::index of the first scan with a point in the voxel
     std::size_t last = 0;   ///< Scan::index of the last scan with a point in the voxel
     /// Of a dynamic voxel: Scan::index of keyframes that saw through it, ascending. At most 64

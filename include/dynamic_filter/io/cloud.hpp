@@ -55,7 +55,7 @@ struct Cloud {
 /// Adds a field after the existing ones. Only for a cloud without records.
 void add_field(Cloud& cloud, const std::string& name, FieldType type, std::uint32_t count = 1);
 
-/// The first value of `field` of each record, converted to double, in the unit of the file.
+/// The first value of `field` of each record, converted to double, in the file's unit.
 /// Thread-safe.
 std::vector<double> values(const Cloud& cloud, const Field& field);
 

@@ -62,10 +62,9 @@ void visit_submaps(C& config, F&& f) {
           front.enabled);
     field(kBoth, "front_end.image_step_deg", "deg", "res",
           "smallest size of a pixel of the range images of scans", 0.05, 30, front.image_step_deg);
-    field(
-        kBoth, "front_end.image_step_beams", "1", "res",
-        "smallest size of such a pixel, as a multiple of the angle between the beams of the sensor",
-        0, 20, front.image_step_beams);
+    field(kBoth, "front_end.image_step_beams", "1", "res",
+          "smallest pixel of these images as a multiple of the angle between beams", 0, 20,
+          front.image_step_beams);
     field(kBoth, "front_end.tau", "m", "III-B1",
           "a point is dynamic if it is this much nearer than the range in the image of a keyframe",
           0, 10, front.tau);
@@ -102,10 +101,9 @@ void visit_submaps(C& config, F&& f) {
           90, back.incident_threshold_deg);
     field(kPaper, "back_end.image_step_deg", "deg", "res",
           "smallest size of a pixel of the images of submaps", 0.05, 30, back.image_step_deg);
-    field(
-        kPaper, "back_end.image_step_beams", "1", "res",
-        "smallest size of such a pixel, as a multiple of the angle between the beams of the sensor",
-        0, 20, back.image_step_beams);
+    field(kPaper, "back_end.image_step_beams", "1", "res",
+          "smallest pixel of these images as a multiple of the angle between beams", 0, 20,
+          back.image_step_beams);
     field(kPaper, "back_end.depth_channel", "m", "depth",
           "length of a depth channel; 0: ranges are compared without channels", 0, 10,
           back.depth_channel);
