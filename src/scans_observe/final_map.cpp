@@ -74,7 +74,7 @@ std::vector<std::optional<std::uint32_t>> occupied_since(const std::vector<Voxel
         if (label != Label::dynamic) continue;
         const Evidence& e = grid[v].evidence;
         const bool is_seen = e.last == Sight::occupied && e.run >= longest && !e.seen_empty;
-        // Otherwise points only lie near it.
+        // With fewer scans, the points may only lie near the voxel.
         const bool has_points = e.last_owner - e.since + 1 >= longest;
         if (is_seen && has_points) since[v] = e.since;
     }

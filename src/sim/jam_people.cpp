@@ -90,7 +90,7 @@ std::vector<Walker> people(int count, const Plan& plan, const DistanceField& fie
     for (int turn = 0; room() > 0; ++turn) {
         Walker walker = draw_walker(random);
         if (turn % 10 < 4) {
-            // Otherwise the light changes before they are across.
+            // Slower people would not be across before the light changes.
             walker.speed = std::max(walker.speed, 1.0);
             walker.route = crossing(
                 plan.signals[static_cast<std::size_t>(turn) % plan.signals.size()], random);

@@ -23,7 +23,7 @@ Path measured(std::vector<Vector2d> points, bool closed) {
     return path;
 }
 
-/// Tangent at a point of the polyline: the mean of its neighbours' directions.
+/// Tangent at a point of the polyline: the mean of the directions of its neighbors.
 Vector2d tangent(const Path& path, std::size_t i) {
     const std::size_t last = path.points.size() - 1;
     const std::size_t before = i > 0 ? i - 1 : (path.closed ? last - 1 : 0);

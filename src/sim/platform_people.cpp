@@ -220,7 +220,7 @@ std::vector<Walker> people(int count, const Timetable& timetable, std::uint64_t 
         Walker walker = draw_walker(station.random);
         walker.luggage = station.random.chance(0.35);
         if (kind < 3) {
-            // Otherwise the doors close before they are in.
+            // Slower people would not be in before the doors close.
             walker.speed = std::max(walker.speed, 1.0);
             walker.route = getting_on(station);
         } else if (kind < 5) {
