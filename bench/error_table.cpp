@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Which kinds of surface, and which people and vehicles, the final verdicts get wrong: simulates a
+/// Shows for which kinds of surfaces, people and vehicles the final verdicts are wrong. Simulates a
 /// scene, filters it, and prints Markdown tables.
 #include <fmt/format.h>
 
@@ -20,7 +20,7 @@ namespace {
 using namespace dynamic_filter;
 using sim::kind_names;
 
-constexpr double kVoxel = 0.2;  // [m] of the scores, whatever the filter's own
+constexpr double kVoxel = 0.2;  // [m] voxels of the scores, independent of those of the filter
 constexpr std::size_t kKinds = kind_names.size();
 
 struct Arguments {
@@ -49,13 +49,13 @@ Arguments read_arguments(const std::vector<std::string_view>& words) {
     return arguments;
 }
 
-/// Points of one voxel.
+/// The points of one voxel.
 struct VoxelKinds {
     std::array<std::uint32_t, kKinds> points{};
-    bool kept = false;  // at least one of them
+    bool kept = false;  // true if at least one of the points is kept
 };
 
-/// Voxels of one kind.
+/// The voxels of one kind.
 struct Row {
     std::size_t voxels = 0, wrong = 0;
     void operator+=(const Row& other) { voxels += other.voxels, wrong += other.wrong; }
@@ -65,7 +65,7 @@ struct Table {
     std::array<Row, kKinds> rows{};
     std::size_t mixed = 0;
 
-    /// Sum over the static or the dynamic kinds.
+    /// Sum over all static or all dynamic kinds.
     [[nodiscard]] Row sum(bool dynamic) const {
         Row total;
         for (std::size_t k = 0; k < kKinds; ++k) {
@@ -87,7 +87,7 @@ struct Instance {
 
 struct Tally {
     std::vector<VoxelKinds> voxels;
-    std::vector<Instance> instances;  // by their numbers
+    std::vector<Instance> instances;  // indexed by their numbers
 };
 
 void count(Instance& instance, sim::Kind kind, Label verdict) {
@@ -97,7 +97,7 @@ void count(Instance& instance, sim::Kind kind, Label verdict) {
     instance.vehicle = kind == sim::Kind::vehicle;
 }
 
-/// Scans are simulated a second time here: cheaper than keeping them all.
+/// Simulates the scans a second time, because that needs less memory than keeping them.
 Tally tally(sim::Simulation& simulation, const DynamicFilter& filter) {
     VoxelIndex index;
     Tally out;
@@ -121,7 +121,7 @@ Tally tally(sim::Simulation& simulation, const DynamicFilter& filter) {
     return out;
 }
 
-/// Voxels with both static and dynamic points count for neither, as in eval's "excluded" reading.
+/// Voxels with both static and dynamic points are not counted, as with "excluded" in eval.
 Table tabulate(const std::vector<VoxelKinds>& voxels) {
     constexpr auto first_dynamic = static_cast<std::ptrdiff_t>(sim::Kind::walking);
     Table table;
@@ -155,7 +155,7 @@ void print(const Table& table) {
                "wrong", "wrong [%]", "share of errors [%]");
     fmt::print("|:{0:-<11}-|:{0:-<12}-|-{0:->8}:|-{0:->7}:|-{0:->9}:|-{0:->19}:|\n", "");
     for (std::size_t k = 0; k < kKinds; ++k) {
-        if (table.rows[k].voxels == 0) continue;  // the scene has none
+        if (table.rows[k].voxels == 0) continue;  // the scene has no such voxels
         const bool moves = is_dynamic(sim::Kind{static_cast<std::uint8_t>(k)});
         print_row(kind_names[k], moves ? "dynamic kept" : "static lost", table.rows[k], errors);
     }
@@ -170,7 +170,7 @@ void print(const Table& table) {
                score.f1.value_or(0.0), table.mixed);
 }
 
-/// Of the instances with 20 points at least: how much of them is removed.
+/// Prints how much of each instance with at least 20 points is removed.
 void print_instances(const std::vector<Instance>& instances) {
     constexpr std::size_t fewest = 20;
     fmt::print(

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-/// The inner loops, each beside what this machine can do at most (roofline): the time that its
-/// memory traffic takes at the rate of a copy, or its arithmetic at the rate of multiply-adds,
-/// whichever is longer. One thread; data as a 64-beam sensor gives them, which do not fit the cache
-/// where they do not in use.
+/// Measures the inner loops, and compares each with the limit of this machine (roofline model). The
+/// limit is the longer of two times: that of its memory traffic at the rate of a copy, and that of
+/// its arithmetic at the rate of multiply-adds. One thread. The data are those of a 64-beam sensor;
+/// they do not fit into the cache if they do not fit in real use.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -30,14 +30,14 @@ double seconds_of(const auto& work) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// The best of a few: what the machine can do, not what it happened to do.
+/// The best of a few runs, which shows the limit of the machine.
 double best_seconds_of(const auto& work) {
     double best = 1e9;
     for (int i = 0; i < 7; ++i) best = std::min(best, seconds_of(work));
     return best;
 }
 
-/// Bytes read and written per second by a copy that no cache holds.
+/// Bytes per second, read and written, of a copy that does not fit into the cache.
 double copy_rate() {
     static const double rate = [] {
         std::vector<char> from(std::size_t{256} << 20, 1), to(from.size());
@@ -50,7 +50,7 @@ double copy_rate() {
     return rate;
 }
 
-/// Floating-point operations per second of independent multiply-adds on the widest vectors.
+/// Floating-point operations per second of independent multiply-adds with the widest vectors.
 #ifdef __x86_64__
 __attribute__((target_clones("avx512f", "arch=haswell", "default")))
 #endif
@@ -82,7 +82,7 @@ double arithmetic_rate() {
     return rate;
 }
 
-/// Per item: bytes that must move, and floating-point operations counted in the source.
+/// Cost per item: bytes that must be moved, and floating-point operations counted in the source.
 struct Cost {
     double bytes, operations;
 };
@@ -94,7 +94,7 @@ void report(benchmark::State& state, std::size_t items, Cost cost) {
     state.counters["roofline"] = benchmark::Counter(count * least, benchmark::Counter::kIsRate);
 }
 
-/// A hall with pillars, as 64 beams x 2048 columns see it.
+/// A hall with pillars, seen by 64 beams x 2048 columns.
 Points scan() {
     Points points;
     std::mt19937 random(1);
@@ -172,7 +172,7 @@ void beam_image(benchmark::State& state) {
 }
 BENCHMARK(beam_image);
 
-/// At places between 2 and 40 m, half of them on what the sensor sees.
+/// Places between 2 and 40 m; half of them lie on surfaces that the sensor sees.
 void lines_of_sight(benchmark::State& state) {
     const BeamImage image(points(), pattern());
     Points places;
@@ -189,13 +189,13 @@ void lines_of_sight(benchmark::State& state) {
         check_lines_of_sight(image, seen, margins, sights);
         benchmark::DoNotOptimize(sights.data());
     }
-    // The mean of this mixture, counted by hand: 30 % end with one beam, the rest look at nine or
+    // Mean of this mixture, counted by hand: 30 % of the places need one beam, the others nine or
     // more.
     report(state, places.size(), {12 + 1 + 4, 60 + 0.7 * (9 * 45 + 120)});
 }
 BENCHMARK(lines_of_sight);
 
-/// The votes on all voxels of a map of ten scans, with what gathers the voters.
+/// The votes on all voxels of a map of ten scans, including the search for the voters.
 void occupancy_of_a_map(benchmark::State& state) {
     with_threads(1, [&] {
         Config config;
@@ -210,7 +210,7 @@ void occupancy_of_a_map(benchmark::State& state) {
         for (std::uint32_t v = 0; v < all.size(); ++v) all[v] = v;
         for (auto _ : state)
             benchmark::DoNotOptimize(occupancy_of(map.grid(), all, config.scans).data());
-        // About 100 voters are weighed per voxel, 20 operations each.
+        // About 100 voters per voxel, with 20 operations each.
         report(state, all.size(), {36, 100 * 20});
     });
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-/// The voxels of a run from above. `errors`: kept ones in grey, static ones lost in blue, dynamic
-/// ones kept in red. `submaps`: kept ones in the colour of the submap that decides them, which is
-/// the nearest; with the windows of preset `paper`.
+/// Draws the voxels of a run from above. `errors`: kept voxels in grey, lost static ones in blue,
+/// kept dynamic ones in red. `submaps`: kept voxels in the color of the submap that decides them,
+/// which is the nearest one, with the windows of preset `paper`.
 #include <fmt/format.h>
 #include <tsl/robin_map.h>
 
@@ -23,20 +23,21 @@ namespace {
 
 using namespace dynamic_filter;
 
-constexpr float kVoxel = 0.2F;   // [m] of the scores
-constexpr float kFloor = -0.5F;  // [m] over the sensor; what is lower is drawn paler
-constexpr int kScale = 2;        // pixels a voxel
+constexpr float kVoxel = 0.2F;   // [m] voxels of the scores
+constexpr float kFloor = -0.5F;  // [m] relative to the sensor; lower voxels are drawn paler
+constexpr int kScale = 2;        // pixels per voxel
 constexpr io::Color kBackground{255, 255, 255};
 
-/// What a voxel holds, and what the run made of it.
+/// The contents of a voxel, and the result of the run.
 struct Voxel {
     bool still = false, dynamic = false, kept = false;
-    bool high = false;  // over the floor
+    bool high = false;  // above the floor
 };
 
 using Voxels = tsl::robin_map<VoxelKey, Voxel, VoxelHash>;
 
-/// How a voxel is drawn; of several above each other the one of highest rank shows.
+/// How a voxel is drawn. Of several voxels above each other, the one with the highest rank is
+/// visible.
 struct Mark {
     int rank = 0;
     io::Color color = kBackground;
@@ -44,7 +45,7 @@ struct Mark {
 
 using Painter = std::function<Mark(const Point& center, const Voxel& voxel)>;
 
-/// Voxels that hold both kinds count for neither, as in the scores: they are drawn if kept.
+/// Voxels that hold both kinds are no errors, as in the scores: they are drawn if kept.
 Mark error_mark(const Point&, const Voxel& v) {
     if (v.kept && !v.still) return {4, {214, 39, 40}};
     if (!v.kept && !v.dynamic) return {3, {31, 119, 180}};
@@ -125,7 +126,7 @@ Columns from_above(const Voxels& voxels, const Painter& paint) {
     return columns;
 }
 
-/// Where all but a few of the values lie.
+/// Range of all values except a few outliers.
 std::pair<int, int> span(std::vector<int> values) {
     std::sort(values.begin(), values.end());
     const std::size_t few = values.size() / 500;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Copies of a recording, each with one of the mistakes that users make, and whether check names it.
-//   mistakes RECORDING [OTHER]...     of each recording; the poses of the next are "of another one"
+// Makes copies of a recording, each with one of the mistakes that users make, and tests whether
+// `check` names the mistake.
+//   mistakes RECORDING [OTHER]...     tests each one; "poses of another one" are those of the next
 //   mistakes --motion RECORDING...    only poses that are nearly right
 #include <fmt/format.h>
 
@@ -21,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t kMost = 80;  // scans of a copy
+constexpr std::size_t kMost = 80;  // number of scans of a copy
 
 struct Copy {
     std::vector<Points> scans;
@@ -31,9 +32,9 @@ struct Copy {
 
 struct Mistake {
     const char* name;
-    const char* named_as;  // part of the finding
+    const char* named_as;  // part of the expected finding
     std::function<void(Copy&)> make;
-    std::string (*row)(const Copy&, std::size_t);  // of the pose file
+    std::string (*row)(const Copy&, std::size_t);  // writes a row of the pose file
 };
 
 std::string numbers(std::initializer_list<double> values) {
@@ -61,7 +62,7 @@ std::string tum_row_wxyz(const Copy& copy, std::size_t i) {
 void each_pose(Copy& copy, const std::function<Pose(const Pose&)>& change) {
     for (Pose& pose : copy.poses) pose = change(pose);
 }
-/// Of a camera 0.3 m before and below the LiDAR.
+/// Poses of a camera 0.3 m in front of the LiDAR and 0.3 m below it.
 Pose camera_pose(const Pose& T_world_lidar) {
     Pose T_camera_lidar = Pose::Identity();
     T_camera_lidar.linear() << 0, -1, 0, 0, 0, -1, 1, 0, 0;
@@ -78,7 +79,7 @@ void merge_sensors(Copy& copy) {
     const Eigen::Isometry3f T_first_second =
         Eigen::Translation3f(1.2F, 0.5F, -0.3F) * Eigen::AngleAxisf(0.02F, Point::UnitZ());
     for (std::size_t i = 0; i < copy.scans.size(); ++i) {
-        // What the second sees a moment later, from its place: the next scan, seen from there.
+        // A second sensor sees the scene a moment later: the next scan, seen from its place.
         const Points& other = copy.scans[i + 1 < copy.scans.size() ? i + 1 : i];
         const std::size_t size = copy.scans[i].size();
         for (std::size_t p = 0; p < std::min(size, other.size()); ++p) {
@@ -104,12 +105,12 @@ std::vector<Mistake> mistakes(const std::vector<Pose>& of_another) {
              });
          },
          kitti_row},
-        {"stamps in ns", "if it is ns",
+        {"stamps in ns", "if the unit is ns",
          [](Copy& c) {
              for (double& t : c.stamps) t *= 1e9;
          },
          tum_row},
-        {"stamps in ms", "if it is ms",
+        {"stamps in ms", "if the unit is ms",
          [](Copy& c) {
              for (double& t : c.stamps) t *= 1e3;
          },
@@ -150,7 +151,7 @@ void jitter(Copy& copy) {
         pose = pose * exp(off);
     }
 }
-/// Each pose is of 50 ms after its scan.
+/// Each pose is that of 50 ms after its scan.
 void late(Copy& copy) {
     const std::vector<Pose> on_time = copy.poses;
     for (std::size_t i = 0; i + 1 < on_time.size(); ++i) {

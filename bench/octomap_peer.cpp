@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-/// OctoMap (Hornung et al., Autonomous Robots 2013) on a recording: its default sensor model,
-/// voxels of 0.2 m, no limit of range. A point is static if its voxel is occupied in the final
-/// tree. Prints scores and the time of insertion as JSON.
+/// Runs OctoMap (Hornung et al., Autonomous Robots 2013) on a recording, with its default sensor
+/// model, voxels of 0.2 m, and no limit of range. A point is static if its voxel is occupied in the
+/// final tree. Prints scores and the time of insertion as JSON.
 #include <fmt/format.h>
 #include <octomap/octomap.h>
 
@@ -24,7 +24,7 @@ struct Seconds {
     double wall = 0.0, cpu = 0.0;
 };
 
-/// Adds the time since its birth.
+/// Adds the time between construction and destruction.
 class Stopwatch {
 public:
     explicit Stopwatch(Seconds& sum) : sum_(sum) {}
@@ -44,7 +44,8 @@ private:
 
 octomap::point3d to_octomap(const Point& p) { return {p.x(), p.y(), p.z()}; }
 
-/// The frame of the scores: a whole number of voxels from the world's, so the voxels are the same.
+/// `origin` is the origin of the frame of the scores, a whole multiple of the voxel size, so that
+/// the voxels are the same.
 void insert(octomap::OcTree& tree, const io::Frame& frame, const Eigen::Vector3d& origin,
             Seconds& insertion) {
     const Points points = app::shifted_world(frame, origin);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// How far the odometry is off the poses of recordings.
+/// Measures the error of the odometry against the poses of recordings.
 ///   odometry RECORDING...
 #include "dynamic_filter/odometry/odometry.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Generalised ICP of Open3D (Zhou et al. 2018; Segal et al., RSS 2009) as an odometry: each scan
-/// is registered to the ten before it, from where the last motion would bring it.
+/// Runs Generalized ICP of Open3D (Zhou et al. 2018; Segal et al., RSS 2009) as an odometry. Each
+/// scan is registered to the ten previous ones; the first guess is the previous motion.
 ///   open3d_peer RECORDING...
 #include <open3d/Open3D.h>
 
@@ -18,11 +18,11 @@ namespace {
 namespace registration = open3d::pipelines::registration;
 using Cloud = open3d::geometry::PointCloud;
 
-constexpr std::size_t kScans = 10;      // of the map
-constexpr double kVoxel = 0.5;          // [m] that scans and map are thinned to
-constexpr double kFar = 2.0;            // [m] beyond which points are no pair
+constexpr std::size_t kScans = 10;      // number of scans of the map
+constexpr double kVoxel = 0.5;          // [m] to which scans and map are thinned
+constexpr double kFar = 2.0;            // [m] largest distance of a pair of points
 constexpr double kKernel = 0.5;         // [m]
-constexpr double kNeighbourhood = 2.0;  // [m] of a point's normal
+constexpr double kNeighbourhood = 2.0;  // [m] for the normal of a point
 
 std::shared_ptr<Cloud> thinned(const Points& points) {
     Cloud cloud;
@@ -34,7 +34,7 @@ std::shared_ptr<Cloud> thinned(const Points& points) {
     return cloud.VoxelDownSample(kVoxel);
 }
 
-/// All scans of the map as one thinned cloud with normals, where there are any.
+/// All scans of the map as one thinned cloud with normals, as far as points have normals.
 std::shared_ptr<Cloud> surfaces(const std::deque<Cloud>& map) {
     Cloud all;
     for (const Cloud& scan : map) all += scan;

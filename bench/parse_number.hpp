@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Numbers among the arguments of the programs that measure.
+/// Reads numbers from the arguments of the measuring programs.
 #pragma once
 
 #include <fmt/format.h>
@@ -12,7 +12,7 @@
 
 namespace dynamic_filter {
 
-/// Throws ConfigError: the text is no such number; `what` names the argument.
+/// Throws ConfigError if the text is no such number; `what` names the argument.
 template <class Number>
 Number parse(std::string_view what, std::string_view text) {
     Number number{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// How far a path that was found is off the true one.
+/// Errors of an estimated trajectory.
 #pragma once
 
 #include <fmt/format.h>
@@ -14,12 +14,12 @@
 namespace dynamic_filter {
 
 struct PathError {
-    double shift = 0.0;      ///< [%] of the way
+    double shift = 0.0;      ///< [%] of the distance
     double turn = 0.0;       ///< [deg/m]
-    std::size_t pieces = 0;  ///< of the way that the means are of
+    std::size_t pieces = 0;  ///< number of segments that were averaged
 };
 
-/// Mean error of all pieces of the way that are `length` [m] long.
+/// Mean error over all segments of the trajectory that are `length` [m] long.
 inline PathError error_over(const std::vector<Pose>& truth, const std::vector<Pose>& found,
                             double length) {
     constexpr double degree = 57.2957795;
@@ -44,7 +44,7 @@ inline PathError error_over(const std::vector<Pose>& truth, const std::vector<Po
     return error;
 }
 
-/// [m] The largest error from one scan to the next.
+/// Largest error [m] from one scan to the next.
 inline double worst_step(const std::vector<Pose>& truth, const std::vector<Pose>& found) {
     double worst = 0.0;
     for (std::size_t i = 1; i < truth.size(); ++i) {
@@ -55,7 +55,7 @@ inline double worst_step(const std::vector<Pose>& truth, const std::vector<Pose>
     return worst;
 }
 
-/// One line; `clocks` is the processor's time for all scans.
+/// Prints one line; `clocks` is the processor time for all scans.
 inline void print_errors(std::string_view name, const std::vector<Pose>& truth,
                          const std::vector<Pose>& found, std::string_view remarks,
                          std::clock_t clocks) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-/// push RECORDING [keep]: scans per second of OnlineFilter::ask(), reading not counted: what
-/// bench/python_push.py compares with. keep: scans and their labels are kept, as who wants
-/// corrections must.
+/// push RECORDING [keep]: measures the scans per second of OnlineFilter::ask() without reading.
+/// bench/python_push.py compares with it. With `keep`, scans and their labels are kept, which a
+/// user needs for corrections.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -40,6 +40,7 @@ int main(int argc, char** argv) {
     for (std::size_t i = 0; i < sequence.size(); ++i) {
         frames.push_back(io::read_frame(sequence, i));
     }
-    scans_per_second(frames, keep);  // the second time memory and threads are there, as in Python
+    // In the second run memory and threads exist already, as in Python.
+    scans_per_second(frames, keep);
     fmt::print("{}\n", scans_per_second(frames, keep));
 }

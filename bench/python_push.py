@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""What the way through Python costs: pushes per second beside those of C++, in turn, on one recording.
+"""Measures the cost of the Python interface: scans per second of push() in Python and in C++, in turn, on one recording.
 
     PYTHONPATH=build/release/python bench/python_push.py build/release RECORDING [rounds]
 """

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-/// The online filter over hours, and under overload. A recording is repeated, each round beginning
-/// where the last one ended, so that the sensor moves on and on. Prints JSON.
+/// Runs the online filter for hours, and under overload. A recording is repeated; each round begins
+/// where the last one ended, so that the sensor moves on for ever. Prints JSON.
 ///
-///     replay RECORDING hours H        H hours of sensor time as fast as it can: memory and time
-///     replay RECORDING overload S     S seconds of ten times too many scans, then as many of the
-///                                     sensor's rate: age of what comes out, recovery, counters
+///     replay RECORDING hours H        H hours of sensor time at full speed: memory and time
+///     replay RECORDING overload S     S seconds at ten times the possible rate, then the rate of
+///                                     the sensor: age of the verdicts, recovery, counters
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -32,7 +32,7 @@ double resident_mib() {
     return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1 << 20);
 }
 
-/// Scan after scan without end.
+/// Repeats the scans without end.
 class EndlessDrive {
 public:
     explicit EndlessDrive(const io::Sequence& sequence) {
@@ -87,7 +87,7 @@ ordered_json hours(const io::Sequence& sequence, double hours) {
     return rows;
 }
 
-/// Ages of the verdicts that came out in a phase.
+/// Ages of the verdicts of a phase.
 struct Ages {
     std::mutex lock;
     Durations seconds;
@@ -127,7 +127,7 @@ ordered_json overload(const io::Sequence& sequence, double seconds) {
         const Counters c = filter.counters();
         exact &= c.in == c.processed + c.dropped + c.rejected + c.queued;
     };
-    // How long a scan takes when nothing else comes.
+    // Time per scan without load.
     for (int i = 0; i < 100; ++i) {
         send();
         filter.flush();

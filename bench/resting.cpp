@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-/// How long until what stood and left is out of the map, and until what comes and stays is in it.
-/// Ten people on a circle in a walled yard: five stand there from the start and leave one after the
-/// other, five come one after the other. Prints Markdown tables: seconds, and the share of the
-/// person's voxels in the map at the end.
+/// Measures how long it takes until an object that stood and left is out of the map, and until an
+/// object that comes and stays is in it. Ten people stand on a circle in a walled yard: five are
+/// there from the start and leave one after the other, five come one after the other. Prints
+/// Markdown tables: seconds, and the share of the voxels of the person in the map at the end.
 #include <fmt/format.h>
 #include <tsl/robin_set.h>
 
@@ -24,19 +24,20 @@ namespace {
 
 using namespace dynamic_filter;
 
-constexpr std::array kChanges = {5, 10, 20, 40, 60};  // [s] when one leaves, and one comes
+// [s] times at which one person leaves and one comes.
+constexpr std::array kChanges = {5, 10, 20, 40, 60};
 constexpr std::size_t kPeople = 2 * kChanges.size();
 constexpr int kEnd = 150;          // [s]
-constexpr int kRate = 5;           // scans a second
+constexpr int kRate = 5;           // scans per second
 constexpr double kCircle = 7.0;    // [m] radius
-constexpr double kGround = 0.05;   // [m] on no boundary of voxels
-constexpr float kPerMetre = 5.0F;  // voxels
-constexpr double kMost = 0.9;      // share of the voxels that makes a person gone, or there
+constexpr double kGround = 0.05;   // [m] not on a boundary of voxels
+constexpr float kPerMetre = 5.0F;  // voxels per metre
+constexpr double kMost = 0.9;  // share of the voxels at which a person counts as gone, or as there
 
 using Cells = tsl::robin_set<VoxelKey, VoxelHash>;
 
-/// From someone's leaving or coming until the map shows it, and the share of the voxels that it
-/// holds at the end.
+/// Time from the change until the map shows it, and the share of the person's voxels in the map at
+/// the end.
 struct Delay {
     std::optional<int> seconds;
     double share = 0.0;
@@ -76,7 +77,7 @@ sim::Caster caster() {
 }
 
 sim::Placements placements(double t) {
-    const Eigen::Vector2d away(1000.0, 1000.0);  // out of every sensor's reach
+    const Eigen::Vector2d away(1000.0, 1000.0);  // out of range of the sensor
     sim::Placements out;
     for (std::size_t i = 0; i < kPeople; ++i) {
         const Eigen::Vector2d at = is_there(i, t) ? place(i) : away;
@@ -85,7 +86,7 @@ sim::Placements placements(double t) {
     return out;
 }
 
-/// In the middle, or to and fro over 10 m at 1 m/s.
+/// In the middle, or back and forth over 10 m at 1 m/s.
 Pose sensor_pose(bool walking, double t) {
     constexpr double kWay = 10.0, kHeight = 0.8;
     const double phase = std::fmod(t, 2.0 * kWay);
@@ -93,7 +94,7 @@ Pose sensor_pose(bool walking, double t) {
     return Pose(Eigen::Translation3d(walking ? along : 0.0, 0.0, kHeight));
 }
 
-/// Whose point that is.
+/// The person to whom a point belongs.
 std::size_t nearest_person(const Eigen::Vector2d& p) {
     std::size_t nearest = 0;
     for (std::size_t i = 1; i < kPeople; ++i) {
@@ -102,7 +103,7 @@ std::size_t nearest_person(const Eigen::Vector2d& p) {
     return nearest;
 }
 
-/// Voxels that hold points of a person, or of the yard.
+/// Voxels that hold points of a person or of the yard.
 struct Seen {
     std::array<Cells, kPeople> people;
     Cells yard;
@@ -117,7 +118,7 @@ struct Seen {
         }
     }
 
-    /// Share of a person's own voxels that the map holds.
+    /// Share of the voxels that only this person has, which are in the map.
     [[nodiscard]] double share(std::size_t person, const std::vector<StaticVoxel>& map) const {
         Cells kept;
         for (const StaticVoxel& v : map)
@@ -132,7 +133,8 @@ struct Seen {
     }
 };
 
-/// Asks the map around everyone who has changed; notes the first second that shows it.
+/// Gets the map around each person who has changed, and records the first second in which it shows
+/// the change.
 void ask(DynamicFilter& filter, const Seen& seen, int second, Delays& delays) {
     for (std::size_t i = 0; i < kPeople; ++i) {
         if (second < change(i)) continue;
@@ -147,7 +149,7 @@ void ask(DynamicFilter& filter, const Seen& seen, int second, Delays& delays) {
 
 Delays watch(const sim::Sensor& sensor, bool walking) {
     Config config = preset("default");
-    config.map.search_radius = 2.0;  // of the map asked for: one person
+    config.map.search_radius = 2.0;  // the requested map is that around one person
     DynamicFilter filter(config);
     sim::Caster rays = caster();
     Seen seen;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// How good verdicts are that settle some seconds after their scan: simulates a scene, filters it,
-/// and prints a row of a Markdown table for each delay.
+/// Measures the accuracy of verdicts that settle some seconds after their scan. Simulates a scene,
+/// filters it, and prints a row of a Markdown table for each delay.
 #include <fmt/format.h>
 
 #include <array>
@@ -21,8 +21,9 @@ namespace {
 
 using namespace dynamic_filter;
 
-constexpr double kVoxel = 0.2;                          // [m] of the scores
-constexpr std::array<double, 4> kDelays{0.5, 1, 2, 5};  // [s] beside at once, and in the end
+constexpr double kVoxel = 0.2;  // [m] voxels of the scores
+// [s] in addition to instant and final verdicts.
+constexpr std::array<double, 4> kDelays{0.5, 1, 2, 5};
 constexpr std::size_t kMoments = kDelays.size() + 2;
 
 sim::SimulationOptions read_arguments(const std::vector<std::string_view>& words) {
@@ -40,7 +41,7 @@ sim::SimulationOptions read_arguments(const std::vector<std::string_view>& words
     return scene;
 }
 
-/// What the verdicts of one moment come to. A voxel that holds both kinds is left out.
+/// Scores of the verdicts at one delay. A voxel that holds both kinds is left out.
 class Scores {
 public:
     void add(const Scan& scan, const std::vector<bool>& moves, const Labels& labels) {
@@ -77,11 +78,11 @@ private:
     eval::Confusion confusion_;
 };
 
-/// A scan that waits for the next of its moments.
+/// A scan that waits for its next delay.
 struct Waiting {
     Scan scan;
     std::vector<bool> moves;
-    std::size_t next = 0;  // of kDelays
+    std::size_t next = 0;  // index into kDelays
 };
 
 void ask(std::deque<Waiting>& waiting, double now, const DynamicFilter& filter,

@@ -1,10 +1,12 @@
-# What users get: the command (component `command`); the libraries, their headers and DynamicFilterConfig.cmake (`dev`);
-# shared libraries (`library`), where BUILD_SHARED_LIBS asks for them; the Python package (`python`).
+# What is installed: the command (component `command`); the libraries, their headers and
+# DynamicFilterConfig.cmake (`dev`); shared libraries (`library`), if BUILD_SHARED_LIBS is set; the
+# Python package (`python`).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(DF_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/DynamicFilter)
 
-# The core's headers that users include, and what these include; the others are its own.
+# The headers of the core for users, and the headers that these include. The other headers of the
+# core are private.
 set(DF_CORE_HEADERS
   config.hpp dynamic_filter.hpp error.hpp keyframe.hpp map_contents.hpp parallel.hpp setting.hpp stage_times.hpp types.hpp
   verdict.hpp geometry/range_image.hpp odometry/config.hpp odometry/motion.hpp odometry/odometry.hpp
@@ -21,13 +23,14 @@ install(DIRECTORY include/dynamic_filter/io include/dynamic_filter/eval include/
 foreach(part io eval sim)
   set_target_properties(dynamic_filter_${part} PROPERTIES EXPORT_NAME ${part})
 endforeach()
-# While the major version is 0, a minor one may break the ABI, too; from 1.0 on, the major alone counts.
+# While the major version is 0, a minor version may also break the ABI. From 1.0 on, only the major
+# version may.
 set(DF_LIBRARIES dynamic_filter dynamic_filter_io dynamic_filter_eval dynamic_filter_sim)
 set_target_properties(${DF_LIBRARIES} PROPERTIES
   VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 set(destinations LIBRARY COMPONENT library NAMELINK_COMPONENT dev ARCHIVE COMPONENT dev
                  INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-# The simulator is apart because only it needs Embree.
+# The simulator has its own export set, because only it needs Embree.
 install(TARGETS dynamic_filter dynamic_filter_io dynamic_filter_eval EXPORT DynamicFilterTargets ${destinations})
 install(TARGETS dynamic_filter_sim EXPORT DynamicFilterSimTargets ${destinations})
 foreach(set DynamicFilterTargets DynamicFilterSimTargets)
@@ -43,14 +46,14 @@ install(FILES ${PROJECT_BINARY_DIR}/DynamicFilterConfig.cmake ${PROJECT_BINARY_D
 
 install(TARGETS dynamicfilter RUNTIME COMPONENT command)
 
-set(DF_PYTHON_DIR lib/python3/dist-packages)  # where Debian's Python looks, below /usr
+set(DF_PYTHON_DIR lib/python3/dist-packages)  # the folder below /usr in which Debian's Python looks
 if(DF_BUILD_PYTHON)
   install(TARGETS _dynamicfilter LIBRARY DESTINATION ${DF_PYTHON_DIR}/dynamicfilter COMPONENT python)
   install(FILES ${DF_PYTHON_SOURCES} DESTINATION ${DF_PYTHON_DIR}/dynamicfilter COMPONENT python)
   install(DIRECTORY ${DF_PYTHON_DIST_INFO} DESTINATION ${DF_PYTHON_DIR} COMPONENT python)
 endif()
 
-# Shared libraries are found wherever the whole is moved to.
+# Shared libraries are found relative to the program, so the installation can be moved.
 if(BUILD_SHARED_LIBS)
   set_target_properties(${DF_LIBRARIES} PROPERTIES INSTALL_RPATH $ORIGIN)
   set_target_properties(dynamicfilter PROPERTIES INSTALL_RPATH $ORIGIN/../${CMAKE_INSTALL_LIBDIR})

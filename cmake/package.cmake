@@ -1,4 +1,4 @@
-# Debian packages and a tarball that runs from wherever it is unpacked; script/package makes them.
+# Debian packages, and a tarball that runs from any folder; script/package builds them.
 set(DF_DEBIAN ${PROJECT_SOURCE_DIR}/packaging/debian)
 set(DF_PREPARED ${PROJECT_BINARY_DIR}/packaging)
 foreach(plain ${DF_DEBIAN}/changelog ${PROJECT_SOURCE_DIR}/packaging/dynamicfilter.1 ${PROJECT_SOURCE_DIR}/CHANGELOG.md)
@@ -14,7 +14,7 @@ install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libdynamicfi
 install(DIRECTORY examples/python/ DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-dynamicfilter/examples COMPONENT python)
 install(FILES README.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/dynamicfilter COMPONENT command)
 
-# The rest is for shared libraries: preset `package`.
+# The rest needs shared libraries: preset `package`.
 if(NOT BUILD_SHARED_LIBS)
   return()
 endif()
@@ -46,8 +46,8 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(CPACK_DEBIAN_PACKAGE_SOURCE dynamicfilter)
-# dpkg-shlibdeps knows the libraries of others; ours is wanted at the same version, as the command and the module
-# use more of it than its public headers.
+# dpkg-shlibdeps finds the dependencies on other packages. The own library is required in exactly
+# the same version, because the command and the module use more of it than the public headers.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/src ${PROJECT_BINARY_DIR}/src/io
     ${PROJECT_BINARY_DIR}/src/eval ${PROJECT_BINARY_DIR}/src/sim)
@@ -60,7 +60,8 @@ foreach(library IN LISTS DF_LIBRARIES)
   get_target_property(soversion ${library} SOVERSION)
   string(APPEND shlibs "lib${library} ${soversion} ${DF_LIBRARY_PACKAGE} (>= ${PROJECT_VERSION})\n")
 endforeach()
-file(WRITE ${DF_PREPARED}/shlibs ${shlibs})  # CPack's own would count the Python module, and warn
+# CPack's own file would include the Python module, with a warning.
+file(WRITE ${DF_PREPARED}/shlibs ${shlibs})
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${DF_PREPARED}/shlibs ${DF_DEBIAN}/library/triggers)
 install(FILES ${DF_DEBIAN}/library/lintian-overrides DESTINATION ${CMAKE_INSTALL_DATADIR}/lintian/overrides
         RENAME ${DF_LIBRARY_PACKAGE} COMPONENT library)
@@ -75,7 +76,8 @@ set(CPACK_COMPONENT_COMMAND_DESCRIPTION "remove moving objects from LiDAR scans 
 Labels every point of a recording as static, dynamic or unknown, from scans
 and poses alone, and writes the map without what moves. Reads ROS bags, KITTI
 and folders of clouds.")
-math(EXPR next_python "${Python3_VERSION_MINOR} + 1")  # the module is for one minor version
+# The module works with one minor version of Python only.
+math(EXPR next_python "${Python3_VERSION_MINOR} + 1")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3-numpy, \
 python3 (>= ${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}), python3 (<< ${Python3_VERSION_MAJOR}.${next_python})")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${DF_DEBIAN}/python/postinst ${DF_DEBIAN}/python/prerm)

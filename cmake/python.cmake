@@ -1,10 +1,10 @@
-# Whether the Python package is built. AUTO: if pybind11 and Python's headers are there.
+# Whether the Python package is built. AUTO: if pybind11 and the headers of Python are installed.
 set(DYNAMIC_FILTER_PYTHON AUTO CACHE STRING "Build the Python package (ON, OFF, AUTO)")
 set_property(CACHE DYNAMIC_FILTER_PYTHON PROPERTY STRINGS AUTO ON OFF)
 
 set(DF_BUILD_PYTHON OFF)
 if(DYNAMIC_FILTER_PYTHON)
-  # The system's Python, if there is one, as that is the one for which Debian has packages.
+  # The Python of the system, if there is one, because Debian's packages are made for it.
   find_program(Python3_EXECUTABLE python3 PATHS /usr/bin NO_DEFAULT_PATH)
   if(DYNAMIC_FILTER_PYTHON STREQUAL AUTO)
     find_package(Python3 COMPONENTS Interpreter Development.Module QUIET)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Builds the wheel (PEP 517, 427): the package, its module, and the command beside Python's own.
+"""Builds the wheel (PEP 517, 427): the package, its module, and the command in the folder of scripts.
 
     python3 backend.py DIR      # what script/wheel calls
 """
@@ -21,14 +21,15 @@ def version():
 
 
 def tag():
-    """The module is for this Python and links the libraries of this system."""
+    """The tag of the wheel: the module needs this version of Python and the libraries of this system."""
     platform = re.sub(r"[-.]", "_", sysconfig.get_platform())
     python = f"cp{sys.version_info.major}{sys.version_info.minor}"
     return f"{python}-{python}-{platform}"
 
 
 def build():
-    python = pathlib.Path(sys.executable).resolve()  # an environment of pip's would not last
+    # The Python of a temporary environment of pip would disappear.
+    python = pathlib.Path(sys.executable).resolve()
     subprocess.run(["cmake", "--preset", "release", "-DDYNAMIC_FILTER_PYTHON=ON",
                     f"-DPython3_EXECUTABLE={python}"], cwd=ROOT, check=True, stdout=sys.stderr)
     subprocess.run(["cmake", "--build", BUILD, "--target", "_dynamicfilter", "dynamicfilter"],
@@ -36,7 +37,7 @@ def build():
 
 
 def files(name):
-    """Path in the wheel, content."""
+    """Yields the path in the wheel and the content of each file."""
     suffix = sysconfig.get_config_var("EXT_SUFFIX")
     package = BUILD / "python" / "dynamicfilter"
     for file in ("__init__.py", "__init__.pyi", "py.typed", "_dynamicfilter" + suffix):
@@ -49,7 +50,7 @@ def files(name):
 
 
 def add(wheel, path, content, mode=0o644):
-    entry = zipfile.ZipInfo(path)  # of 1980: same sources, same bytes
+    entry = zipfile.ZipInfo(path)  # has a date in 1980, so the same sources give the same bytes
     entry.external_attr = (0o100000 | mode) << 16
     wheel.writestr(entry, content, zipfile.ZIP_DEFLATED)
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-/// The instruction-set levels that kernels exist for, and which of them this machine runs best.
-/// Macros, because the levels are namespaces, and not all exist everywhere.
+/// The instruction-set levels for which kernels are compiled, and the choice of the best level for
+/// this machine. These are macros because the levels are namespaces, and not all levels exist on
+/// all machines.
 #pragma once
 
 #ifdef DYNAMIC_FILTER_X86_LEVELS

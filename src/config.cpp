@@ -21,7 +21,7 @@ constexpr std::array<std::string_view, 3> kRevertings{"map", "visibility", "none
 constexpr std::array<std::string_view, 2> kMapTimes{"always", "latest"};
 constexpr std::array<std::string_view, 2> kSwitch{"false", "true"};
 
-/// The words for a choice, in the order of its enumerators.
+/// The names of a choice, in the order of its enumerators.
 constexpr const auto& words(Method) { return kMethods; }
 constexpr const auto& words(Reverting) { return kRevertings; }
 constexpr const auto& words(MapTime) { return kMapTimes; }
@@ -76,15 +76,17 @@ std::string print(const T& value) {
 
 [[noreturn]] void unknown_key(std::string_view key) {
     std::string_view nearest;
-    // Beyond it nothing is near; of equally near ones, the one that is spelled most like it.
+    // Keys at this distance or farther are no suggestion. Among keys at equal distance, the one
+    // with the most similar whole key wins.
     std::pair<std::size_t, std::size_t> best(std::max<std::size_t>(3, key.size() / 2), 0);
     bool is_section = false;
     Config config;
     visit(config, [&](const Setting& s, const auto&) {
         is_section |= s.key.starts_with(std::string(key) + ".");
-        // A user who leaves out the section means the same key.
+        // A user may have left out the section of the key.
         const auto name = s.key.substr(s.key.find('.') + 1);
-        const auto own_name = key.substr(key.rfind('.') + 1);  // in another section, perhaps
+        // The user may have named another section.
+        const auto own_name = key.substr(key.rfind('.') + 1);
         const std::size_t whole = edit_distance(key, s.key);
         std::size_t d = std::min(whole, edit_distance(key, name) + 1);
         if (name.starts_with(key)) d = std::min<std::size_t>(d, 2);
@@ -171,7 +173,7 @@ std::vector<std::string> violations(const Config& config) {
     visit(config, [&](const Setting& s, const auto& member) {
         if constexpr (is_number<std::decay_t<decltype(member)>>) {
             const auto value = static_cast<double>(member);
-            if (!(value >= s.min && value <= s.max)) {  // NaN too
+            if (!(value >= s.min && value <= s.max)) {  // also true for NaN
                 found.push_back(std::string(s.key) + " = " + print(member) + " is outside " +
                                 print(s.min) + " .. " + print(s.max));
             }

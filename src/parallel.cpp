@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#ifdef DYNAMIC_FILTER_STD_THREADS  // the tsan preset: every lock is one that TSan can see
+#ifdef DYNAMIC_FILTER_STD_THREADS  // the tsan preset, which needs locks that TSan can see
 #include <exception>
 #include <mutex>
 #include <thread>

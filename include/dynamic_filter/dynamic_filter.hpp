@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// The one include: the pipeline, its configuration and its types.
+/// Includes the whole library for users: the pipeline, its configuration and its types.
 #pragma once
 
 #include "dynamic_filter/config.hpp"

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Errors thrown at the boundaries. The message is one sentence for the user: what was found and
-/// where, what was expected, what to do.
+/// Exceptions of the library. The message is one sentence for the user: what was found and where,
+/// what was expected, and what to do next.
 ///
-/// - Errors: the core throws ConfigError, and Error for a call out of order; readers throw
-///   InputError, writers OutputError. Besides these, all may throw std::bad_alloc, and what starts
-///   threads std::system_error.
-/// - Ownership: all texts are copied.
+/// - Errors: the filter throws ConfigError for wrong settings, and Error if functions are called in
+///   the wrong order. Readers throw InputError, writers throw OutputError. In addition, every
+///   function may throw std::bad_alloc, and functions that start threads may throw
+///   std::system_error.
+/// - Ownership: the exceptions copy all texts.
 /// - Threads: plain data.
 #pragma once
 
@@ -16,7 +17,8 @@
 
 namespace dynamic_filter {
 
-/// What all of them are; thrown itself where none of the others fits.
+/// Base class of all exceptions of the library. It is thrown itself where none of the classes below
+/// fits.
 struct Error : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -26,17 +28,17 @@ struct ConfigError : Error {
     using Error::Error;
 };
 
-/// An input cannot be read, or contradicts itself (exit code 3).
-/// `where` says the place in the file ("byte 128", "line 3"); empty for the file as a whole.
+/// An input cannot be read or contradicts itself (exit code 3). `where` names the place in the file
+/// ("byte 128", "line 3"); it is empty if the fault concerns the whole file.
 struct InputError : Error {
-    /// what(): "FILE (WHERE): WHAT".
+    /// what() returns "FILE (WHERE): WHAT".
     InputError(const std::filesystem::path& file, const std::string& where, const std::string& what)
         : Error(file.string() + (where.empty() ? "" : " (" + where + ")") + ": " + what) {}
 };
 
 /// An output cannot be written (exit code 1).
 struct OutputError : Error {
-    /// what(): "FILE: WHAT".
+    /// what() returns "FILE: WHAT".
     OutputError(const std::filesystem::path& file, const std::string& what)
         : Error(file.string() + ": " + what) {}
 };

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What a filter holds, for reports.
+/// Sizes and counts of what a filter holds, for reports.
 ///
 /// - Units: counts.
-/// - Shapes: a Throughput per main stage.
+/// - Shapes: one Throughput per main stage.
 /// - Ownership: values.
 /// - Threads: plain data.
 /// - Errors: none.
@@ -18,24 +18,25 @@
 
 namespace dynamic_filter {
 
-/// How much of something a stage has done.
+/// How many items a stage has processed.
 struct Throughput {
-    std::string stage;      ///< as in StageTimes
-    std::string item;       ///< "scans", "submaps"
-    std::size_t count = 0;  ///< of them
+    std::string stage;      ///< name of the stage, as in StageTimes
+    std::string item;       ///< what the stage processes: "scans" or "submaps"
+    std::size_t count = 0;  ///< number of items
 };
 
-/// What a filter holds.
+/// Contents of a filter.
 struct MapContents {
-    std::string observer;                ///< what observes: "keyframes" or "submaps"
-    std::size_t observers = 0;           ///< how many have observed, or are buffered
-    std::size_t voxels = 0;              ///< of the map
-    std::optional<BeamPattern> beams;    ///< how densely the sensor looks; empty: not known yet
-    std::vector<std::size_t> keyframes;  ///< Scan::index of those that
-                                         ///< VoxelHistory::free_keyframes knows
-    std::vector<Throughput> throughput;  ///< of the main stages, in their order
+    std::string observer;       ///< kind of the observers: "keyframes" or "submaps"
+    std::size_t observers = 0;  ///< how many have observed, or are in the buffer
+    std::size_t voxels = 0;     ///< number of voxels of the map
+    /// Angles between the beams of the sensor; empty: not measured yet.
+    std::optional<BeamPattern> beams;
+    /// Scan::index of the keyframes that VoxelHistory::free_keyframes can name.
+    std::vector<std::size_t> keyframes;
+    std::vector<Throughput> throughput;  ///< one entry per main stage, in processing order
 
-    /// Adds those of another map of the same method.
+    /// Adds the contents of another map of the same method.
     void add(const MapContents& other);
 };
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// The one door to threads. Bodies write by index only, so results do not depend on scheduling.
+/// Parallel loops; all threads of the library's computations are started here. Loop bodies write
+/// only to the elements of their own range, so results do not depend on scheduling.
 ///
 /// - Ownership: bodies are borrowed for the call.
-/// - Threads: callable from any, also from a body.
-/// - Errors: what a body throws, the first if there are several.
+/// - Threads: may be called from any thread, also from within a body.
+/// - Errors: an exception of a body is passed on; if several bodies throw, the first one.
 #pragma once
 
 #include <cstddef>
@@ -12,21 +13,21 @@
 
 namespace dynamic_filter {
 
-/// Calls `body(begin, end)` on disjoint ranges that cover [0, count), possibly at the same time.
-/// A range of `grain` items or fewer is not split further, and a range may be much longer. An
-/// exception of the body is rethrown here, when no range is in work any more; some may then never
-/// have begun.
+/// Calls `body(begin, end)` on disjoint ranges that cover [0, count), possibly in parallel. A range
+/// of `grain` items or fewer is not split further; a range may also be much longer. If a body
+/// throws, its exception is rethrown here after all running ranges have ended; some ranges may then
+/// never have been started.
 void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t)>& body);
 
-/// Runs `work` so that parallel_for inside it uses at most `threads` threads (0 or less: all
-/// cores). Returns when `work` has; its exception is rethrown.
+/// Runs `work` so that each parallel_for inside it uses at most `threads` threads (0 or less: all
+/// cores). Returns when `work` has returned; an exception of `work` is rethrown.
 void with_threads(int threads, const std::function<void()>& work);
 
-/// Threads that parallel_for uses at most if called from here.
+/// Largest number of threads that parallel_for uses if it is called from here.
 int current_threads();
 
-/// Cores that this process may run on.
+/// Number of cores that this process may use.
 int available_threads();
 
 }  // namespace dynamic_filter

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What a user is told about a setting, and which method it belongs to.
+/// The description of a setting, and the methods that use it.
 ///
-/// - Units: bounds are in the setting's own unit.
-/// - Ownership: texts live for ever.
+/// - Units: bounds are in the unit of the setting.
+/// - Ownership: texts are string literals and stay valid for the whole program.
 /// - Threads: plain data.
 /// - Errors: none.
 #pragma once
@@ -12,28 +12,30 @@
 
 namespace dynamic_filter {
 
-/// How moving objects are found. Scans observe (the default), submaps observe (the paper's), or
-/// Removert, the paper's opponent (Table II), which has no back-end.
+/// How moving objects are found. "scans" (the default): each keyframe is an observer. "submaps":
+/// the submaps are the observers, as in the paper. "removert": Removert, with which the paper
+/// compares (Table II); it has no back-end.
 enum class Method { scans, submaps, removert };
 
-/// What the static map holds: what never moved, or what was there when its place was last seen, so
-/// also what came, or moved, and then stayed.
+/// What the static map holds. `always`: only what never moved. `latest`: what was in each place
+/// when the place was last seen, so also objects that came or moved and then stayed.
 enum class MapTime { always, latest };
 
-/// A set of methods: one bit each.
+/// A set of methods, with one bit per method.
 constexpr unsigned methods_of(Method method) { return 1U << static_cast<unsigned>(method); }
-/// Of all methods.
+/// The set of all methods.
 constexpr unsigned kAllMethods = 7U;
 
-/// What a user is told about a setting. Bounds are inclusive; for switches and choices they are 0.
+/// The description of a setting for users. Bounds are inclusive; for switches and choices both are
+/// 0.
 struct Setting {
-    std::string_view key;            ///< "map.voxel_size": the path of the field in Config
+    std::string_view key;            ///< path of the field in Config, such as "map.voxel_size"
     std::string_view unit;           ///< "m", "deg", "1", ...
-    std::string_view symbol;         ///< the paper's symbol or section
-    std::string_view help;           ///< what it does
+    std::string_view symbol;         ///< the symbol or the section of the paper
+    std::string_view help;           ///< what the setting does
     double min = 0.0;                ///< in `unit`
     double max = 0.0;                ///< in `unit`
-    unsigned methods = kAllMethods;  ///< those in which it has an effect
+    unsigned methods = kAllMethods;  ///< the methods in which it has an effect
 };
 
 }  // namespace dynamic_filter

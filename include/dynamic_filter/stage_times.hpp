@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Wall time per call of each stage, for timing.json.
+/// Wall-clock time per call of each stage; it is written to timing.json.
 ///
 /// - Units: [s].
-/// - Shapes: a Durations per stage.
-/// - Ownership: values, copied; timed() borrows.
+/// - Shapes: one Durations per stage.
+/// - Ownership: values, copied; timed() borrows its arguments.
 /// - Threads: single caller.
 /// - Errors: none of its own.
 #pragma once
@@ -19,40 +19,40 @@
 
 namespace dynamic_filter {
 
-/// [s] of wall time.
+/// Wall-clock time since `start` [s].
 inline double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Seconds of many calls, in bounded memory: all count towards the sums, the newest towards the
-/// quantiles.
+/// Durations of many calls in bounded memory. Sums and the maximum cover all calls; quantiles cover
+/// the newest kNewest calls.
 class Durations {
 public:
-    static constexpr std::size_t kNewest = 4096;  ///< calls that quantiles know
+    static constexpr std::size_t kNewest = 4096;  ///< number of calls that quantiles cover
 
-    /// For one call more, whose add() then needs no memory.
+    /// Reserves memory for one more call, so that the next add() allocates nothing.
     void make_room() {
         if (newest_.size() < newest_.capacity()) return;
         newest_.reserve(std::min(2 * newest_.size() + 16, kNewest));
     }
-    /// One call more [s].
+    /// Adds one call [s].
     void add(double seconds) {
         keep(seconds);
         ++count_;
         total_ += seconds;
         max_ = std::max(max_, seconds);
     }
-    /// The calls of another.
+    /// Adds all calls of another object.
     void add(const Durations& other) {
         for (const double seconds : other.newest_) keep(seconds);
         count_ += other.count_;
         total_ += other.total_;
         max_ = std::max(max_, other.max_);
     }
-    [[nodiscard]] std::size_t count() const { return count_; }  ///< calls
-    [[nodiscard]] double total() const { return total_; }       ///< [s] of all calls
-    [[nodiscard]] double max() const { return max_; }           ///< [s] of the longest
-    /// [s] of the call below which that share, 0..1, of the newest calls lies. 0 if there was none.
+    [[nodiscard]] std::size_t count() const { return count_; }  ///< number of calls
+    [[nodiscard]] double total() const { return total_; }       ///< [s] sum of all calls
+    [[nodiscard]] double max() const { return max_; }           ///< [s] longest call
+    /// The quantile [s] of the newest calls; `share` is 0..1. Returns 0 if there was no call.
     [[nodiscard]] double quantile(double share) const {
         if (newest_.empty()) return 0.0;
         std::vector<double> calls = newest_;
@@ -75,9 +75,9 @@ private:
     double total_ = 0.0, max_ = 0.0;
 };
 
-using StageTimes = std::map<std::string, Durations>;  ///< by the stage's name
+using StageTimes = std::map<std::string, Durations>;  ///< keys are the names of the stages
 
-/// Runs `work`, notes how long it took, and hands on its result. Single caller per `times`.
+/// Runs `work`, adds its duration to the stage, and returns its result. Single caller per `times`.
 template <class F>
 decltype(auto) timed(StageTimes& times, const std::string& stage, F&& work) {
     struct Note {
@@ -86,7 +86,7 @@ decltype(auto) timed(StageTimes& times, const std::string& stage, F&& work) {
         ~Note() { durations.add(seconds_since(start)); }
     };
     Durations& durations = times[stage];
-    durations.make_room();  // destructors must not throw
+    durations.make_room();  // so that the destructor below cannot throw
     const Note note{durations};
     return std::forward<F>(work)();
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What the filter says about a scan, about a voxel, and why.
+/// Results of the filter: verdicts on scans, static voxels, and the evidence behind them.
 ///
 /// - Units: [m], probabilities 0..1.
 /// - Frames: world.
@@ -21,32 +21,36 @@
 
 namespace dynamic_filter {
 
-/// Verdict on one scan, point by point.
+/// The verdict on one scan. An *instant* verdict uses the evidence up to this scan; a *settled* one
+/// also uses a given number of later scans; the *final* one uses the whole recording.
 struct Verdict {
-    std::size_t index = 0;           ///< Scan::index
-    Labels labels;                   ///< one per point
-    std::vector<float> probability;  ///< occupancy 0..1 of the point's voxel, 0 where the label is
-                                     ///< unknown (a point that stands on a static surface may be
-                                     ///< dynamic all the same); empty in instant verdicts
-    std::vector<bool> stays{};       ///< with `map.time` = latest, in final verdicts: true for
-                                     ///< points of what moves that were still there when their
-                                     ///< place was last seen; else empty
-    /// In instant verdicts, where the filter found or refined the pose: which it is, and how the
-    /// sensor moved. The world is then the first scan's sensor frame, or that of the given poses.
+    std::size_t index = 0;  ///< Scan::index
+    Labels labels;          ///< one per point
+    /// One per point: probability 0..1 that its voxel is occupied, or 0 where the label is unknown.
+    /// A point that stands on a static surface may be dynamic although its voxel is probably
+    /// occupied. Empty in instant verdicts.
+    std::vector<float> probability;
+    /// Only in final verdicts with `map.time` = latest, otherwise empty: true for dynamic points
+    /// that were still in their place when the place was last seen.
+    std::vector<bool> stays{};
+    /// Only in instant verdicts, and only if the filter estimated or refined the pose: the pose and
+    /// the motion of the sensor. The world frame is then the sensor frame of the first scan, or the
+    /// frame of the given poses.
     std::optional<Tracked> tracked{};
 };
 
-/// Every point unknown, with probabilities.
+/// A verdict with all points unknown and all probabilities 0.
 inline Verdict unknown_verdict(const Scan& scan) {
     return {scan.index, Labels(scan.points.size(), Label::unknown),
             std::vector<float>(scan.points.size(), 0.0F)};
 }
 
-/// What judging a scan gives.
+/// Result of judging a scan.
 struct Judged {
-    std::vector<Verdict> verdicts;    ///< instant ones, see DynamicFilter::push()
-    std::function<void()> integrate;  ///< work that can wait until the verdicts are delivered;
-                                      ///< empty: none. To be called once, while the filter lives.
+    std::vector<Verdict> verdicts;  ///< instant verdicts, see DynamicFilter::push()
+    /// The work that can wait until the verdicts are delivered; empty if there is none. Call it
+    /// once, while the filter exists.
+    std::function<void()> integrate;
 };
 
 /// A voxel of a static map.
@@ -55,21 +59,24 @@ struct StaticVoxel {
     float probability = 0.0F;                          ///< occupancy 0..1
 };
 
-/// What the scans said about a voxel, to explain the verdict on a point in it. Where submaps
-/// observe, only the probability is known, and the rest is zero.
+/// The observations of a voxel, to explain the verdict on a point in it. With the method "submaps",
+/// only the probability is known; all other values are zero.
 struct VoxelHistory {
-    std::optional<float> probability;  ///< occupancy 0..1; empty: unknown
+    std::optional<float> probability;  ///< 0..1 of being occupied; empty: unknown
     std::uint32_t n_own = 0;           ///< scans with a point in it
-    std::uint32_t n_occ = 0;           ///< keyframes that saw it occupied
-    std::uint32_t n_free = 0;          ///< keyframes that saw through it
-    std::uint32_t n_switch = 0;        ///< changes between the two, in order of time
-    float free = 0.0F;                 ///< n_free in units of sure sights: a weak one is an eighth
-    float expected_free = 0.0F;  ///< what `free` would be of a static voxel, in units of the same
-    float score = 0.0F;          ///< in units of DynamicScore: above 0 something came or went
-    std::size_t first = 0;       ///< Scan::index of the first with a point in it ...
-    std::size_t last = 0;        ///< ... and of the last
-    std::vector<std::size_t> free_keyframes;  ///< of a dynamic voxel, Scan::index of keyframes that
-                                              ///< saw through it, ascending; up to 64 are asked
+    std::uint32_t n_occ = 0;           ///< keyframes that saw the voxel occupied
+    std::uint32_t n_free = 0;          ///< keyframes that saw through the voxel
+    std::uint32_t n_switch = 0;        ///< changes between occupied and free, in order of time
+    /// The count n_free in units of sure observations; a weak observation counts an eighth.
+    float free = 0.0F;
+    /// Value of `free` expected of a static voxel with these counts, in units of sure observations.
+    float expected_free = 0.0F;
+    float score = 0.0F;     ///< in units of DynamicScore; above 0 something came or went
+    std::size_t first = 0;  ///< Scan::index of the first scan with a point in the voxel
+    std::size_t last = 0;   ///< Scan::index of the last scan with a point in the voxel
+    /// Of a dynamic voxel: Scan::index of keyframes that saw through it, ascending. At most 64
+    /// keyframes are checked for this list.
+    std::vector<std::size_t> free_keyframes;
 };
 
 }  // namespace dynamic_filter

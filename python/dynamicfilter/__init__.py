@@ -7,10 +7,10 @@
     for frame in recording:
         labels = filter.push(frame.points, frame.pose, frame.stamp)
 
-Where nobody knows the poses, the filter finds them: filter.push(points, stamp=stamp), and
-filter.pose(scan) tells.
+If poses are not known, call filter.push(points, stamp=stamp): the filter estimates them, and
+filter.pose(scan) returns them.
 
-Labels are N uint8, one a point: UNKNOWN (0), STATIC (9) or DYNAMIC (251), as in SemanticKITTI.
+Labels are N uint8, one per point: UNKNOWN (0), STATIC (9) or DYNAMIC (251), as in SemanticKITTI.
 Lengths are in metres, stamps in seconds, poses 4 x 4 matrices T_world_sensor.
 """
 import json as _json
@@ -80,19 +80,19 @@ def _records(cloud):
 
 
 def run(data, output=None, **options):
-    """Removes moving objects from a recording, as `dynamicfilter run` does, and says what it says.
+    """Removes moving objects from a recording and writes the results, as `dynamicfilter run` does.
 
     data: bag or folder; output: folder, by default results/<UTC stamp>.
-    Options: config and threads as of DynamicFilter, overwrite, resume, online (times the sensor's
-    rate; 0: as fast as it can), quiet (False: progress, notes and the closing table on stderr and
-    stdout, as the command has them), refine (poses), and how to read the recording, as of
-    open_recording(); with poses="none" they are found from the scans. refine and deskew: True, False, or
-    "auto", the default: where scans overlay better then.
-    Returns {"output": folder, "metrics": as in metrics.json, "timing": as in timing.json [s, ms]};
-    labels are in its folder `labels`, N uint32 a scan. Scans that were rejected or dropped raise
-    nothing: they are in metrics["rejected"], ["dropped"] and ["lost"].
-    Raises ConfigError (also if the folder holds something, without overwrite or resume), InputError,
-    OutputError, and KeyboardInterrupt after what was filtered until then is written.
+    Options: config and threads as in DynamicFilter, overwrite, resume, online (multiple of the
+    sensor's rate; 0: full speed), quiet (False prints progress, notes and the closing table on stderr
+    and stdout, like the command), refine (poses), and the options of open_recording(). With
+    poses="none", the poses are estimated from the scans. refine and deskew are True, False or "auto"
+    (the default), which does it if scans overlay better afterwards.
+    Returns {"output": folder, "metrics": as in metrics.json, "timing": as in timing.json [s, ms]}.
+    The labels are in the folder `labels` of the output, N uint32 per scan. Rejected or dropped scans
+    raise nothing; they are in metrics["rejected"], ["dropped"] and ["lost"].
+    Raises ConfigError (also if the folder is not empty, without overwrite or resume), InputError,
+    OutputError, and KeyboardInterrupt after the results so far are written.
     """
     folder, metrics, timing = _dynamicfilter.run(data, output, options)
     return {"output": str(folder), "metrics": _json.loads(metrics), "timing": _json.loads(timing)}
@@ -101,23 +101,23 @@ def run(data, output=None, **options):
 def evaluate(truth, *, labels=None, map=None, voxel=0.2, min_range=0.0, max_range=float("inf"), **options):
     """Scores labels or a map against a recording's ground truth, as `dynamicfilter eval` does.
 
-    labels: folder of label files (N uint32 a scan), or of a run; or map: cloud file in the world's
-    frame [m]. voxel: edge of a voxel [m]. min_range, max_range: only points at this distance from the
-    sensor [m] are scored. Options: as of open_recording().
-    Returns the scores as a dict of shares 0..1, and how many `scans` were scored and `left_out`.
+    labels: folder of label files (N uint32 per scan), or of a run. Or map: cloud file in the world
+    frame [m]. voxel: edge length of a voxel [m]. min_range, max_range: only points at this
+    distance from the sensor [m] are scored. Options: as in open_recording().
+    Returns the scores as a dict of shares 0..1, and the numbers of `scans` scored and `left_out`.
     Raises ConfigError, InputError, TypeError and ValueError.
     """
     return _json.loads(_dynamicfilter.evaluate(truth, labels, map, voxel, min_range, max_range, options))
 
 
 def check(data, **options):
-    """Looks whether poses and scans of a recording fit together, as `dynamicfilter check` does.
+    """Checks whether poses and scans of a recording fit together, as `dynamicfilter check` does.
 
-    DynamicFilter cannot see that poses are inverse, or in other units: look here first.
-    data: bag or folder. Options: as of open_recording(); with poses="none" only the scans are looked at.
-    Returns {"findings": [{"what", "advice"}], "overlays": {reading: share 0..1}, "unusable", "lost"}:
-    findings and the sentences of the last two are empty if all is well. Advice is worded for the
-    command: --pose-fix inverse is pose_fix="inverse" here.
+    DynamicFilter does not detect inverse poses or wrong units, so use this check first.
+    data: bag or folder. Options: as in open_recording(); with poses="none" only the scans are checked.
+    Returns {"findings": [{"what", "advice"}], "overlays": {reading: share 0..1}, "unusable", "lost"}.
+    The findings and the sentences of the last two are empty if there is no fault. The advice names
+    options of the command: --pose-fix inverse is pose_fix="inverse" here.
     Raises TypeError, ConfigError and InputError.
     """
     return _json.loads(_dynamicfilter.check(data, options))

@@ -16,7 +16,7 @@ std::string text(const py::handle& value) { return py::str(value); }
 
 std::string shape_of(const py::array& array) { return text(array.attr("shape")); }
 
-/// Copied, because nothing says that it is aligned.
+/// The values are copied, because they may be unaligned.
 template <class T>
 float number_at(const char* at) {
     T value;
@@ -71,7 +71,8 @@ py::array floats_from(const py::object& given, const char* name, const char* exp
     return array;
 }
 
-/// A sweep takes a part of a second: what is far from it is in another unit, or no difference.
+/// A sweep takes a fraction of a second. Times far outside of that have another unit, or are not
+/// relative to the stamp.
 void refuse_odd_times(const std::vector<float>& times, const Points& points) {
     constexpr float kFarthest = 60.0F;  // [s]
     for (std::size_t i = 0; i < times.size(); ++i) {
@@ -112,8 +113,8 @@ void refuse_if_not_rigid(const Eigen::Matrix4d& m) {
     if (r.determinant() < 0.0) refuse("got a reflection: one axis is flipped");
 }
 
-/// The nearest rotation, by Newton's iteration. Exact ones keep their bits, so that poses of
-/// recordings stay what the command takes.
+/// The nearest rotation, by Newton's iteration. Exact rotations are not changed, so that poses of
+/// recordings are bit-identical to those that the command uses.
 Eigen::Matrix3d made_exact(Eigen::Matrix3d r) {
     constexpr double kExact = 1e-12;
     while (skewness(r) > kExact) {
@@ -130,7 +131,7 @@ py::object format_of(const io::Field& field) {
     return py::make_tuple(name, py::make_tuple(field.count));
 }
 
-/// numpy wants names that differ and are not empty.
+/// numpy needs names that are unique and not empty.
 std::string unused_name(std::string name, std::set<std::string>& used) {
     if (name.empty()) name = "_";
     while (!used.insert(name).second) name += '_';

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// numpy's arrays in and out. In: one pass through whatever strides they have. Out: no copy; an
-/// array keeps alive what it shows.
+/// Conversion of numpy arrays. Input: one pass over the values, with any strides. Output: no copy;
+/// an array keeps its data alive.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -18,16 +18,16 @@ namespace dynamic_filter::python {
 
 namespace py = pybind11;
 
-/// From an array N x 3 or more columns, of float32 or float64. Raises TypeError and ValueError.
+/// From an array of float32 or float64, N x 3 or more columns. Raises TypeError and ValueError.
 Points points_from(const py::object& given);
-/// From a matrix 4 x 4. Rotations within 1e-3 of orthogonal are made exact. Raises TypeError and
+/// From a 4 x 4 matrix. Rotations within 1e-3 of orthogonal are made exact. Raises TypeError and
 /// ValueError.
 Pose pose_from(const py::object& given);
-/// From an array N of float32 or float64, parallel to the points; empty for None. Times of what is
-/// not measured may be anything. Raises TypeError and ValueError.
+/// From an array of N float32 or float64, parallel to the points; empty for None. Times of points
+/// that are not measured may have any value. Raises TypeError and ValueError.
 std::vector<float> times_from(const py::object& given, const Points& points);
 
-/// Hands a value over to Python, for arrays over what it holds.
+/// Moves a value to Python, so that arrays can refer to its data.
 template <class T>
 std::pair<T&, py::capsule> handed_over(T value) {
     auto kept = std::make_unique<T>(std::move(value));

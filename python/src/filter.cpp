@@ -70,11 +70,11 @@ py::list corrections(KeptFilter& filter, const py::object& asked) {
     return list;
 }
 
-/// Negative ones count from the newest.
+/// Negative numbers count back from the newest scan.
 std::size_t scan_number(KeptFilter& filter, const py::object& asked) {
     auto scan = taken<py::ssize_t>(asked, "scan", "the number of a scan");
     if (scan < 0) scan += static_cast<py::ssize_t>(filter.size());
-    if (scan < 0) throw py::index_error("scan: there are not so many");
+    if (scan < 0) throw py::index_error("scan: there are fewer scans");
     return static_cast<std::size_t>(scan);
 }
 
@@ -119,7 +119,7 @@ py::array poses(KeptFilter& filter) {
     return poses_array(T_world_sensor);
 }
 
-/// Two views of the same voxels.
+/// Two arrays over the same voxels.
 py::tuple map_arrays(std::vector<StaticVoxel> map) {
     const auto [voxels, owner] = handed_over(std::move(map));
     const auto n = static_cast<py::ssize_t>(voxels.size());
@@ -157,21 +157,22 @@ py::tuple local_map(KeptFilter& filter, const py::object& pose, const py::object
 
 void bind_filter(py::module_& module) {
     using Release = py::call_guard<py::gil_scoped_release>;
-    py::class_<KeptFilter>(module, "DynamicFilter", R"(Scans in, verdicts out.
+    py::class_<KeptFilter>(module, "DynamicFilter", R"(Takes scans and returns their labels.
 
 config: None, a preset ("default", "paper"), the path of a TOML file, or a dict of settings such as
-{"map.voxel_size": 0.1} or {"preset": "paper", "submap": {"keyframes": 10}}; units and bounds:
-`dynamicfilter config`.
-threads: of each stage, 0: all cores.
-keep: True keeps every scan for labels(), corrections(), pose() and status(), 13 bytes a point (14
-with the preset "paper"); a number keeps the newest so many, False none but the newest's pose.
-horizon [m]: the map beyond it is forgotten, and at a break of the trajectory all that was before;
-0: none is.
-max_bytes: of the map, 0: no bound. A voxel takes about 160 bytes.
+{"map.voxel_size": 0.1} or {"preset": "paper", "submap": {"keyframes": 10}}; `dynamicfilter config`
+prints their units and bounds.
+threads: number of threads of each stage; 0: all cores.
+keep: True keeps every scan for labels(), corrections(), pose() and status(), at 13 bytes per point
+(14 with the preset "paper"). A number keeps this many of the newest scans. False keeps only the
+newest pose.
+horizon: [m] the map farther away is removed; at a break of the trajectory, the whole map is
+removed. 0: nothing is removed.
+max_bytes: limit on the memory of the map; 0: no limit. A voxel takes about 160 bytes.
 
-One filter serves one sensor. Scans are numbered from 0 as they come; those refused have no number.
-Arrays given are copied, arrays returned are the caller's. Any thread may call; the GIL is free
-meanwhile. Raises ConfigError, TypeError and ValueError.)")
+One filter serves one sensor. Scans are numbered from 0 in their order; refused scans get no number.
+Input arrays are copied; returned arrays belong to the caller. Any thread may call; the GIL is
+released during calls. Raises ConfigError, TypeError and ValueError.)")
         .def(py::init(&make_filter), py::arg("config") = py::none(), py::kw_only(),
              py::arg("threads") = 0, py::arg("keep") = true, py::arg("horizon") = 0.0,
              py::arg("max_bytes") = 0)
@@ -179,76 +180,78 @@ meanwhile. Raises ConfigError, TypeError and ValueError.)")
              py::arg("stamp") = py::none(), py::arg("times") = py::none(),
              R"(Takes a scan; returns its instant verdict.
 
-points: N x 3 or more columns, float32 or float64, any strides: x y z [m] in the sensor's frame;
-further columns are not looked at. Points that are not finite, or at the origin, are no measurement.
-Integers, another machine's order of bytes and structured arrays raise TypeError.
-pose: 4 x 4, T_world_sensor: maps the sensor's coordinates into the world [m]. A rotation that is
-off by up to 0.001 is made exact; more raises ValueError. None: nobody knows it, and the filter finds
-it: pose() tells it, in a world that is the first scan's sensor frame. All scans have one, or none has.
-With the setting odometry.refine, poses that are given are made better.
-stamp: [s], growing. What is up to a second before the last is late; more begins a new map, and
-notices() says so. None: ten scans come a second, and the scan with number i has the stamp i / 10 [s];
-with another rate, give stamps where poses are to be found. All scans have one, or none has.
-times: N float32 or float64 [s]: when each point was measured, from the stamp on. Where the filter
-finds or refines the pose, it undoes the sensor's motion during the scan with them; elsewhere they
-mean nothing. None: all points were measured at once, or their motion is undone.
-Returns labels: N uint8: 0 unknown, 9 static, 251 dynamic. With the preset "paper" all are 0, and
-corrections() has them when a window of scans is full.
-Raises TypeError, ValueError, and Error if the scan comes late or again, or has a pose or a stamp
-where those before had none, or the other way round (it is not taken then, and the filter goes on), or
-after finish(). Raises as flush() does.)")
+points: N x 3 or more columns, float32 or float64, with any strides: x y z [m] in the sensor frame;
+further columns are ignored. Points that are not finite, or at the origin, are no measurement.
+Integers, a foreign byte order and structured arrays raise TypeError.
+pose: 4 x 4, T_world_sensor, which maps sensor coordinates into the world [m]. A rotation that is
+off by up to 0.001 is made exact; a larger error raises ValueError. None: the filter estimates the
+pose, and pose() returns it; the world is then the sensor frame of the first scan. Either all scans
+have a pose, or none. With the setting odometry.refine, given poses are refined.
+stamp: [s], increasing. A scan that is up to 1 s older than the newest one is late. A scan that is
+even older begins a new map, and notices() reports it. None: scan number i gets the stamp i / 10 [s].
+If the filter estimates poses and the rate is not ten scans per second, give stamps. Either all scans
+have a stamp, or none.
+times: N float32 or float64, the time of each point [s] relative to the stamp. If the filter
+estimates or refines the pose, it uses them for motion compensation; otherwise they have no effect.
+None: all points were measured at once, or motion compensation was already done.
+Returns labels: N uint8: 0 unknown, 9 static, 251 dynamic. With the preset "paper" all are 0;
+corrections() returns the labels when a window of scans is full.
+Raises TypeError, ValueError, and Error after finish(), or if the scan is late or a duplicate, or if
+only some of the scans have a pose or a stamp (the scan is then not taken, and the filter goes on).
+Raises as flush() does.)")
         .def(
             "corrections", &corrections, py::arg("newest") = py::none(),
-            R"(Scans kept whose labels changed since they were told last: by push(), labels() or here.
+            R"(Returns the kept scans whose labels have changed since push(), labels() or this call returned them.
 
-newest: asks only so many scans, the newest; each costs about what labels() does.
+newest: checks only this number of newest scans; each takes about as long as labels().
 Returns a list of (number of the scan, labels: N uint8, as push() returns them). Raises as flush()
 does.)")
         .def("labels", &labels, py::arg("scan"),
              R"(The labels of a scan from all evidence so far; after finish(), the final ones.
 
 scan: its number; negative ones count from the newest. Returns N uint8: 0 unknown, 9 static, 251 dynamic.
-Raises IndexError if it is not kept, and as flush() does.)")
-        .def(
-            "pose", &pose, py::arg("scan"),
-            R"(Where a scan was taken: the pose that was found or refined, or else the one that was given.
+Raises IndexError if the scan is not kept. Raises as flush() does.)")
+        .def("pose", &pose, py::arg("scan"),
+             R"(The pose of a scan: the estimated or refined one, or otherwise the given one.
 
 scan: its number; negative ones count from the newest. Returns T_world_sensor [m]: 4 x 4 float64.
-Raises TypeError, IndexError if the scan is not kept, and Error if its pose is not found yet: with the
-preset "paper" it is found when a window of scans is full, or by finish().)")
+Raises TypeError, IndexError if the scan is not kept, and Error if its pose is not estimated yet: with
+the preset "paper" it is known when a window of scans is full, or after finish().)")
         .def("poses", &poses,
-             R"(The poses of all scans kept, the oldest first, as pose() returns them.
+             R"(The poses of all kept scans, oldest first, as pose() returns them.
 
-Returns M x 4 x 4 float64; NaN where a pose is not found yet. Raises nothing.)")
+Returns M x 4 x 4 float64; NaN where a pose is not estimated yet. Raises nothing.)")
         .def("status", &status, py::arg("scan"),
-             R"(How far the pose of a scan can be relied on.
+             R"(How reliable the pose of a scan is.
 
-scan: its number; negative ones count from the newest. Returns "given" if the pose is the one that
-was given; otherwise "good", "weak" (in some direction, only the motion before says where the sensor
-was) or "lost" (too little of the scan lies on the map: the motion before goes on). Raises as pose()
-does.)")
+scan: its number; negative ones count from the newest. Returns "given" if the user
+gave the pose; otherwise "good", "weak" (the scan leaves one direction undetermined, in which the
+previous motion is extrapolated) or "lost" (too few points lie on the map, so the previous motion is
+extrapolated). Raises as pose() does.)")
         .def("static_map", &static_map, R"(The static voxels of the whole map.
 
-After finish(), of all there is, merged; before it, of what came since the last break of the
-trajectory (with the preset "paper": as local_map()).
-Returns (centers: M x 3 float64 [m] in the world's frame, probability: M float32, 0..1, that the
-place is occupied). Raises as flush() does.)")
+After finish(): the merged map. Before finish(): the map since the last break of the trajectory (with
+the preset "paper": the same as local_map()).
+Returns (centers: M x 3 float64 [m] in the world frame, probability: M float32, the probability 0..1
+that the voxel is occupied). Raises as flush() does.)")
         .def("local_map", &local_map, py::arg("pose") = py::none(), py::arg("radius") = py::none(),
              R"(The static voxels around a place, from all evidence so far.
 
-pose: 4 x 4, T_world_query, anywhere; None: the last scan's.
-radius [m]: None: `map.search_radius`; with the preset "paper" always that.
+pose: 4 x 4, T_world_query, at any place; None: the pose of the last scan.
+radius: [m]; None: `map.search_radius`. With the preset "paper", it is always `map.search_radius`.
 Returns (centers, probability), as static_map() does. Raises TypeError and ValueError, and as flush()
 does.)")
         .def("flush", &KeptFilter::flush, Release(),
-             "Waits until every scan pushed is in the map. Raises what went wrong in the filter's "
-             "threads (MemoryError); the filter is of no use then.")
+             "Waits until every pushed scan is in the map. Raises the error of the filter's "
+             "threads, "
+             "if there was one (MemoryError); the filter cannot be used any more then.")
         .def("finish", &KeptFilter::finish, Release(),
-             "Decides every voxel: labels() are final from now on, and push() raises Error. "
+             "Decides every voxel. After it, labels() are final, and push() raises Error. "
              "Raises as flush() does.")
-        .def("notices", &KeptFilter::notices, Release(),
-             "Returns what happened since the last call (the trajectory broke, and a new map "
-             "began): a list of (number of the scan, sentence). Raises nothing.")
+        .def(
+            "notices", &KeptFilter::notices, Release(),
+            "Returns the events since the last call (such as a break of the trajectory, at which a "
+            "new map begins): a list of (number of the scan, sentence). Raises nothing.")
         .def("__len__", &KeptFilter::size, Release(), "How many scans were taken.");
 }
 

@@ -10,7 +10,7 @@ namespace dynamic_filter::python {
 
 namespace {
 
-/// As all scans before, or Error.
+/// Throws Error if this scan differs from all previous ones in this respect.
 void refuse_mixture(const std::optional<bool>& before, bool now, const char* what,
                     std::size_t scan) {
     if (before.value_or(now) == now) return;
@@ -20,7 +20,7 @@ void refuse_mixture(const std::optional<bool>& before, bool now, const char* wha
                 "; it was not taken");
 }
 
-/// As the filter saw it.
+/// Gives the scan the pose that the filter used.
 void place(Scan& scan, const std::optional<Tracked>& tracked) {
     if (tracked) {
         scan.T_world_sensor = tracked->T_world_sensor;
@@ -42,13 +42,13 @@ KeptFilter::KeptFilter(const Config& config, OnlineOptions options, std::size_t 
 OnlineCallbacks KeptFilter::callbacks() {
     OnlineCallbacks callbacks;
     callbacks.notice = [this](const Notice& notice) { take(notice); };
-    // Where each scan is judged at once, push() has the verdict before the scan is kept.
+    // With the method "scans", push() has the verdict before the scan is kept.
     callbacks.instant = [this](const Verdict& verdict) { take(verdict); };
     return callbacks;
 }
 
-/// Nothing is dropped here, so all but breaks of the trajectory are refusals, and those come while
-/// push() waits.
+/// No scan is dropped here. So each notice except a break of the trajectory is a refusal, and comes
+/// while push() waits.
 void KeptFilter::take(const Notice& notice) {
     if (notice.kind != NoticeKind::jump && notice.kind != NoticeKind::restart) {
         refused_ = notice.text;
@@ -60,7 +60,7 @@ void KeptFilter::take(const Notice& notice) {
 
 void KeptFilter::take(const Verdict& verdict) {
     const std::lock_guard hold(lock_);
-    if (verdict.index >= size_) return;  // push() waits for it
+    if (verdict.index >= size_) return;  // push() waits for this verdict itself
     if (Kept* const kept = find(verdict.index)) {
         kept->judged = verdict.labels;
         place(kept->scan, verdict.tracked);
@@ -71,7 +71,7 @@ void KeptFilter::take(const Verdict& verdict) {
     if (age <= located_.size()) located_[located_.size() - age] = located_by(*verdict.tracked);
 }
 
-/// Stamps that nobody measured are made up as the readers of recordings do it.
+/// Scans without stamps get assumed stamps, like those of the readers of recordings.
 Scan KeptFilter::numbered(Pushed pushed) const {
     constexpr double kPeriod = 0.1;  // [s]
     refuse_mixture(with_poses_, pushed.T_world_sensor.has_value(), "pose", size_);
@@ -134,7 +134,7 @@ Labels KeptFilter::current(const Kept& kept) const {
 }
 
 std::vector<KeptFilter::Correction> KeptFilter::corrections(std::size_t newest) {
-    filter_.flush();  // here and below: what is said depends on no timing
+    filter_.flush();  // here and below, so that results do not depend on timing
     const std::lock_guard hold(lock_);
     std::vector<Correction> corrections;
     for (std::size_t i = kept_.size() - std::min(newest, kept_.size()); i < kept_.size(); ++i) {

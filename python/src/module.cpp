@@ -7,7 +7,8 @@ PYBIND11_MODULE(_dynamicfilter, module) {
     namespace py = pybind11;
     using namespace dynamic_filter;
     module.attr("__version__") = DYNAMIC_FILTER_VERSION;
-    module.attr("__name__") = "dynamicfilter";  // where users find what is in it
+    // Users see the contents of the module under this name.
+    module.attr("__name__") = "dynamicfilter";
     // They live as long as the interpreter.
     static const py::exception<Error> error(module, "Error");
     static const py::exception<ConfigError> config_error(module, "ConfigError", error);
@@ -29,7 +30,8 @@ PYBIND11_MODULE(_dynamicfilter, module) {
             raise(error, e);
         }
     });
-    error.attr("__doc__") = "What goes wrong with input or output; one sentence says what.";
+    error.attr("__doc__") =
+        "Base class of all errors of this package; the message is one sentence.";
     module.attr("ConfigError").attr("__doc__") = "A setting or an argument is wrong.";
     module.attr("InputError").attr("__doc__") = "An input cannot be read, or contradicts itself.";
     module.attr("OutputError").attr("__doc__") = "An output cannot be written.";

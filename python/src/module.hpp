@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// The parts of the module `_dynamicfilter`. What users see of it is described in
-/// dynamicfilter/__init__.pyi, and documented where it is bound.
+/// The parts of the module `_dynamicfilter`. dynamicfilter/__init__.pyi declares what users see;
+/// the documentation of each function is in its binding.
 #pragma once
 
 #include <fmt/format.h>
@@ -14,11 +14,11 @@ void bind_filter(pybind11::module_& module);
 void bind_recordings(pybind11::module_& module);
 void bind_programs(pybind11::module_& module);
 
-/// None, a preset's name, a TOML file, or a dict of settings (flat or by section; `preset` names
-/// what they change). Raises TypeError.
+/// Reads None, the name of a preset, a TOML file, or a dict of settings (flat or by section;
+/// `preset` names the preset that they change). Raises TypeError.
 app::ConfigOptions config_options(const pybind11::object& given);
 
-/// Moves an option, if it is there and not None, to its place. Raises TypeError.
+/// Moves an option, if it is given and not None, to its place. Raises TypeError.
 template <class T>
 void take(pybind11::dict& options, const char* name, T& to) {
     if (!options.contains(name)) return;
@@ -33,7 +33,7 @@ void take(pybind11::dict& options, const char* name, T& to) {
     }
 }
 
-/// An argument as what it must be. Raises TypeError, which names it.
+/// Converts an argument to the required type. Raises TypeError, which names the argument.
 template <class T>
 T taken(const pybind11::object& value, const char* name, const char* expected) {
     try {
@@ -44,21 +44,22 @@ T taken(const pybind11::object& value, const char* name, const char* expected) {
     }
 }
 
-/// Moves an option that is True, False, or one of "auto", "on" and "off", if it is there and not
-/// None, to its place, as the command has it. Raises TypeError, throws ConfigError.
+/// Moves an option that is True, False, "auto", "on" or "off" to its place, if it is given and not
+/// None. Raises TypeError, throws ConfigError.
 void take_switch(pybind11::dict& options, const char* name, std::string& to);
 
-/// Takes what says how to read a recording out of `options`. Raises TypeError, throws ConfigError.
+/// Removes the options about reading a recording from `options`. Raises TypeError, throws
+/// ConfigError.
 app::DataOptions data_options(const std::filesystem::path& data, pybind11::dict& options);
 
 /// A message with the command's options in it, with Python's arguments in their place:
 /// `--pose-fix inverse` becomes `pose_fix="inverse"`.
 std::string in_python(const std::string& message);
 
-/// Raises ValueError if there cannot be so many.
+/// Raises ValueError if the number of threads is not possible.
 void refuse_threads(int threads);
 
-/// Raises TypeError if anything is left.
+/// Raises TypeError if any option is left.
 void refuse_unknown(const char* function, const pybind11::dict& options);
 
 }  // namespace dynamic_filter::python

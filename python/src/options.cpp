@@ -16,7 +16,7 @@ namespace {
 std::string value_text(const py::handle& value) {
     const std::string text = py::str(value);
     if (text == "True" || text == "False")
-        return text == "True" ? "true" : "false";  // numpy's, too
+        return text == "True" ? "true" : "false";  // also for bool of numpy
     return text;
 }
 
@@ -56,7 +56,7 @@ app::ConfigOptions config_options(const py::object& given) {
             "settings");
     }
     const auto path = given.cast<std::filesystem::path>();
-    // A name without dot and slash is a preset's, or a mistake that names the presets.
+    // A name without dot and slash is a preset, or a mistake; the message then lists the presets.
     if (is_text && !path.has_extension() && !path.has_parent_path()) {
         options.preset = path.string();
     } else {

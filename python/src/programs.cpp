@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// What the command does, from Python: the same code. Results are JSON texts here.
+/// The subcommands as Python functions, with the same code as the command. Results are JSON texts
+/// here.
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
@@ -24,12 +25,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The command ends after an interrupt, Python goes on: it gets its handlers back.
+/// An interrupt ends the command, but not Python; so the handlers of Python are restored
+/// afterwards.
 class Interruptible {
 public:
     Interruptible() {
         for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], nullptr, &old_[i]);
-        app::catch_interrupts(false);  // nobody's interpreter is killed
+        app::catch_interrupts(false);  // so that a second interrupt does not end the interpreter
     }
     Interruptible(const Interruptible&) = delete;
     Interruptible& operator=(const Interruptible&) = delete;
@@ -64,7 +66,7 @@ app::RunOptions run_options(const fs::path& data, const std::optional<fs::path>&
     take(options, "online", online);
     refuse_threads(o.threads);
     if (!(online.value_or(0.0) >= 0.0)) {
-        throw py::value_error("online: expected times the sensor's rate, 0 or more");
+        throw py::value_error("online: expected a multiple of the sensor's rate, 0 or more");
     }
     o.online = online.has_value();
     o.speed = online.value_or(0.0);
@@ -172,17 +174,21 @@ void bind_programs(py::module_& module) {
         py::arg("rate") = 0.0, py::arg("pose_noise") = 0.0, py::arg("pose_noise_deg") = 0.0,
         py::arg("sweep") = false, py::arg("rounds") = 0, py::arg("overwrite") = false,
         py::arg("quiet") = true,
-        R"(Makes a recording with exact labels, in KITTI's layout, in the folder `output`.
+        R"(Simulates a recording with exact labels, and writes it in KITTI's layout to the folder `output`.
 
-scene: crowd, street, square, hall, jam or platform; sensor: see `dynamicfilter simulate --help`;
-pedestrians: -1: the scene's own number; seed: same seed, same bytes; frames: None: the whole scene;
-rate: scans per second, 0: the scene's own; pose_noise [m], pose_noise_deg [deg]: standard deviation
-of each axis; sweep: points are measured one after the other while the sensor moves, as a turning one
-does it, and the scans are PCD files with a field t [s] instead of KITTI's; rounds: of the robot, in
-crowd, 0: the scene's own; overwrite: replaces an earlier
-recording; quiet: False shows the progress on stderr. Returns the number of points. Raises
-ConfigError (also if there is an earlier recording), OutputError, and KeyboardInterrupt, which
-leaves nothing.)");
+scene: crowd, street, square, hall, jam or platform.
+sensor: see `dynamicfilter simulate --help`.
+pedestrians: number of people; -1: the default of the scene.
+seed: the same seed gives the same bytes.
+frames: number of scans; None: the whole scene.
+rate: scans per second; 0: the default of the scene.
+pose_noise [m], pose_noise_deg [deg]: standard deviation of each axis.
+sweep: True measures points one after the other while the sensor moves, like a rotating sensor; scans
+are then PCD files with a field t [s].
+rounds: rounds of the robot in the scene crowd; 0: the default.
+overwrite: True replaces an earlier recording. quiet: False shows the progress on stderr.
+Returns the number of points. Raises ConfigError (also if there is an earlier recording), OutputError,
+and KeyboardInterrupt, after which no files are left.)");
 }
 
 }  // namespace dynamic_filter::python

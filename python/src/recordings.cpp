@@ -67,7 +67,7 @@ io::Frame frame_at(const io::Sequence& sequence, py::ssize_t i) {
     return io::read_frame(sequence, static_cast<std::size_t>(i < 0 ? i + size : i));
 }
 
-/// A view of what a frame holds; the frame lives as long as it.
+/// An array over data of a frame; it keeps the frame alive.
 template <class View>
 auto view(View of) {
     return [of](const py::object& self) -> py::object {
@@ -78,18 +78,18 @@ auto view(View of) {
 void bind_frame(py::module_& module) {
     py::class_<io::Frame>(module, "Frame", R"(A scan of a recording.
 
-Arrays are views of its memory, which they keep alive: writing to them changes the frame. Any thread
-may read.)")
+Its arrays are views that keep its memory alive; writing to them changes the frame. Any thread may
+read.)")
         .def_property_readonly("points", view([](const io::Frame& f, const py::object& self) {
                                    return points_array(f.points, self);
                                }),
-                               "N x 3 float32: x y z [m] in the sensor's frame")
+                               "N x 3 float32: x y z [m] in the sensor frame")
         .def_property_readonly("pose",
                                view([](const io::Frame& f, const py::object& self) -> py::object {
                                    if (!f.has_pose) return py::none();
                                    return pose_array(f.T_world_sensor, self);
                                }),
-                               "4 x 4 float64: T_world_sensor [m]; None: nobody knows it")
+                               "4 x 4 float64: T_world_sensor [m]; None: not known")
         .def_readonly("stamp", &io::Frame::stamp, "[s]")
         .def_property_readonly(
             "times", view([](const io::Frame& f, const py::object& self) -> py::object {
@@ -116,38 +116,42 @@ may read.)")
 void bind_recordings(py::module_& module) {
     bind_frame(module);
     py::class_<io::Sequence>(module, "Recording",
-                             R"(Scans, with poses if they are known: a sequence of Frame.
+                             R"(A sequence of Frame: scans, with poses if they are known.
 
-Scans are read when asked for and not kept. Any thread may read; the GIL is free meanwhile.)")
-        .def("__len__", &io::Sequence::size, "How many scans there are.")
-        // By index until IndexError; so is iteration.
+Scans are read on access and not kept. Any thread may read; the GIL is released during reading.)")
+        .def("__len__", &io::Sequence::size, "Number of scans.")
+        // Access by index until IndexError; iteration works in the same way.
         .def("__getitem__", &frame_at, py::arg("i"),
-             "Reads scan i; -1 is the last. Raises InputError if it cannot be used, IndexError if "
-             "there is none.")
+             "Reads scan i; -1 is the last one. Raises InputError if the scan cannot be used, and "
+             "IndexError if there is no such scan.")
         .def_property_readonly(
             "format", [](const io::Sequence& s) { return io::to_string(s.format); },
             "kitti, benchmark, folder or bag")
-        .def_property_readonly("has_truth", &io::Sequence::has_truth, "whether it is labelled")
-        .def_readonly("notes", &io::Sequence::notes, "what was assumed, in sentences");
+        .def_property_readonly("has_truth", &io::Sequence::has_truth,
+                               "True if there are ground-truth labels")
+        .def_readonly("notes", &io::Sequence::notes, "assumptions that were made, as sentences");
     module.def("read_cloud", &read_cloud, py::arg("file"),
                R"(Reads a cloud: .pcd, .ply, .las, .bin, .npy, .xyz, .txt or .csv.
 
-Returns a structured array of N records with the file's fields, types, units and frame:
+Returns a structured array of N records with the fields, types, units and frame of the file:
 cloud["x"], cloud["intensity"]. Raises InputError.)");
     module.def("write_cloud", &write_cloud);
     module.def("open_recording", &open_recording, py::arg("data"),
                R"(Opens a recording: a bag, or a folder with scans and poses.
 
-data: its path. format: kitti, benchmark, folder or bag (otherwise recognised by looking at it).
-poses: pose file, T_world_sensor [m] (otherwise the format's usual place), or "none": the recording's
-own are left alone, and DynamicFilter finds them. topic, pose_topic: of a bag.
+data: path of the recording.
+format: kitti, benchmark, folder or bag; by default it is recognized from the contents.
+poses: pose file with T_world_sensor [m]; by default the usual place of the format. With "none", the
+poses of the recording are not read, and DynamicFilter estimates them.
+topic, pose_topic: topics of the scans and of the poses of a bag.
 pose_fix: none, inverse, camera, lidar, wxyz, xyzw or mm, as `dynamicfilter check` advises.
-points_in_world: scans are in the poses' frame. time_unit: s, ms, us or ns, of the stamps.
-deskew: True undoes the sensor's motion during each scan, by the poses and the points' times. first, last, stride: which scans.
-Returns a sequence of Frame: points N x 3 float32 [m] in the sensor's frame, pose 4 x 4
-T_world_sensor [m] or None, stamp [s], times N float32 [s] or None, truth N uint8 or None, fields
-N records. Raises InputError, ConfigError
-and TypeError.)");
+points_in_world: True if points are in the frame of the poses.
+time_unit: unit of the stamps: s, ms, us or ns.
+deskew: True does motion compensation of each scan with the poses and the times of the points.
+first, last, stride: selection of scans.
+Returns a sequence of Frame: points N x 3 float32 [m] in the sensor frame, pose 4 x 4 T_world_sensor
+[m] or None, stamp [s], times N float32 [s] or None, truth N uint8 or None, fields N records. Raises
+InputError, ConfigError and TypeError.)");
 }
 
 }  // namespace dynamic_filter::python

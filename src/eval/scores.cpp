@@ -26,7 +26,7 @@ void refuse_unparallel(const LabelledScan& scan, const Labels& verdict) {
                 std::to_string(verdict.size()) + " verdicts; expected one per point");
 }
 
-/// Calls `use` with every scan in order; a few are read ahead in parallel.
+/// Calls `use` with every scan in order; a few scans are read ahead in parallel.
 template <class F>
 void for_each_scan(std::size_t scans, const ScanSource& source, F&& use) {
     constexpr std::size_t kAhead = 16;
@@ -50,8 +50,8 @@ void for_each_known_point(const LabelledScan& scan, F&& use) {
 
 }  // namespace
 
-/// Where points were removed, and by which results: cells of twice kDistance that hold a point
-/// within kDistance of a removed one along every axis.
+/// The places where results removed points: cells of size 2 kDistance that hold at least one point
+/// within kDistance of a removed point along each axis.
 class ScanScores::RemovedCells {
 public:
     void insert(const Point& point, std::uint32_t results) {
@@ -70,7 +70,7 @@ public:
             }
         }
     }
-    /// The results that removed a point which may be near this one: a bit each.
+    /// The results that removed a point which may be near this one, with one bit per result.
     [[nodiscard]] std::uint32_t near(const Point& point) const {
         const auto cell = cell_of(point, kPerMetre);
         if (!cell) return 0;
@@ -82,22 +82,24 @@ public:
     }
 
 private:
-    // A table of bits that says of most points that they are near none: it fits into the cache.
+    // A small table of bits that fits into the cache; for most points it shows at once that no
+    // removed point is near.
     static constexpr std::size_t kBits = std::size_t{1} << 23U;
     static constexpr float kPerMetre = 0.5F / kDistance;
     static std::size_t bit_of(VoxelKey key) { return VoxelHash{}(key) % kBits; }
     tsl::robin_map<VoxelKey, std::uint32_t, VoxelHash> cells_;
     std::vector<std::uint64_t> bits_ = std::vector<std::uint64_t>(kBits / 64);
-    Cell last_low_ = Cell::Zero(), last_high_ = Cell::Zero();  // one point follows another
+    // Consecutive points often lie in the same cell.
+    Cell last_low_ = Cell::Zero(), last_high_ = Cell::Zero();
     std::uint32_t last_ = 0;
 };
 
-/// How many of the points that a result removed lie near one that it kept. Only kept points near a
-/// removed one are stored, so memory goes with what was removed.
+/// Counts how many of the points that a result removed lie near one that it kept. Only kept points
+/// near a removed one are stored, so the memory is proportional to the removed points.
 struct ScanScores::Result {
-    Points removed{}, near{};  // near: kept
+    Points removed{}, near{};  // near: the kept points near a removed one
     Labels removed_truth{};
-    CoverCount kept{};  // points cover themselves
+    CoverCount kept{};  // kept points are covered by themselves
     Confusion confusion{};
 
     void add(const Point& point, Label truth, Label verdict) {

@@ -12,7 +12,7 @@ namespace {
 
 enum class Kind { still, dynamic, neither };
 
-/// What a voxel of the raw map counts as under a reading of mixed voxels.
+/// Kind of a voxel of the raw map under one way to count mixed voxels.
 using Reading = Kind (*)(const VoxelCount&);
 
 Kind excluded(const VoxelCount& v) {
@@ -36,7 +36,8 @@ struct Totals {
     }
 };
 
-/// The counts of the raw map and of one result; those of a voxel follow each other.
+/// The counts of the raw map and of one result; the counts of a voxel are stored next to each
+/// other.
 struct Counts {
     const std::vector<VoxelCount>& all;
     std::size_t stride, result;
@@ -47,7 +48,7 @@ struct Counts {
         const VoxelCount& removed = all[v * stride + 1 + result];
         kept.still -= removed.still;
         kept.dynamic -= removed.dynamic;
-        kept.unlabelled = removed.unlabelled;  // add_map_point() puts them there
+        kept.unlabelled = removed.unlabelled;  // add_map_point() counts them as removed
         kept.sum -= removed.sum;
         return kept;
     }

@@ -12,23 +12,23 @@ namespace dynamic_filter {
 
 namespace {
 
-/// Finer pixels would only cost memory: beams of one ring jitter by as much.
+/// Smaller pixels would only need more memory, because the beams of one ring scatter by this much.
 constexpr float kLeastStep = 0.1F * std::numbers::pi_v<float> / 180.0F;
-/// For a scan whose spacing could not be read off it.
+/// Pixel size for a scan whose beam spacing could not be measured.
 constexpr float kUnknownStep = 1.0F * std::numbers::pi_v<float> / 180.0F;
 
-/// No sensor's beams are farther apart; an estimate that says so had too few points.
+/// The beams of all sensors are closer than this; a larger estimate comes from too few points.
 constexpr float kMostStep = 3.0F * std::numbers::pi_v<float> / 180.0F;
 
 float step_of(float spacing) {
     return spacing > 0.0F ? std::clamp(spacing, kLeastStep, kMostStep) : kUnknownStep;
 }
 
-/// Where in the image a point is, in 1/256 of a pixel, and how far away [cm].
+/// The position of each point in the image, in 1/256 of a pixel, and its range [cm].
 struct Pixels {
     std::vector<std::int32_t> column, row, range_cm;
 };
-/// `range_cm` 0: not in the image, NaN too.
+/// A `range_cm` of 0 means: not in the image, or NaN.
 Pixels pixels_of(const Directions& seen, const ImageGrid& grid) {
     const std::size_t count = seen.range.size();
     Pixels out{std::vector<std::int32_t>(count), std::vector<std::int32_t>(count),
@@ -101,7 +101,8 @@ BeamImage::BeamImage(std::span<const Point> points, const BeamPattern& spacing) 
 }
 
 void BeamImage::fill_margins() {
-    const int missing = grid_.columns - stored_columns_;  // of the circle
+    // Columns of the circle outside the field of view.
+    const int missing = grid_.columns - stored_columns_;
     for (int row = 0; row < grid_.rows; ++row) {
         std::uint32_t* const first =
             pixels_.data() + static_cast<std::size_t>(row) * row_length() + kMargin;
@@ -112,7 +113,7 @@ void BeamImage::fill_margins() {
     }
 }
 
-/// Along the rows, then across them.
+/// Maximum over neighbors: first along the rows, then across them.
 void BeamImage::pool() {
     const auto width = static_cast<std::size_t>(stored_columns_);
     std::vector<std::uint16_t> along(static_cast<std::size_t>(grid_.rows) * width), row(width + 2);
@@ -138,7 +139,8 @@ void BeamImage::pool() {
 
 bool BeamImage::reaches(float range, int first_row, int last_row, int first_column,
                         int last_column) const {
-    const auto least = static_cast<int>(100.0F * range);  // [cm] rounded down: cautious
+    // [cm] rounded down, so that the test is conservative.
+    const auto least = static_cast<int>(100.0F * range);
     const auto look = [&](int first, int last) {
         for (int r = first_row / kTile; r <= last_row / kTile; ++r) {
             const auto row = farthest_cm_.begin() + r * tile_columns();
@@ -161,7 +163,8 @@ void BeamImage::find_view(const std::vector<bool>& hit) {
     if (first_hit == hit.end()) return;
     const auto start = static_cast<int>(first_hit - hit.begin());
     int gap = 0, widest = 0;
-    for (int i = 1; i <= columns; ++i) {  // once around, back to a column that was hit
+    // Once around the circle, back to the first column with a return.
+    for (int i = 1; i <= columns; ++i) {
         const int column = (start + i) % columns;
         if (!hit[static_cast<std::size_t>(column)]) {
             ++gap;
@@ -178,7 +181,7 @@ void BeamImage::find_view(const std::vector<bool>& hit) {
         stored_columns_ = columns;
         return;
     }
-    first_column_ = (first_column_ + columns - 1) % columns;  // one more on both sides
+    first_column_ = (first_column_ + columns - 1) % columns;  // one more column on both sides
     stored_columns_ += 2;
 }
 

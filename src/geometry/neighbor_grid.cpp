@@ -11,7 +11,8 @@ bool closer(const Neighbor& a, const Neighbor& b) {
     return a.distance_sq != b.distance_sq ? a.distance_sq < b.distance_sq : a.index < b.index;
 }
 
-/// Keeps `best` the sorted k nearest seen so far; k is small, so insertion beats a heap.
+/// Keeps `best` sorted and limited to the k nearest points so far. As k is small, insertion is
+/// faster than a heap.
 void offer(std::vector<Neighbor>& best, std::size_t k, const Neighbor& candidate) {
     if (best.size() == k) {
         if (!closer(candidate, best.back())) return;
@@ -24,7 +25,7 @@ void offer(std::vector<Neighbor>& best, std::size_t k, const Neighbor& candidate
 
 NeighborGrid::NeighborGrid(std::span<const Point> points, float radius)
     : radius_(radius), inverse_cell_(1.0F / radius), points_(points.begin(), points.end()) {
-    // Counting sort by cell: number the cells, count, place.
+    // Counting sort by cell: numbers the cells, counts their points, and places the points.
     std::vector<std::uint32_t> cell_of_point(points_.size(), UINT32_MAX), counts;
     for (std::size_t i = 0; i < points_.size(); ++i) {
         const auto cell = cell_of(points_[i], inverse_cell_);
@@ -65,14 +66,15 @@ void NeighborGrid::nearest(const Point& query, std::size_t k, std::vector<Neighb
             if (distance_sq <= radius_sq) offer(out, k, {distance_sq, sorted_[i].index});
         }
     };
-    visit(*home);  // first, so that most of what follows fails the distance test at once
+    visit(*home);  // first, so that most later points fail the distance test at once
     const Point corner = home->cast<float>() * radius_;
     for (int dz = -1; dz <= 1; ++dz) {
         for (int dy = -1; dy <= 1; ++dy) {
             for (int dx = -1; dx <= 1; ++dx) {
                 const Cell step(dx, dy, dz);
                 if (step.isZero()) continue;
-                if (out.size() == k) {  // skip cells that lie wholly behind the k-th neighbour
+                // Skips cells that lie completely farther than the k-th neighbor.
+                if (out.size() == k) {
                     const Point low = corner + step.cast<float>() * radius_;
                     const Point high = low.array() + radius_;
                     const float gap_sq = (query.cwiseMax(low).cwiseMin(high) - query).squaredNorm();
@@ -85,7 +87,7 @@ void NeighborGrid::nearest(const Point& query, std::size_t k, std::vector<Neighb
 }
 
 bool NeighborGrid::any_within(const Point& query, float distance) const {
-    // distance <= radius / 2: the sphere touches at most two cells per axis.
+    // With distance <= radius / 2, the sphere touches at most two cells per axis.
     const auto low = cell_of(query.array() - distance, inverse_cell_);
     const auto high = cell_of(query.array() + distance, inverse_cell_);
     if (!low || !high) return false;

@@ -27,7 +27,8 @@ std::optional<Eigen::Vector3d> smallest_axis(const Moments& moments) {
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
     solver.computeDirect(covariance);
     const Eigen::Vector3d& values = solver.eigenvalues();  // ascending
-    // The middle spread must stand out from rounding, or any axis would do.
+    // The middle spread must be clearly larger than rounding errors; otherwise the axis is
+    // arbitrary.
     if (!(values[1] > 1e-6 * values[2]) || !(values[2] > 1e-12)) return std::nullopt;
     return solver.eigenvectors().col(0);
 }

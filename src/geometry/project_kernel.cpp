@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Compiled several times, each with its own DYNAMIC_FILTER_LEVEL and instruction set. Only builtins
-// and raw pointers here: an inline library function compiled for AVX could be linked into code that
-// runs on older machines.
+// This file is compiled several times, each time with its own DYNAMIC_FILTER_LEVEL and instruction
+// set. It uses only builtins and raw pointers: an inline library function compiled for AVX could be
+// linked into code that runs on older machines.
 #include "project_kernel.hpp"
 
 #include <numbers>
@@ -12,8 +12,8 @@ namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
-/// atan2 by a polynomial on [0, 1]; error below 2e-5 rad, far under any pixel.
-/// (0, 0) gives 0. No branches, so that the loop vectorises.
+/// atan2 by a polynomial on [0, 1]. The error is below 2e-5 rad, which is far less than a pixel.
+/// (0, 0) gives 0. There are no branches, so that the compiler can vectorize the loop.
 inline float polynomial_atan2(float y, float x) {
     const float ax = __builtin_fabsf(x), ay = __builtin_fabsf(y);
     const float larger = ax > ay ? ax : ay, smaller = ax > ay ? ay : ax;
@@ -53,9 +53,10 @@ void project(const ProjectArgs& args) {
         const float r = __builtin_sqrtf(across_sq + z * z);
         const float elevation = polynomial_atan2(z, __builtin_sqrtf(across_sq));
         float column = (polynomial_atan2(y, x) + kPi) * per_azimuth;
-        column = column >= columns ? column - columns : column;  // +pi is -pi
+        // An azimuth of +pi is the same as -pi.
+        column = column >= columns ? column - columns : column;
         const float row = (elevation - elevation_min) * per_elevation;
-        // Comparisons with NaN are false: what is not a number is not in the image.
+        // Comparisons with NaN are false, so NaN is not in the image.
         const bool inside = (r > 0.0F) & (r < 1e30F) & (row >= 0.0F) & (row < rows) &
                             (column >= 0.0F) & (column < columns);
         const auto column_index = static_cast<std::int32_t>(inside ? column : 0.0F);

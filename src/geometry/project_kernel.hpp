@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// The projection's inner loop, compiled once per instruction-set level from project_kernel.cpp.
+/// The inner loop of the projection. project_kernel.cpp is compiled once per instruction-set level.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 namespace dynamic_filter::kernel {
 
 struct ProjectArgs {
-    const float* xyz = nullptr;  ///< count * 3
+    const float* xyz = nullptr;  ///< 3 * count values
     std::size_t count = 0;
     const float* matrix = nullptr;  ///< row-major 3x4
     float elevation_min = 0.0F, inverse_azimuth_step = 0.0F, inverse_elevation_step = 0.0F;
@@ -20,7 +20,7 @@ struct ProjectArgs {
 };
 
 struct SphericalArgs {
-    const float* xyz = nullptr;  ///< count * 3
+    const float* xyz = nullptr;  ///< 3 * count values
     std::size_t count = 0;
     const float* matrix = nullptr;  ///< row-major 3x4
     float *azimuth = nullptr, *elevation = nullptr, *range = nullptr;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr float kTwoPi = 2.0F * std::numbers::pi_v<float>;
 
-/// 0 if there are no gaps. Reorders them.
+/// Median gap; 0 if there are no gaps. Changes the order of `gaps`.
 float median_gap(std::vector<float>& gaps) {
     if (gaps.empty()) return 0.0F;
     const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
@@ -24,13 +24,13 @@ float median_gap(std::vector<float>& gaps) {
 }
 
 struct Direction {
-    float slice;  ///< the angle that is binned
+    float slice;  ///< the angle by which points are grouped
     float angle;  ///< the angle whose gaps are measured
 };
 
-/// Gaps of `angle` between neighbours within slices of `width` of the other angle.
+/// Median gap of `angle` between neighbors within slices of `width` of the other angle.
 float spacing(std::vector<Direction>& directions, float width) {
-    // Returns of one ring (or column) repeat the same angle up to jitter; that is not a gap.
+    // Returns of one ring (or column) have the same angle except for jitter, which is no gap.
     constexpr float kJitter = 0.0012F;  // 0.07 deg: below the spacing of any sensor in use
     for (auto& d : directions) d.slice = std::floor(d.slice / width);
     std::sort(directions.begin(), directions.end(), [](const Direction& a, const Direction& b) {
@@ -52,7 +52,8 @@ ImageGrid make_grid(float azimuth_step, float elevation_step, float elevation_mi
     grid.columns = std::max(1, static_cast<int>(kTwoPi / azimuth_step));
     grid.azimuth_step = kTwoPi / static_cast<float>(grid.columns);
     grid.elevation_step = elevation_step;
-    // Half a step of margin: the outermost beams lie inside their rows, not on an edge.
+    // A margin of half a step, so that the outermost beams lie inside their rows and not on an
+    // edge.
     grid.elevation_min = elevation_min - 0.5F * elevation_step;
     grid.rows = 1 + static_cast<int>((elevation_max - grid.elevation_min) / elevation_step);
     return grid;
@@ -134,7 +135,8 @@ ElevationRange elevation_range(std::span<const Point> points) {
     float lowest = std::numeric_limits<float>::infinity(), highest = -lowest;
     for (const Point& p : points) {
         if (!is_measured(p)) continue;
-        const float tangent = p.z() / std::hypot(p.x(), p.y());  // +-inf at the poles: atan is fine
+        // Infinite at the poles, which atan handles.
+        const float tangent = p.z() / std::hypot(p.x(), p.y());
         lowest = std::min(lowest, tangent);
         highest = std::max(highest, tangent);
     }

@@ -8,7 +8,7 @@ namespace dynamic_filter {
 
 namespace {
 
-constexpr std::size_t kTogether = 32;  // keys that are prefetched together
+constexpr std::size_t kTogether = 32;  // number of keys that are prefetched together
 
 }  // namespace
 

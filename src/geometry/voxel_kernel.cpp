@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Compiled several times, as project_kernel.cpp is.
+// This file is compiled several times, like project_kernel.cpp.
 #include "voxel_kernel.hpp"
 
 namespace dynamic_filter::kernel::DYNAMIC_FILTER_LEVEL {
@@ -8,17 +8,17 @@ namespace {
 
 constexpr std::int32_t kCellLimit = 1 << 20;  // as in geometry/voxel.hpp
 
-/// The half cell of a coordinate, or -kCellLimit, which no key reaches; no branches.
+/// The half cell of a coordinate, or -kCellLimit, which no valid key has. There are no branches.
 inline std::int32_t half_cell(float coordinate, float half_cells_per_metre) {
     const float halves = coordinate * half_cells_per_metre;
-    // Comparisons with NaN are false.
+    // Comparisons with NaN are false, so NaN is not small.
     const bool small = (halves >= -1.0F * kCellLimit) & (halves < 1.0F * kCellLimit);
     const float safe = small ? halves : -1.0F * kCellLimit;
     const auto cut = static_cast<std::int32_t>(safe);
     return cut - (static_cast<float>(cut) > safe ? 1 : 0);
 }
 
-constexpr std::size_t kBatch = 256;  // points; steps of one kind of arithmetic each are vectorised
+constexpr std::size_t kBatch = 256;  // points per batch; each step of a batch can be vectorized
 
 struct HalfCells {
     std::int32_t x[kBatch], y[kBatch], z[kBatch], measured[kBatch];
@@ -44,7 +44,7 @@ inline void to_map(const VoxelArgs& args, std::size_t begin, std::size_t count, 
         half.x[i] = half_cell(x, scale);
         half.y[i] = half_cell(y, scale);
         half.z[i] = half_cell(z, scale);
-        half.measured[i] = px * px + py * py + pz * pz > least ? 1 : 0;  // and a number
+        half.measured[i] = px * px + py * py + pz * pz > least ? 1 : 0;  // also false for NaN
     }
 }
 

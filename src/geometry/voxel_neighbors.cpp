@@ -13,7 +13,7 @@ void VoxelNeighbors::update(const VoxelIndex& index) {
             const Cell corner = home + Cell(step(b / 9), step(b / 3), step(b));
             const auto other = fits(corner) ? index.find_block(pack(corner)) : std::nullopt;
             around_[block][b] = other.value_or(kNoBlock);
-            // From there, this block lies the opposite way.
+            // The other block has this block as its neighbor in the opposite direction.
             if (other) around_[*other][around_[block].size() - 1 - b] = block;
         }
     }

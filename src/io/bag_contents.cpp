@@ -62,7 +62,7 @@ bool is_scan(const Topic& topic) {
 BagContents contents_of(const Bag& bag) {
     BagContents contents;
     std::size_t malformed = 0;
-    bool scans = false;  // among them
+    bool scans = false;  // true if one of the messages is a scan
     std::string first;
     const auto defects = bag.for_each([&](const Message& message) {
         try {

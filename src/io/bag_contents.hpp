@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// What one pass over a bag finds: clouds and poses by topic, and the tree of frames.
+/// The result of one pass over a bag: the clouds and the poses of each topic, and the tree of
+/// frames.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +21,7 @@ struct FoundScan {
 };
 struct CloudTopic {
     Topic topic;
-    std::string frame;  // of its first message
+    std::string frame;  // frame of its first message
     std::vector<FoundScan> scans;
 };
 struct PoseTopic {
@@ -28,11 +29,12 @@ struct PoseTopic {
     Trajectory trajectory;
 };
 
-/// All of it, and what was lost on the way.
+/// The contents of a bag, and what could not be read.
 struct BagContents {
     std::map<std::string, CloudTopic> clouds;
     std::map<std::string, PoseTopic> poses;
-    std::map<std::string, std::string> packets;  // types of topics that a driver makes clouds of
+    // Types of topics with raw packets, from which a driver makes clouds.
+    std::map<std::string, std::string> packets;
     FrameTree frames;
     std::vector<std::string> notes, losses;
 };

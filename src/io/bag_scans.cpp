@@ -25,7 +25,7 @@ std::string names_of(const Topics& topics) {
     return names;
 }
 
-/// What `convert` made of the scans of another topic, or of them all.
+/// True for output topics of `convert`, which repeat the scans of another topic or of all topics.
 bool is_part_of_another(const std::string& name, const std::map<std::string, CloudTopic>& clouds) {
     if (name == "/static_map" && clouds.size() > 1) return true;
     for (const std::string_view part : {"_static", "_dynamic"}) {
@@ -36,7 +36,8 @@ bool is_part_of_another(const std::string& name, const std::map<std::string, Clo
     return false;
 }
 
-/// "; /velodyne_packets is velodyne_msgs/VelodyneScan..." for what a driver has yet to decode.
+/// Text such as "; /velodyne_packets is velodyne_msgs/VelodyneScan..." for topics with raw packets
+/// that a driver must decode first.
 std::string tell_packets(const BagContents& contents) {
     std::string told;
     for (const auto& [name, type] : contents.packets) {
@@ -80,7 +81,8 @@ const CloudTopic& choose_clouds(const BagContents& contents, const std::filesyst
     return *whole.front();
 }
 
-/// Header stamps; where a driver left them at zero, when the message was recorded.
+/// Orders scans by the stamps of their headers, or by the time of recording if the driver left the
+/// stamps at zero.
 std::vector<FoundScan> in_order(CloudTopic topic, std::vector<std::string>& notes) {
     const bool unset = std::all_of(topic.scans.begin(), topic.scans.end(),
                                    [](const FoundScan& s) { return s.stamp == 0.0; });
@@ -94,7 +96,7 @@ std::vector<FoundScan> in_order(CloudTopic topic, std::vector<std::string>& note
     return std::move(topic.scans);
 }
 
-/// Where the sensor is at a time, and when that was said.
+/// Poses of the sensor over time, and the times at which they were published.
 struct PoseSource {
     std::function<std::optional<Pose>(double stamp)> T_world_sensor;
     std::vector<double> stamps;
@@ -117,8 +119,8 @@ PoseSource from_topic(const std::string& name, const PoseTopic& topic, const Fra
     };
     if (sensor == topic.parent) {
         return {body_pose, trajectory.stamps, true,
-                fmt::format("poses from {}; its frame '{}' is that of the points, too, so they are "
-                            "taken back into the sensor's",
+                fmt::format("poses from {}; its frame '{}' is also the frame of the points, so the "
+                            "points are transformed into the sensor frame",
                             name, sensor)};
     }
     const bool linked = !topic.child.empty() && sensor != topic.child &&
@@ -137,12 +139,12 @@ PoseSource from_topic(const std::string& name, const PoseTopic& topic, const Fra
     const bool same = topic.child.empty() || sensor == topic.child;
     return {body_pose, trajectory.stamps, false,
             same ? fmt::format("poses from {}", name)
-                 : fmt::format("poses from {}; nothing links its frame '{}' to the scans' '{}', so "
-                               "they are taken for the same",
+                 : fmt::format("poses from {}; no transform links its frame '{}' to the frame '{}' "
+                               "of the scans, so both are assumed to be the same",
                                name, topic.child, sensor)};
 }
 
-/// Empty, and a note that says why: there are none.
+/// Chooses the source of the poses. If there are none, returns nothing, and a note says why.
 std::optional<PoseSource> choose_poses(const BagContents& contents, const CloudTopic& clouds,
                                        const OpenOptions& options,
                                        std::vector<std::string>& notes) {
@@ -176,14 +178,15 @@ std::optional<PoseSource> choose_poses(const BagContents& contents, const CloudT
     return first;
 }
 
-/// A file with stamps, interpolated; or one row for each scan.
+/// Assigns poses from a file: interpolated if it has stamps, otherwise one row per scan.
 void assign_file_poses(Sequence& sequence, const std::filesystem::path& file) {
     PoseFile poses = read_poses(file);
     if (poses.stamps.empty()) {
         if (poses.poses.size() != sequence.stamps.size()) {
             throw InputError(file, "",
-                             fmt::format("{} poses without stamps for {} scans", poses.poses.size(),
-                                         sequence.stamps.size()));
+                             fmt::format("{} poses without stamps for {} scans; give one pose per "
+                                         "scan, or poses with stamps (TUM)",
+                                         poses.poses.size(), sequence.stamps.size()));
         }
         sequence.T_world_sensor = std::move(poses.poses);
         sequence.trajectory = {sequence.stamps, sequence.T_world_sensor};
@@ -221,8 +224,8 @@ void refuse_if_all_lost(const Sequence& sequence, const std::filesystem::path& d
     const auto& of = sequence.trajectory.stamps;
     throw InputError(
         data, "",
-        fmt::format("no scan has a pose: scans are from {:.3f} to {:.3f} s, poses {}; poses of "
-                    "another recording, or another clock or unit of time?",
+        fmt::format("no scan has a pose: scans are from {:.3f} to {:.3f} s, poses {}; are the "
+                    "poses of another recording, of another clock, or in another unit of time?",
                     sequence.stamps.front(), sequence.stamps.back(),
                     of.empty() ? "at no time"
                                : fmt::format("from {:.3f} to {:.3f} s", of.front(), of.back())));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// The scans of a bag, with poses from its own topics or from a file.
+/// The scans of a bag, with poses from its topics or from a file.
 #pragma once
 
 #include <cstddef>
@@ -13,14 +13,14 @@ namespace dynamic_filter::io {
 
 struct BagScans {
     Bag bag;
-    Topic topic;                       ///< of the scans
+    Topic topic;                       ///< topic of the scans
     std::vector<MessageRef> messages;  ///< in the order of the scans
 };
 
-/// Everything but the selection of scans. Throws InputError and ConfigError.
+/// Opens a bag; does everything except the selection of scans. Throws InputError and ConfigError.
 Sequence open_bag(const std::filesystem::path& data, const OpenOptions& options);
 
-/// The scan as the message has it. Throws InputError.
+/// Reads scan i with the fields of its message. Throws InputError.
 Cloud read_bag_cloud(const BagScans& scans, std::size_t i);
 
 }  // namespace dynamic_filter::io

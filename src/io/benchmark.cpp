@@ -8,9 +8,9 @@
 namespace dynamic_filter::io {
 namespace {
 
-constexpr std::size_t head_bytes = 4096;  // a header is a few hundred
+constexpr std::size_t head_bytes = 4096;  // a header has only a few hundred bytes
 
-/// An unreadable scan says nothing here; it is rejected when its turn comes.
+/// An unreadable scan is ignored here; it is rejected when it is read.
 bool may_have_viewpoint(const std::filesystem::path& scan) {
     try {
         const std::string head = read_head(scan, head_bytes);
@@ -64,7 +64,7 @@ void require_viewpoints(Sequence& sequence) {
 }
 
 void find_intensity_truth(Sequence& sequence, const Layout& layout) {
-    if (!sequence.label_files.empty()) return;  // label files say more
+    if (!sequence.label_files.empty()) return;  // label files are more precise
     sequence.intensity_is_truth = layout.truth_map || all_intensities_are_flags(sequence);
     if (sequence.intensity_is_truth) {
         sequence.notes.emplace_back("intensity is taken as ground truth (1: dynamic)");

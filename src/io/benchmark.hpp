@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// What is peculiar to DynamicMap_Benchmark: poses in VIEWPOINT, ground truth in the intensity.
+/// Properties of DynamicMap_Benchmark: poses in VIEWPOINT, and ground truth in the intensity.
 #pragma once
 
 #include "dynamic_filter/io/sequence.hpp"
@@ -7,10 +7,12 @@
 
 namespace dynamic_filter::io {
 
-/// Throws InputError if several scans have no pose but the identity; notes it for a single one.
+/// Throws InputError if several scans have no pose except the identity. For a single scan, adds a
+/// note.
 void require_viewpoints(Sequence& sequence);
 
-/// Sets `intensity_is_truth`: a gt_cloud.pcd is there, or all intensities are 0 or 1 and not all 0.
+/// Sets `intensity_is_truth` if there is a gt_cloud.pcd, or if all intensities are 0 or 1 and at
+/// least one is 1.
 void find_intensity_truth(Sequence& sequence, const Layout& layout);
 
 }  // namespace dynamic_filter::io

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Little-endian bytes of untrusted files, never read beyond their end.
+/// Reads little-endian values from untrusted bytes, never beyond their end.
 #pragma once
 
 #include <concepts>
@@ -15,7 +15,8 @@
 
 namespace dynamic_filter::io {
 
-/// What is wrong, without the file: whoever knows the file makes an InputError of it.
+/// A fault in the bytes. It does not name the file; the caller, who knows the file, makes an
+/// InputError of it.
 struct Malformed : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -24,7 +25,7 @@ template <class T>
 requires std::integral<T> || std::floating_point<T> T little_endian(const std::byte* bytes) {
     T value{};
     std::memcpy(&value, bytes, sizeof value);
-    return value;  // as all machines are that this is built for
+    return value;  // all supported machines are little endian
 }
 
 class ByteReader {
@@ -50,7 +51,7 @@ public:
         return little_endian<T>(take(sizeof(T)).data());
     }
     std::string_view text(std::uint64_t length) { return as_text(take(length)); }
-    /// Behind its length in 32 bits.
+    /// Bytes with their length (32 bits) before them.
     std::span<const std::byte> block() { return take(number<std::uint32_t>()); }
     std::string_view text() { return as_text(block()); }
 

@@ -3,7 +3,7 @@
 
 namespace dynamic_filter::io {
 
-// Inlined, GCC 12 warns of an overflow that is none.
+// Not inlined: otherwise GCC 12 warns of an overflow that cannot happen.
 void ByteWriter::raw(std::span<const std::byte> data) {
     bytes.insert(bytes.end(), data.begin(), data.end());
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Little-endian bytes, the counterpart of ByteReader.
+/// Writes little-endian values; the counterpart of ByteReader.
 #pragma once
 
 #include <concepts>
@@ -23,9 +23,9 @@ struct ByteWriter {
     template <class T>
     requires std::integral<T> || std::floating_point<T>
     void number(T value) {
-        raw(std::as_bytes(std::span(&value, 1)));  // as all machines are that this is built for
+        raw(std::as_bytes(std::span(&value, 1)));  // all supported machines are little endian
     }
-    /// Behind its length in 32 bits.
+    /// Bytes with their length (32 bits) before them.
     void block(std::span<const std::byte> data) {
         number(static_cast<std::uint32_t>(data.size()));
         raw(data);

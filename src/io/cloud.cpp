@@ -27,7 +27,7 @@ const Field& coordinate(const Cloud& cloud, const char* name) {
     return *field;
 }
 
-/// What the size of a .bin that is no multiple of 16 suggests.
+/// Likely reason for the size of a .bin file that is not a multiple of 16.
 std::string explain_bin_size(std::size_t bytes) {
     if (bytes % 20 == 0) return "it looks like 5 floats a point (nuScenes); name it .pcd.bin";
     if (bytes % 12 == 0) return "it looks like 3 floats a point (x y z); add an intensity";
@@ -35,7 +35,8 @@ std::string explain_bin_size(std::size_t bytes) {
 }
 
 Cloud empty_bin(const std::filesystem::path& file) {
-    const bool has_ring = to_lower(file.stem().extension().string()) == ".pcd";  // nuScenes
+    // NuScenes files end in .pcd.bin.
+    const bool has_ring = to_lower(file.stem().extension().string()) == ".pcd";
     Cloud cloud;
     for (const char* name : {"x", "y", "z", "intensity"}) add_field(cloud, name, FieldType::f32);
     if (has_ring) add_field(cloud, "ring", FieldType::f32);
@@ -184,7 +185,7 @@ Cloud read_bin(const std::filesystem::path& file) {
 }
 
 void refuse_bad_size(const std::filesystem::path& file) {
-    std::error_code unknown;  // whoever reads it says why
+    std::error_code unknown;  // the reader reports the error
     const auto bytes = std::filesystem::file_size(file, unknown);
     if (unknown) return;
     if (reader_of(file) == read_bin) refuse_bad_bin_size(file, static_cast<std::size_t>(bytes));

@@ -26,7 +26,7 @@ void require_coordinates(const std::filesystem::path& path, const Cloud& cloud) 
 
 bool is_wide_integer(FieldType type) { return type == FieldType::i64 || type == FieldType::u64; }
 
-/// Whether a float32 holds every value of the type.
+/// True if float32 represents every value of the type exactly.
 bool fits_float(FieldType type) { return size_of(type) <= 2 || type == FieldType::f32; }
 
 std::string ply_type(FieldType type) {
@@ -52,7 +52,7 @@ std::string rounding_note(const std::vector<Field>& wide) {
     return wide.empty() ? "" : "64-bit integers are rounded to doubles: " + names_of(wide);
 }
 
-/// x, y, z, intensity, then the others; where there is no intensity, nothing stands for it.
+/// The order x, y, z, intensity, other fields. The entry for intensity is empty if there is none.
 std::vector<std::optional<Field>> in_bin_order(const std::vector<Field>& fields) {
     std::vector<std::optional<Field>> ordered(bin_names.size());
     for (const Field& field : fields) {
@@ -67,7 +67,7 @@ std::vector<std::optional<Field>> in_bin_order(const std::vector<Field>& fields)
     return ordered;
 }
 
-/// One row of T per point; what is missing is 0.
+/// One row of values of type T per point; missing fields are 0.
 template <class T>
 std::vector<T> matrix_of(const Cloud& cloud, const std::vector<std::optional<Field>>& columns) {
     std::vector<T> rows(cloud.size() * columns.size());
@@ -94,7 +94,7 @@ std::string npy_header(bool narrow, std::size_t rows, std::size_t columns) {
                                    narrow ? "<f4" : "<f8", rows, columns);
     while ((preamble + text.size() + 1) % alignment != 0) text += ' ';
     text += '\n';
-    const auto length = static_cast<char>(text.size());  // two short lines at most
+    const auto length = static_cast<char>(text.size());  // the text has at most two short lines
     return std::string("\x93NUMPY\x01\x00", 8) + length + '\0' + text;
 }
 
@@ -123,7 +123,7 @@ std::string write_ply(const std::filesystem::path& path, const Cloud& cloud) {
     }
     const std::vector<Field> wide = wide_integers(fields);
     std::vector<std::byte> body = cloud.data;
-    for (const Field& field : wide) {  // of the same size as a double
+    for (const Field& field : wide) {  // they have the same size as a double
         const std::vector<double> column = values(cloud, field);
         for (std::size_t i = 0; i < column.size(); ++i) {
             store_at(body.data() + i * cloud.point_bytes + field.offset, column[i]);
@@ -202,7 +202,7 @@ const std::vector<std::pair<std::string, Writer>>& writers() {
     return all;
 }
 
-/// nullptr: no cloud.
+/// Returns nullptr if the extension is not that of a cloud.
 Writer writer_for(const std::filesystem::path& path) {
     const std::string extension = to_lower(path.extension().string());
     for (const auto& [known, writer] : writers()) {

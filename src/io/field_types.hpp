@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// From a field's type, known at run time, to a C++ type.
+/// Dispatch from the type of a field, known at run time, to a C++ type.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace dynamic_filter::io {
 
-/// Calls `f` with a std::type_identity of the C++ type.
+/// Calls `f` with std::type_identity of the C++ type.
 template <class F>
 decltype(auto) with_type(FieldType type, F&& f) {
     switch (type) {
@@ -46,7 +46,7 @@ void store_at(std::byte* bytes, T value) {
     std::memcpy(bytes, &value, sizeof value);
 }
 
-/// The cloud's fields with one value each: a field "n" of two values becomes "n_0" and "n_1".
+/// The fields of the cloud with one value each: a field "n" of two values becomes "n_0" and "n_1".
 std::vector<Field> single_fields(const Cloud& cloud);
 
 }  // namespace dynamic_filter::io

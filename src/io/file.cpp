@@ -23,7 +23,7 @@ constexpr std::size_t buffer_bytes = std::size_t{1} << 20U;
 
 std::string reason() { return std::strerror(errno); }
 
-/// An open descriptor, for reading.
+/// A file descriptor for reading, closed by the destructor.
 struct Descriptor {
     explicit Descriptor(int opened) : number(opened) {}
     Descriptor(const Descriptor&) = delete;
@@ -41,7 +41,7 @@ const char* kind_of(mode_t mode) {
     return "is a device; expected a regular file";
 }
 
-/// The size of an open regular file; everything else is refused.
+/// Size of an open regular file; throws for everything else.
 std::size_t regular_size(int descriptor, const std::filesystem::path& file) {
     struct stat status {};
     if (::fstat(descriptor, &status) != 0)
@@ -54,13 +54,13 @@ template <typename Buffer>
 void allocate(Buffer& buffer, std::size_t size, const std::filesystem::path& file) {
     try {
         buffer.resize(size);
-    } catch (const std::exception&) {  // bad_alloc, or length_error for a sparse giant
+    } catch (const std::exception&) {  // bad_alloc, or length_error for a huge sparse file
         throw InputError(file, "", "its " + std::to_string(size) + " bytes do not fit in memory");
     }
 }
 
 int open_for_reading(const std::filesystem::path& file) {
-    // O_NONBLOCK: opening a pipe must not wait for a writer.
+    // With O_NONBLOCK, opening a pipe does not wait for a writer.
     const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (descriptor < 0) throw InputError(file, "", "cannot be opened: " + reason());
     return descriptor;
@@ -107,7 +107,8 @@ std::filesystem::path temporary_name(const std::filesystem::path& path) {
                               std::to_string(::getpid()) + "." + std::to_string(counter++));
 }
 
-/// Renaming over a device or a folder would replace or fail; say so before any work is done.
+/// Throws if the target is a device or a folder: renaming onto it would replace it or fail, so this
+/// is checked before any work is done.
 void refuse_special(const std::filesystem::path& path) {
     if (!path.has_filename()) throw OutputError(path, "names a folder; expected a file name");
     struct stat status {};
@@ -166,15 +167,16 @@ std::vector<std::byte> InputFile::read(std::uint64_t offset, std::uint64_t count
 }
 
 AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
-    // A link stays, and what it points to is replaced.
+    // A symbolic link is kept; the file to which it points is replaced.
     std::error_code unresolved;
     if (std::filesystem::is_symlink(path_, unresolved)) {
         const auto target = std::filesystem::canonical(path_, unresolved);
-        if (unresolved) throw OutputError(path_, "is a link to nothing; remove it first");
+        if (unresolved)
+            throw OutputError(path_, "is a link to a missing file; remove the link first");
         path_ = target;
     }
     refuse_special(path_);
-    do {  // a name left by a dead process with our number is skipped
+    do {  // skips names left by a crashed process with the same id
         temporary_ = temporary_name(path_);
         descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     } while (descriptor_ < 0 && errno == EEXIST);
@@ -241,7 +243,7 @@ void AtomicFile::commit(Durable durable) {
     if (durable == Durable::name) sync_folder(folder_of(path_));
 }
 
-/// Some file systems cannot sync folders.
+/// Some file systems cannot sync folders, which is no error.
 void sync_folder(const std::filesystem::path& folder) {
     const Descriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
     if (opened.number < 0 || ::fsync(opened.number) == 0) return;

@@ -16,7 +16,7 @@
 namespace dynamic_filter::io {
 namespace {
 
-/// SemanticKITTI: the class is in the low 16 bits, the instance above.
+/// Label of a SemanticKITTI value: the low 16 bits hold the class, the high bits the instance.
 Label label_of(std::uint32_t raw) {
     const std::uint32_t kind = raw & 0xFFFFU;
     if (kind <= 1) return Label::unknown;
@@ -25,7 +25,8 @@ Label label_of(std::uint32_t raw) {
 
 Labels intensity_truth(const Cloud& cloud, const std::filesystem::path& file) {
     const Field* intensity = cloud.find("intensity");
-    if (intensity == nullptr) throw InputError(file, "", "has no intensity, which holds the truth");
+    if (intensity == nullptr)
+        throw InputError(file, "", "has no intensity, which must hold the ground truth");
     Labels truth;
     truth.reserve(cloud.size());
     for (const double value : values(cloud, *intensity)) {
@@ -36,7 +37,8 @@ Labels intensity_truth(const Cloud& cloud, const std::filesystem::path& file) {
     return truth;
 }
 
-/// World coordinates into the sensor's frame, in double: the world may be far from its origin.
+/// Transforms world coordinates into the sensor frame, in double because the world may be far from
+/// its origin.
 Points into_sensor(const Cloud& cloud, const Pose& T_world_sensor) {
     const Pose T_sensor_world = T_world_sensor.inverse();
     const std::array<std::vector<double>, 3> world = {values(cloud, *cloud.find("x")),
@@ -62,7 +64,7 @@ Labels truth_of(const Sequence& sequence, std::size_t i, const Cloud& cloud) {
     return truth;
 }
 
-/// Ground truth decides nothing, not even whether its scan is used.
+/// Adds the ground truth. A fault in it does not reject the scan.
 void add_truth(Frame& frame, const Sequence& sequence, std::size_t i) {
     try {
         frame.truth = truth_of(sequence, i, frame.cloud);
@@ -71,14 +73,15 @@ void add_truth(Frame& frame, const Sequence& sequence, std::size_t i) {
     }
 }
 
-/// As the scan has them, or else by the azimuths of the points.
+/// Times of the points: from the scan if it has them, otherwise computed from the azimuths.
 std::vector<float> times_of(const Sequence& sequence, const Frame& frame) {
     std::vector<float> times = point_times(frame.cloud, frame.stamp);
     if (times.empty() && sequence.sweep) times = sweep_times(frame.points, *sequence.sweep);
     return times;
 }
 
-/// Farther than the Earth is round, a pose is a wrong number or a wrong unit.
+/// Throws if the pose is farther away than the circumference of the Earth; such a value is a wrong
+/// number or has a wrong unit.
 void refuse_absurd(const Pose& T_world_sensor, const std::filesystem::path& file) {
     constexpr double kEarth = 4e7;  // [m]
     if (T_world_sensor.translation().cwiseAbs().maxCoeff() <= kEarth) return;

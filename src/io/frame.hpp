@@ -8,10 +8,10 @@
 
 namespace dynamic_filter::io {
 
-/// The record of scan i alone. Throws InputError.
+/// The point cloud of scan i without its pose. Throws InputError.
 Cloud read_scan(const Sequence& sequence, std::size_t i);
 
-/// Throws InputError if the size alone says that the file holds no cloud.
+/// Throws InputError if the size of the file alone shows that it holds no cloud.
 void refuse_bad_size(const std::filesystem::path& file);
 
 }  // namespace dynamic_filter::io

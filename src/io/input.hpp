@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Bytes of untrusted files. Only regular files are read: a device or a pipe could be endless.
+/// Reads untrusted files. Only regular files are read, because a device or a pipe could be endless.
 #pragma once
 
 #include <cstddef>
@@ -13,11 +13,11 @@
 namespace dynamic_filter::io {
 
 std::vector<std::byte> read_bytes(const std::filesystem::path& file);
-/// At most `most` bytes from the beginning.
+/// Reads at most `most` bytes from the beginning of a file.
 std::string read_head(const std::filesystem::path& file, std::size_t most);
 
-/// What kind of file the first bytes say that this is, other than text: "a ROS 1 bag"; empty if
-/// nothing.
+/// The kind of a binary file according to its first bytes, such as "a ROS 1 bag"; empty if unknown
+/// or text.
 std::string kind_by_content(std::string_view head);
 
 /// A regular file of which parts are read. Thread-safe.
@@ -31,7 +31,7 @@ public:
 
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
     [[nodiscard]] std::uint64_t size() const { return size_; }
-    /// Throws InputError if the file does not hold all of them.
+    /// Reads `count` bytes from `offset`. Throws InputError if the file is shorter.
     [[nodiscard]] std::vector<std::byte> read(std::uint64_t offset, std::uint64_t count) const;
 
 private:

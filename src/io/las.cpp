@@ -11,7 +11,7 @@
 namespace dynamic_filter::io {
 namespace {
 
-/// All points' values of one field, from records of `stride` bytes.
+/// Copies the values of one field of all points, from records of `stride` bytes.
 class Copier {
 public:
     Copier(Cloud& cloud, std::span<const std::byte> records, std::size_t stride)

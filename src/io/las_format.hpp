@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// What reading and writing LAS share.
+/// Constants for reading and writing LAS.
 #pragma once
 
 #include <array>
@@ -16,13 +16,14 @@ constexpr std::size_t las_extra_bytes = 192;  ///< of one entry of the Extra Byt
 constexpr std::string_view las_spec = "LASF_Spec";
 constexpr std::uint16_t las_extra_id = 4;
 
-/// By code, from 1.
+/// Types by their code, from 1.
 constexpr std::array las_extra_types = {
     FieldType::u8,  FieldType::i8,  FieldType::u16, FieldType::i16, FieldType::u32,
     FieldType::i32, FieldType::u64, FieldType::i64, FieldType::f32, FieldType::f64};
 
-/// Behind the name of a standard field, an Extra Bytes field that holds what the standard one,
-/// being of another type, could not; the reader puts it in the other's place.
+/// Suffix of the name of an Extra Bytes field that stores the exact values of a standard field. It
+/// is used where the standard field has a type that cannot represent them; the reader then uses the
+/// exact values instead.
 constexpr std::string_view las_exact = "_exact";
 
 }  // namespace dynamic_filter::io

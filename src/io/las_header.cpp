@@ -17,11 +17,11 @@ namespace {
 
 constexpr std::array<std::size_t, 11> format_bytes = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
 
-/// Where the fixed header has what is used of it.
+/// Byte offsets in the fixed header.
 enum At : std::size_t {
     version_at = 24,
     header_size_at = 94,
-    counts_at = 96,  // of the points' place, the variable records, the format, the old point count
+    counts_at = 96,  // offset of the points, variable records, point format, old number of points
     scale_at = 131,
     wide_count_at = 247
 };
@@ -37,7 +37,7 @@ LasField bits(std::string name, std::size_t at, std::uint8_t first, std::uint8_t
     return field;
 }
 
-/// Point formats 0 to 5: the first layout; flags and waveforms are left.
+/// Fields of point formats 0 to 5. Flags and waveforms are not read.
 void add_old_fields(std::vector<LasField>& fields, unsigned format) {
     fields.push_back(bits("return_number", 14, 0, 3));
     fields.push_back(bits("number_of_returns", 14, 3, 3));
@@ -48,7 +48,7 @@ void add_old_fields(std::vector<LasField>& fields, unsigned format) {
     if (format != 0 && format != 2) fields.push_back(plain("gps_time", FieldType::f64, 20));
 }
 
-/// Point formats 6 to 10.
+/// Fields of point formats 6 to 10.
 void add_new_fields(std::vector<LasField>& fields) {
     constexpr double degrees_per_step = 0.006;
     fields.push_back(bits("return_number", 14, 0, 4));
@@ -71,7 +71,7 @@ void add_colours(std::vector<LasField>& fields, unsigned format) {
     if (format == 8 || format == 10) fields.push_back(plain("nir", FieldType::u16, at));
 }
 
-/// Names come with blanks, which other formats' headers cannot hold.
+/// Names may contain blanks, which the headers of other formats cannot store; they are replaced.
 std::string name_of(std::string_view raw) {
     std::string name(raw.substr(0, raw.find('\0')));
     for (char& c : name) {
@@ -112,7 +112,7 @@ private:
         header_.points = counts.number<std::uint32_t>();
         if (minor >= 4) {
             const auto wide = ByteReader(bytes_, skip_to(wide_count_at)).number<std::uint64_t>();
-            if (wide != 0) header_.points = wide;  // some writers fill in the old count only
+            if (wide != 0) header_.points = wide;  // some writers set only the old number of points
         }
         check_layout(minor >= 4 ? 375 : 227);
     }
@@ -158,7 +158,8 @@ private:
         add_colours(header_.fields, format_);
     }
 
-    /// The records between header and points; each takes bytes, so their number need not be right.
+    /// Reads the records between header and points. Each takes bytes, so a wrong number of records
+    /// cannot cause an endless loop.
     void find_extra_fields() {
         ByteReader reader(bytes_.first(header_.begin), header_size_);
         for (std::uint32_t i = 0; i < records_; ++i) {
@@ -169,7 +170,7 @@ private:
             reader.take(32);
             const auto record = reader.take(length);
             if (id == las_extra_id && user.substr(0, user.find('\0')) == las_spec) {
-                return add_extra_fields(record);  // a second one would describe the same bytes
+                return add_extra_fields(record);  // a second record would describe the same bytes
             }
         }
     }
@@ -185,15 +186,15 @@ private:
         }
     }
 
-    /// Returns the bytes it takes in a point.
+    /// Adds an extra field; returns the number of bytes that it takes in a point.
     std::size_t add_extra_field(ByteReader entry, std::size_t at) {
         constexpr std::uint8_t has_scale = 8, has_offset = 16;
         entry.take(2);
         const auto code = entry.number<std::uint8_t>();
         const auto options = entry.number<std::uint8_t>();
         const std::string name = name_of(entry.text(std::uint64_t{32}));
-        entry.take(4 + 3 * 24);         // reserved; no-data, least and greatest values
-        if (code == 0) return options;  // bytes without a meaning
+        entry.take(4 + 3 * 24);         // reserved bytes; no-data, minimum and maximum values
+        if (code == 0) return options;  // bytes without a defined type
         if (code > 3 * las_extra_types.size()) {
             throw Malformed(
                 fmt::format("Extra Bytes {} are of unknown type {}", quote(name), code));
@@ -214,7 +215,7 @@ private:
         return count * size_of(type);
     }
 
-    /// Extra Bytes come behind what they stand for.
+    /// Uses exact Extra Bytes fields in place of the standard fields that they replace.
     void put_exact_in_place() {
         std::vector<LasField>& fields = header_.fields;
         for (std::size_t i = fields.size(); i-- > 0;) {
@@ -230,7 +231,7 @@ private:
         }
     }
 
-    /// Throws if the file ends before `at`.
+    /// Returns `at`. Throws if the file ends before it.
     [[nodiscard]] std::size_t skip_to(std::size_t at) const {
         return ByteReader(bytes_).take(at).size();
     }

@@ -14,11 +14,11 @@
 namespace dynamic_filter::io {
 namespace {
 
-constexpr double scale = 0.001;  // [m]
+constexpr double scale = 0.001;  // [m] resolution of coordinates
 constexpr std::size_t header_bytes = 375, base_bytes = 30, returns_at = 14;
 constexpr std::size_t most_name = 32, most_u16 = 65535;
 
-/// Where point format 6 has a place of its own.
+/// Fields for which point format 6 has a place.
 struct Standard {
     const char* name;
     FieldType type;
@@ -36,9 +36,9 @@ constexpr std::array standards = {Standard{"intensity", FieldType::u16, 12, 0, 1
 
 struct Placed {
     Field field;
-    const Standard* standard = nullptr;  ///< empty for Extra Bytes
-    std::string name;                    ///< of Extra Bytes
-    std::size_t at = 0;                  ///< [bytes] in the record
+    const Standard* standard = nullptr;  ///< null for Extra Bytes
+    std::string name;                    ///< name in Extra Bytes
+    std::size_t at = 0;                  ///< [bytes] offset in the record
 };
 
 struct Axis {
@@ -46,7 +46,7 @@ struct Axis {
     double least = 0.0, greatest = 0.0, offset = 0.0;
 };
 
-/// Little-endian numbers one behind the other.
+/// Consecutive little-endian numbers.
 class Bytes {
 public:
     template <class T>
@@ -73,7 +73,8 @@ const Standard* standard_named(const std::string& name) {
     return found == standards.end() ? nullptr : found;
 }
 
-/// The scan angle has another unit in the file, so that it is never exact.
+/// True if the standard field represents the values of the field exactly. The scan angle has
+/// another unit in the file, so it is never exact.
 bool holds(const Standard& standard, const Cloud& cloud, const Field& field) {
     if (standard.type != field.type || field.type == FieldType::f32) return false;
     if (standard.bits >= 8) return true;
@@ -130,7 +131,7 @@ Axis axis_of(const Cloud& cloud, const char* name, const std::filesystem::path& 
     return {values(cloud, *field)};
 }
 
-/// The points with three finite coordinates.
+/// Indices of the points with three finite coordinates.
 std::vector<std::size_t> finite_points(const std::array<Axis, 3>& axes) {
     std::vector<std::size_t> finite;
     for (std::size_t i = 0; i < axes[0].values.size(); ++i) {
@@ -146,8 +147,9 @@ std::int32_t steps(const Axis& axis, double value) {
     return static_cast<std::int32_t>(std::llround((value - axis.offset) / scale));
 }
 
-/// The offset is amid the data, in whole metres, so that 32 bits reach to both sides. The bounds
-/// are those of the coordinates as written: readers look whether a point lies outside.
+/// Chooses the offset of an axis in the middle of the data, in whole metres, so that 32 bits reach
+/// to both sides. The bounds are computed from the coordinates as written, because readers check
+/// whether points lie outside.
 void span_axis(Axis& axis, char name, const std::vector<std::size_t>& points,
                const std::filesystem::path& path) {
     if (points.empty()) return;
@@ -169,7 +171,7 @@ void span_axis(Axis& axis, char name, const std::vector<std::size_t>& points,
     }
 }
 
-/// Writes where the standard's bits are, beside those of another field in the same byte.
+/// Writes the bits of a standard field beside those of another field in the same byte.
 void put_standard(std::byte* record, const Standard& standard, const std::byte* value) {
     if (standard.bits >= 8) {
         std::memcpy(record + standard.at, value, size_of(standard.type));
@@ -178,7 +180,7 @@ void put_standard(std::byte* record, const Standard& standard, const std::byte* 
     record[standard.at] |= *value << standard.first_bit;
 }
 
-/// A single return where the cloud does not say.
+/// Sets "one return of one" where the cloud does not contain these fields.
 void complete_returns(std::byte* record) {
     const auto returns = std::to_integer<unsigned>(record[returns_at]);
     const unsigned number = std::max(returns & 15U, 1U);
@@ -224,7 +226,7 @@ struct Sizes {
 
 Bytes header_of(const Sizes& sizes, const std::array<Axis, 3>& axes,
                 const std::array<std::uint64_t, 15>& returns) {
-    constexpr std::uint16_t has_wkt = 16;  // what the format asks of point formats from 6 on
+    constexpr std::uint16_t has_wkt = 16;  // required by the format for point formats from 6 on
     const bool has_extra = sizes.extra != 0;
     const std::size_t begin = header_bytes + (has_extra ? las_vlr_header_bytes + sizes.extra : 0);
     Bytes header;

@@ -34,7 +34,7 @@ std::optional<fs::path> find_pose_file(const fs::path& folder) {
     for (const std::string& name : pose_names()) {
         if (present(folder / name)) return folder / name;
     }
-    std::error_code ignored;  // the folder above the scans may well be unreadable
+    std::error_code ignored;  // the parent folder may be unreadable, which is no error
     const Paths tum = list_files(folder, {".tum"}, ignored);
     if (tum.size() > 1) {
         throw InputError(folder, "",
@@ -47,7 +47,8 @@ std::optional<fs::path> if_exists(const fs::path& path) {
     return present(path) ? std::optional(path) : std::nullopt;
 }
 
-/// Handing DATA/velodyne for DATA is common and would hide poses, labels and calibration.
+/// Throws if the user gave DATA/velodyne in place of DATA, a common mistake: poses, labels and
+/// calibration would not be found.
 void refuse_inner_folder(const fs::path& data, const OpenOptions& options) {
     const std::string name = without_slash(data).filename().string();
     if (options.format || (name != "velodyne" && name != "pcd") || find_pose_file(data)) return;
@@ -72,8 +73,8 @@ void require_folder(const fs::path& data) {
     }
     if (present(data / "run.log") && present(data / "config.toml")) {
         throw InputError(data, "",
-                         "is what a run left, not a recording; run.log there names the recording, "
-                         "and static_map.pcd is its clean map");
+                         "is the output of a run, not a recording; give the recording that run.log "
+                         "there names (static_map.pcd is the clean map)");
     }
 }
 
@@ -96,7 +97,8 @@ Format recognise(const fs::path& data) {
     return Format::folder;
 }
 
-/// Scans of one kind, in the usual subfolder or in the folder itself (which may also hold maps).
+/// Finds the scans of one kind, in the usual subfolder or in the folder itself (which may also
+/// contain maps).
 void find_folder_scans(Layout& layout, const fs::path& data) {
     for (const std::string& name : scan_folders()) {
         layout.scan_folder = name == "." ? data : data / name;
@@ -131,7 +133,8 @@ void find_scans(Layout& layout, const fs::path& data) {
     }
 }
 
-/// The folders that may hold what accompanies the scans: of scans found below `top`, all up to it.
+/// Folders that may contain the files that belong to the scans: for scans found below `top`, all
+/// folders up to it.
 Paths companions(const Layout& layout, const fs::path& data, const fs::path& top) {
     if (layout.format != Format::folder) return {data};
     Paths folders = {layout.scan_folder, parent_of(layout.scan_folder)};
@@ -171,7 +174,7 @@ void find_poses(Layout& layout, const Paths& folders, const OpenOptions& options
 
 using Finder = std::optional<Layout> (*)(const fs::path& data, const OpenOptions& options);
 
-/// Those that bring their poses along, unless others are given.
+/// Layouts that contain poses; they are not used if other poses are given.
 std::optional<Layout> find_by_contents(const fs::path& data, const OpenOptions& options) {
     for (const Finder find : {find_kitti_360, find_kitti_raw, find_apollo}) {
         if (auto layout = find(data, options)) return layout;
@@ -185,7 +188,7 @@ std::optional<Layout> find_by_contents(const fs::path& data, const OpenOptions& 
 
 Layout find_at(const fs::path& data, const fs::path& top, const OpenOptions& options);
 
-/// The only scans below, if `data` has none in the usual places.
+/// The only scans below `data`, if there are none in the usual places.
 std::optional<Layout> find_elsewhere(const fs::path& data, const OpenOptions& options) {
     if (has_scans(data)) return std::nullopt;
     refuse_argoverse(data);

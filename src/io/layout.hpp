@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Where the files of a recording are.
+/// Finds the files of a recording.
 #pragma once
 
 #include <filesystem>
@@ -16,22 +16,25 @@ using Paths = std::vector<std::filesystem::path>;
 struct Layout {
     Format format = Format::folder;
     std::filesystem::path scan_folder;
-    Paths scans;                        ///< in natural order; never empty
-    std::vector<Pose> T_world_sensor;   ///< of the scans, where the layout itself says; else empty
-    std::vector<double> stamps;         ///< [s] likewise
-    std::filesystem::path pose_source;  ///< where T_world_sensor is from
+    Paths scans;  ///< in natural order; never empty
+    /// Poses of the scans if the layout defines them; otherwise empty.
+    std::vector<Pose> T_world_sensor;
+    std::vector<double> stamps;         ///< [s] stamps of the scans if the layout defines them
+    std::filesystem::path pose_source;  ///< file of T_world_sensor
     std::optional<std::filesystem::path> poses, times, calib, labels, truth_map;
     std::vector<std::string> notes;
 };
 
-/// Throws InputError when nothing usable is there, with what was looked for.
+/// Finds the layout. Throws InputError if there is nothing usable; the message lists what was
+/// looked for.
 Layout find_layout(const std::filesystem::path& data, const OpenOptions& options);
 
-/// True if a folder holds scans as files, in it or in one of the usual folders below.
+/// True if a folder contains scan files, directly or in one of the usual subfolders.
 bool has_scans(const std::filesystem::path& data);
 
-/// The label file of each scan, an empty path for scans without; empty if no scan has one. What is
-/// missing or belongs to no scan is told in `notes`: ground truth decides nothing.
+/// The label file of each scan, with an empty path for scans without one. Empty if no scan has a
+/// label file. Missing files and files without a scan are reported in `notes` only, because a run
+/// does not need ground truth.
 Paths find_labels(const Layout& layout, std::vector<std::string>& notes);
 
 }  // namespace dynamic_filter::io

@@ -8,7 +8,8 @@
 namespace dynamic_filter::io {
 namespace {
 
-/// Reads codes and writes what they mean; every step checks both ends.
+/// Reads codes and writes the bytes that they stand for. Every step checks the ends of input and
+/// output.
 class Expander {
 public:
     Expander(std::span<const std::byte> input, std::span<std::byte> output)
@@ -35,14 +36,14 @@ private:
 
     bool repeat(std::size_t control) {
         std::size_t length = (control >> 5U) + 2;
-        if (control >> 5U == 7) {  // a long one: the length goes on in the next byte
+        if (control >> 5U == 7) {  // the length continues in the next byte
             if (in_ == input_.size()) return false;
             length += take();
         }
         if (in_ == input_.size()) return false;
         const std::size_t back = ((control & 31U) << 8U) + take() + 1;
         if (back > out_ || length > output_.size() - out_) return false;
-        // Byte by byte: the repeat may overlap what it writes.
+        // Copies byte by byte, because source and target may overlap.
         for (; length > 0; --length, ++out_) output_[out_] = output_[out_ - back];
         return true;
     }
@@ -52,7 +53,8 @@ private:
     std::size_t in_ = 0, out_ = 0;
 };
 
-/// Writes what repeats within the last 8 KiB as a reference, found by the hash of its first bytes.
+/// Replaces bytes that repeat earlier ones within 8 KiB by references; a hash of the first three
+/// bytes finds them.
 class Packer {
 public:
     explicit Packer(std::span<const std::byte> input) : input_(input), last_seen_(1U << hash_bits) {
@@ -81,7 +83,7 @@ private:
     static constexpr std::size_t shortest = 3, longest = 264, farthest = 8192, most_literals = 32;
     static constexpr unsigned hash_bits = 14;
 
-    /// Where these three bytes may have been seen within reach; `at` if nowhere.
+    /// An earlier position within reach of the same three bytes; `at` if there is none.
     std::size_t remember(std::size_t at) {
         std::uint32_t bytes = 0;
         std::memcpy(&bytes, input_.data() + at, shortest);
@@ -117,9 +119,9 @@ private:
     void put(std::size_t byte) { packed_.push_back(static_cast<std::byte>(byte)); }
 
     std::span<const std::byte> input_;
-    std::vector<std::uint32_t> last_seen_;  // 1 + the place
+    std::vector<std::uint32_t> last_seen_;  // 1 + position; 0: not seen
     std::vector<std::byte> packed_;
-    std::size_t written_ = 0;  // bytes of the input that are in packed_
+    std::size_t written_ = 0;  // number of input bytes that are in packed_
 };
 
 }  // namespace

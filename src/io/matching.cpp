@@ -14,10 +14,10 @@ namespace dynamic_filter::io {
 namespace {
 
 constexpr double most_gap = 0.05;            // [s] half the period of a 10 Hz LiDAR
-constexpr double least_epoch_seconds = 1e8;  // a smaller whole number is an index, not a time
-constexpr double least_nanoseconds = 1e15;   // above any number of seconds
+constexpr double least_epoch_seconds = 1e8;  // smaller whole numbers are indices, not times
+constexpr double least_nanoseconds = 1e15;   // larger than any number of seconds
 
-/// A file name read as a time; nothing for "000123" and the like, which are indices.
+/// Reads a file name as a time; empty for indices such as "000123".
 std::optional<double> time_in(const std::string& name) {
     const bool numeric = name.find_first_not_of("0123456789.") == std::string::npos;
     const auto value = numeric ? parse_real(name) : std::nullopt;

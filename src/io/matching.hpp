@@ -13,16 +13,19 @@ namespace dynamic_filter::io {
 /// A pose for each scan.
 struct Match {
     std::vector<Pose> poses;
-    std::vector<double> stamps;         ///< [s] of the scans, empty if nothing says
-    std::string note;                   ///< how scans and poses were matched
-    std::vector<double> pose_stamps{};  ///< [s] where matched by order though both have stamps
+    std::vector<double> stamps;  ///< [s] of the scans; empty if they are not known
+    std::string note;            ///< how scans and poses were matched, for the user
+    /// [s] of poses that were matched by order although both have stamps.
+    std::vector<double> pose_stamps{};
 };
 
-/// Stamps [s] of scans whose names are times; empty if they are not, or are in another order.
+/// Stamps [s] of scans whose file names are times; empty if the names are no times, or if the times
+/// do not increase.
 std::vector<double> growing_times_in_names(const Paths& scans);
 
-/// By order if the numbers agree; otherwise by time, from `times` (may be empty) or from file names
-/// that are time stamps, within 0.05 s. Throws InputError with both numbers.
+/// Matches by order if the numbers of scans and poses agree. Otherwise matches by time within 0.05
+/// s, using `times` (may be empty) or file names that are times. Throws InputError with both
+/// numbers.
 Match match_poses(const Layout& layout, const PoseFile& file, const std::vector<double>& times);
 
 }  // namespace dynamic_filter::io

@@ -9,7 +9,7 @@ namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// Cuts the run of digits off the front, without its leading zeros.
+/// Removes the digits at the front, and returns them without leading zeros.
 std::string_view take_number(std::string_view& rest) {
     std::size_t end = 0;
     while (end < rest.size() && is_digit(rest[end])) ++end;
@@ -19,7 +19,7 @@ std::string_view take_number(std::string_view& rest) {
     return number;
 }
 
-/// Numbers as digits, so that any length compares.
+/// Compares numbers as strings of digits, so that any length is possible.
 std::strong_ordering compare_numbers(std::string_view a, std::string_view b) {
     return a.size() != b.size() ? a.size() <=> b.size() : a.compare(b) <=> 0;
 }
@@ -44,7 +44,8 @@ std::strong_ordering compare_naturally(std::string_view a, std::string_view b) {
 
 bool natural_less(const std::string& a, const std::string& b) {
     const auto order = compare_naturally(a, b);
-    return order == 0 ? a < b : order < 0;  // "a01" and "a1" count the same; keep them apart
+    // "a01" and "a1" have equal numbers, but are different names.
+    return order == 0 ? a < b : order < 0;
 }
 
 }  // namespace dynamic_filter::io

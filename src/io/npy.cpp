@@ -20,10 +20,10 @@ struct NpyHeader {
     FieldType type = FieldType::f32;
     bool big_endian = false;
     std::uint64_t rows = 0, columns = 0;
-    std::size_t begin = 0;  ///< [bytes] of the values
+    std::size_t begin = 0;  ///< [bytes] offset of the values
 };
 
-/// What follows a key of the header's dictionary, as far as it goes.
+/// The text after a key of the dictionary in the header, up to the end of the header.
 std::string_view value_of(std::string_view dictionary, std::string_view key) {
     for (const char mark : {'\'', '"'}) {
         const std::string quoted = mark + std::string(key) + mark;
@@ -88,8 +88,7 @@ NpyHeader parse_header(std::span<const std::byte> bytes) {
     take_type(header, value_of(dictionary, "descr"));
     if (!value_of(dictionary, "fortran_order").starts_with("False")) {
         throw Malformed(
-            "columns behind each other (Fortran order) are not read; save "
-            "numpy.ascontiguousarray of it");
+            "an array in Fortran order is not read; save numpy.ascontiguousarray of it");
     }
     take_shape(header, value_of(dictionary, "shape"));
     return header;

@@ -36,7 +36,7 @@ void read_binary_body(Cloud& cloud, const PcdHeader& header, Bytes&& bytes, cons
     take_rows(cloud, header.columns, header.points, std::move(bytes), lines.offset());
 }
 
-/// The two sizes before a compressed body, and the body itself.
+/// The two sizes before a compressed body, and the body.
 struct Compressed {
     std::size_t expanded = 0;
     std::span<const std::byte> stream;
@@ -60,7 +60,8 @@ void read_compressed_body(Cloud& cloud, const PcdHeader& header, const Bytes& by
                           const Lines& lines) {
     const Compressed packed = find_stream(bytes, lines);
     const std::string where = fmt::format("byte {}", lines.offset());
-    // Writers disagree on padding: PCL leaves its columns out, others compress them too.
+    // Programs handle padding differently: PCL leaves it out of the compressed body, others include
+    // it.
     std::vector<Column> columns = header.columns;
     const auto lean = product(header.points, cloud.point_bytes);
     if (lean == packed.expanded) {

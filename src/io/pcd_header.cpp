@@ -44,7 +44,7 @@ std::string type_name(FieldType type) {
     }
 }
 
-/// Collects the header's lines one by one, then makes sense of them together.
+/// Collects the lines of the header, then checks them together.
 class HeaderParser {
 public:
     explicit HeaderParser(Lines& lines) : lines_(lines) {}

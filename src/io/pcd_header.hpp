@@ -20,21 +20,22 @@ struct PcdHeader {
     PcdData data = PcdData::ascii;
 };
 
-/// Leaves `lines` behind the DATA line. Throws InputError.
+/// Reads the header; `lines` is then behind the DATA line. Throws InputError.
 PcdHeader parse_pcd_header(Lines& lines);
 
-/// Where in a header's text its counts are; their fields are wide enough for any count.
+/// Text of a header, and the positions of its counts. The counts are padded, so that any count
+/// fits.
 struct PcdHeaderText {
     std::string text;
     std::size_t width_at = 0, points_at = 0;
 };
 constexpr std::size_t pcd_count_width = 20;
 
-/// The header of a PCD with contiguous fields.
+/// The header of a PCD file whose fields have no padding.
 PcdHeaderText pcd_header_text(const std::vector<Field>& fields, std::size_t points,
                               const Pose& viewpoint, PcdData data = PcdData::binary);
 
-/// A count as the header holds it, padded behind.
+/// A count, padded to the width that it has in the header.
 std::string pcd_count(std::size_t count);
 
 }  // namespace dynamic_filter::io

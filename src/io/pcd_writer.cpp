@@ -15,7 +15,7 @@ namespace {
 
 void append_value(fmt::memory_buffer& text, FieldType type, const std::byte* bytes) {
     with_type(type, [&]<class T>(std::type_identity<T>) {
-        // "{}" prints the fewest digits that read back as the same number.
+        // "{}" prints the fewest digits that are read back as the same number.
         if constexpr (sizeof(T) == 1) {
             fmt::format_to(std::back_inserter(text), "{} ",
                            static_cast<int>(little_endian<T>(bytes)));
@@ -37,7 +37,7 @@ void write_ascii(AtomicFile& file, const Cloud& cloud) {
     }
 }
 
-/// All points' first field, then all points' second, and so on.
+/// The first field of all points, then the second field of all points, and so on.
 std::vector<std::byte> by_field(const Cloud& cloud) {
     std::vector<std::byte> block;
     block.reserve(cloud.data.size());

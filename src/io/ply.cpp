@@ -14,7 +14,7 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
-/// Walks binary elements that come before the vertices.
+/// Skips binary elements before the vertices.
 class Walker {
 public:
     Walker(std::span<const std::byte> bytes, const Lines& lines, bool big)
@@ -28,7 +28,8 @@ public:
             for (const PlyProperty& p : element.properties) stride += column_bytes(p.column);
             return advance(element.count, stride);
         }
-        for (std::uint64_t i = 0; i < element.count; ++i) {  // each takes a byte or ends the walk
+        // Each step uses at least one byte or ends the loop.
+        for (std::uint64_t i = 0; i < element.count; ++i) {
             for (const PlyProperty& p : element.properties) {
                 advance(p.list_count ? length(*p.list_count) : 1, column_bytes(p.column));
             }
@@ -47,7 +48,7 @@ private:
         at_ += *bytes;
     }
 
-    /// A list's length; one that is negative comes out too large for any file.
+    /// Length of a list; a negative one becomes too large for any file.
     std::uint64_t length(FieldType type) {
         const std::size_t begin = at_;
         advance(1, size_of(type));

@@ -14,8 +14,8 @@ namespace dynamic_filter::io {
 enum class PlyFormat : std::uint8_t { ascii, little, big };
 
 struct PlyProperty {
-    Column column;                        ///< of a list: the type of its entries
-    std::optional<FieldType> list_count;  ///< set for a list: the type of its length
+    Column column;                        ///< of a list: type of its entries
+    std::optional<FieldType> list_count;  ///< set for a list: type of its length
 };
 
 struct PlyElement {
@@ -26,12 +26,12 @@ struct PlyElement {
 
 struct PlyHeader {
     PlyFormat format = PlyFormat::ascii;
-    std::vector<PlyElement> before;  ///< elements in front of the vertices
+    std::vector<PlyElement> before;  ///< elements before the vertices
     std::uint64_t points = 0;
-    std::vector<Column> columns;  ///< of the vertices
+    std::vector<Column> columns;  ///< columns of the vertices
 };
 
-/// Leaves `lines` behind the end_header line. Throws InputError.
+/// Reads the header; `lines` is then behind the end_header line. Throws InputError.
 PlyHeader parse_ply_header(Lines& lines);
 
 }  // namespace dynamic_filter::io

@@ -4,7 +4,7 @@
 namespace dynamic_filter::io {
 namespace {
 
-/// A camera's axes as a LiDAR sees them, without the offset between the two.
+/// Rotation between the axes of a camera and those of a LiDAR, without the offset between both.
 Pose camera_axes() {
     Pose T_camera_lidar = Pose::Identity();
     T_camera_lidar.linear() << 0, -1, 0, 0, 0, -1, 1, 0, 0;

@@ -21,14 +21,15 @@ enum Role : std::size_t { x, y, z, qx, qy, qz, qw, time, role_count };
 constexpr std::array<const char*, role_count> role_names = {"x",  "y",  "z",  "qx",
                                                             "qy", "qz", "qw", "timestamp"};
 
-/// Which column plays which role, and what makes seconds of the stamp.
+/// The meaning of each column, and the factor that converts stamps to seconds.
 struct Columns {
     std::array<std::optional<std::size_t>, role_count> of;
     std::size_t count = 0;
     double seconds = 1.0;
 };
 
-/// "#timestamp [ns]" becomes "timestamp" and "ns"; "p_RS_R_x [m]" becomes "p_rs_r_x" and "m".
+/// A column title: "#timestamp [ns]" becomes "timestamp" and "ns"; "p_RS_R_x [m]" becomes
+/// "p_rs_r_x" and "m".
 struct Title {
     std::string name, unit;
 };
@@ -39,7 +40,7 @@ Title title_of(std::string_view cell) {
     const std::size_t bracket = text.find('[');
     Title title{text.substr(0, bracket), ""};
     if (bracket != std::string::npos) title.unit = text.substr(bracket + 1);
-    for (const char* unit : {"ns", "us", "ms"}) {  // "timestamp_ns"
+    for (const char* unit : {"ns", "us", "ms"}) {  // titles such as "timestamp_ns"
         const std::string suffix = std::string("_") + unit;
         if (!title.unit.empty() || !title.name.ends_with(suffix)) continue;
         title.name.resize(title.name.size() - suffix.size());
@@ -77,7 +78,8 @@ Columns columns_of(std::string_view header, const Lines& lines) {
     for (const auto cell : split_at(header, ',')) {
         const Title title = title_of(cell);
         if (const auto role = role_of(title.name)) {
-            if (columns.of[*role]) lines.fail("two columns mean " + quote(role_names[*role]));
+            if (columns.of[*role])
+                lines.fail("two columns of the CSV header stand for " + quote(role_names[*role]));
             columns.of[*role] = columns.count;
             if (*role == time) columns.seconds = seconds_of(title.unit, lines);
         }
@@ -126,7 +128,7 @@ bool begins_with_number(std::string_view line) {
     return parse_real(split_at(line, ',').front()).has_value();
 }
 
-/// MulRan: nanoseconds, and a row-major 3x4 matrix.
+/// Reads a row of MulRan: nanoseconds and a row-major 3x4 matrix.
 void append_matrix(PoseFile& file, std::string_view line, const Lines& lines) {
     const auto cells = split_at(line, ',');
     if (cells.size() != matrix_columns) {
@@ -152,7 +154,8 @@ void append_matrix(PoseFile& file, std::string_view line, const Lines& lines) {
 
 PoseFile read_pose_table(Lines& lines) {
     PoseFile file;
-    std::optional<Columns> columns;  // of the header, the first line with commas, comment or not
+    // From the header: the first line with commas, also if it is a comment.
+    std::optional<Columns> columns;
     while (lines.next()) {
         const std::string_view line = trim(lines.line());
         const bool has_comma = line.find(',') != std::string_view::npos;

@@ -25,7 +25,7 @@ void write_poses_kitti(const std::filesystem::path& path, std::span<const Pose> 
     std::string text;
     for (const Pose& pose : T_world_sensor) {
         for (int i = 0; i < 12; ++i) {
-            // "{}" prints the fewest digits that read back as the same number.
+            // "{}" prints the fewest digits that are read back as the same number.
             fmt::format_to(std::back_inserter(text), "{}{}", pose.matrix()(i / 4, i % 4),
                            i == 11 ? '\n' : ' ');
         }

@@ -37,7 +37,7 @@ std::vector<double> numbers(std::string_view line, const Lines& lines) {
     std::string hint = "expected 12 (KITTI, 3x4 row by row) or 8 (TUM: t x y z qx qy qz qw)";
     if (columns == 16) hint += "; 16 look like a 4x4 matrix: keep the first 12";
     if (columns == 7) hint += "; 7 look like TUM without its stamp: put one first";
-    if (columns == 13) hint += "; 13 look like KITTI behind a stamp or an index: drop the first";
+    if (columns == 13) hint += "; 13 look like KITTI after a stamp or an index: remove the first";
     lines.fail(fmt::format("{} columns; {}", columns, hint));
 }
 
@@ -81,7 +81,7 @@ PoseFile read_rows(Lines& lines) {
     return file;
 }
 
-/// A comment may hold commas in a file of blanks, so the first line of data decides.
+/// Decides by the first line of data, because comments may contain commas in any file.
 bool is_csv(const std::string& text, const std::filesystem::path& file) {
     Lines lines(text, file);
     bool comment_has_comma = false;
@@ -143,7 +143,7 @@ void refuse_other_kind(std::string_view text, const std::filesystem::path& file)
                                                 : ""));
 }
 
-/// As spreadsheets write where the comma is decimal. One row tells.
+/// Throws if the first row has decimal commas, as some spreadsheets write them.
 void refuse_decimal_commas(std::string_view text, const std::filesystem::path& file) {
     Lines lines(text, file);
     while (lines.next() && is_comment(trim(lines.line()))) {

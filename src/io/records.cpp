@@ -32,7 +32,7 @@ bool parse_integer(std::string_view token, T& value) {
     const char* const end = token.data() + token.size();
     const auto result = std::from_chars(token.data(), end, value);
     if (result.ec == std::errc{} && result.ptr == end) return true;
-    // Some writers print every column as a float; "3.0" is still the integer 3.
+    // Some programs write every column as a float; "3.0" is accepted as the integer 3.
     const auto real = parse_real(token);
     if (!real || *real != std::trunc(*real)) return false;
     const double limit = std::ldexp(1.0, std::numeric_limits<T>::digits);
@@ -127,7 +127,8 @@ bool next_filled_line(Lines& lines) {
     return false;
 }
 
-/// Copies `bytes` of each point between two strided arrays; the usual sizes are worth a fixed one.
+/// Copies `bytes` of each point between two strided arrays. Usual sizes have a version with a fixed
+/// size, which is faster.
 void copy_strided(const std::byte* from, std::size_t from_stride, std::byte* to,
                   std::size_t to_stride, std::size_t bytes, std::size_t points) {
     const auto copy = [&](auto size) {
@@ -168,7 +169,8 @@ void read_ascii(Cloud& cloud, const std::vector<Column>& columns, std::uint64_t 
                 Lines& lines) {
     const auto expected = product(points, values_per_line(columns));
     const std::size_t left = lines.text().size() - lines.offset();
-    // A value takes at least a digit and a separator, so the text bounds what can be allocated.
+    // A value takes at least one digit and a separator, so the length of the text limits the
+    // memory.
     if (expected && *expected <= (left + 1) / 2) cloud.data.reserve(points * cloud.point_bytes);
     for (std::uint64_t point = 0; point < points; ++point) {
         if (!next_filled_line(lines)) {
@@ -184,7 +186,8 @@ void read_ascii(Cloud& cloud, const std::vector<Column>& columns, std::uint64_t 
 void take_rows(Cloud& cloud, const std::vector<Column>& columns, std::size_t points,
                std::vector<std::byte>&& bytes, std::size_t offset) {
     const std::size_t stride = record_bytes(columns);
-    if (stride == cloud.point_bytes) {  // no padding: the file's bytes are the cloud's
+    // Without padding, the bytes of the file are those of the cloud.
+    if (stride == cloud.point_bytes) {
         bytes.resize(offset + points * stride);
         bytes.erase(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(offset));
         cloud.data = std::move(bytes);
@@ -193,7 +196,7 @@ void take_rows(Cloud& cloud, const std::vector<Column>& columns, std::size_t poi
     if (points == 0) return;
     cloud.data.resize(points * cloud.point_bytes);
     std::size_t from = offset, to = 0;
-    for (std::size_t c = 0; c < columns.size();) {  // neighbours without a gap are copied together
+    for (std::size_t c = 0; c < columns.size();) {  // adjacent columns are copied together
         std::size_t run = 0;
         for (; c < columns.size() && !columns[c].padding; ++c) run += column_bytes(columns[c]);
         if (run > 0)

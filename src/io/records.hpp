@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// From a file's records (text, rows or columns of bytes) to a Cloud.
+/// Converts the records of a file (text, rows or columns of bytes) to a Cloud.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace dynamic_filter::io {
 
-/// One column of a file's record. Padding is in the file but not in the Cloud.
+/// One column of the record of a file. Padding is in the file, but not in the Cloud.
 struct Column {
     std::string name;
     FieldType type = FieldType::f32;
@@ -23,26 +23,27 @@ struct Column {
 };
 
 std::size_t column_bytes(const Column& column);
-std::size_t record_bytes(const std::vector<Column>& columns);  ///< as in the file
+std::size_t record_bytes(const std::vector<Column>& columns);  ///< as in the file, with padding
 
-/// A cloud with the columns' fields and no points. Throws InputError if x, y, z are missing, not
-/// float, or if two fields share a name.
+/// Makes a cloud without points that has the fields of the columns. Throws InputError if x, y or z
+/// is missing or not float, or if two fields have the same name.
 Cloud empty_cloud(const std::vector<Column>& columns, const std::filesystem::path& file);
 
-/// One point a line, blank lines skipped. Throws InputError (line) for junk or a wrong number of
-/// values, and for fewer than `points` lines.
+/// Reads one point per line; blank lines are skipped. Throws InputError with the line for text that
+/// is no number or a wrong number of values, and for fewer than `points` lines.
 void read_ascii(Cloud& cloud, const std::vector<Column>& columns, std::uint64_t points,
                 Lines& lines);
 
-/// Whole records from `offset`; `bytes` holds them all.
+/// Reads whole records from `offset`; `bytes` must contain all of them.
 void take_rows(Cloud& cloud, const std::vector<Column>& columns, std::size_t points,
                std::vector<std::byte>&& bytes, std::size_t offset);
 
-/// All points' first column, then all points' second, and so on; `block` holds them all.
+/// Reads the first column of all points, then the second column of all points, and so on; `block`
+/// must contain all of them.
 void take_columns(Cloud& cloud, const std::vector<Column>& columns, std::size_t points,
                   std::span<const std::byte> block);
 
-/// Turns the values of big-endian records round.
+/// Reverses the byte order of all values, for big-endian files.
 void swap_bytes(Cloud& cloud);
 
 }  // namespace dynamic_filter::io

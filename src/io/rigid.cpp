@@ -12,12 +12,12 @@ namespace {
 constexpr double orthogonal_tolerance = 1e-3;
 constexpr double quaternion_tolerance = 1e-2;
 
-/// Largest deviation of R^T R from identity.
+/// Largest deviation of R^T R from the identity.
 double skewness(const Eigen::Matrix3d& R) {
     return (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
 }
 
-/// The same 12 numbers read column by column.
+/// True if the 12 numbers are a rigid motion when they are read column by column.
 bool is_column_major(const Rows34& rows) {
     const Eigen::Map<const Eigen::Matrix3d> columns(rows.data());
     return skewness(columns) < orthogonal_tolerance;
@@ -41,7 +41,7 @@ bool is_scaled(const Eigen::Matrix3d& R, double& scale) {
                            skewness(R), orthogonal_tolerance, cause));
 }
 
-/// The nearest rotation, by Newton's iteration; an exact rotation stays as it is.
+/// The nearest rotation, by Newton's iteration. An exact rotation is not changed.
 Eigen::Matrix3d made_exact(Eigen::Matrix3d R) {
     for (int step = 0; step < 3; ++step) {
         R = R * (1.5 * Eigen::Matrix3d::Identity() - 0.5 * R.transpose() * R);

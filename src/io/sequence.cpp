@@ -18,7 +18,7 @@
 namespace dynamic_filter::io {
 namespace {
 
-constexpr double assumed_period = 0.1;  // [s] what nearly every LiDAR is set to
+constexpr double assumed_period = 0.1;  // [s] the usual setting of LiDARs
 
 void check_selection(const OpenOptions& options) {
     if (options.stride == 0) throw ConfigError("--stride is 0; expected 1 or more");
@@ -48,8 +48,8 @@ std::vector<double> times_of(const Layout& layout) {
     return times;
 }
 
-/// KITTI's rows are poses of the left camera if a calibration comes with them; files with stamps
-/// (TUM, CSV) come from elsewhere and hold the LiDAR's.
+/// Converts KITTI rows, which are poses of the left camera if there is a calibration. Files with
+/// stamps (TUM, CSV) come from other sources, and contain poses of the LiDAR.
 void from_camera_poses(Sequence& sequence, const std::filesystem::path& calib) {
     const Pose Tr = read_calib_tr(calib);
     for (Pose& pose : sequence.T_world_sensor) pose = Tr.inverse() * pose * Tr;
@@ -57,7 +57,7 @@ void from_camera_poses(Sequence& sequence, const std::filesystem::path& calib) {
                              calib.string());
 }
 
-/// Fills the poses, and returns the stamps as far as the recording has them.
+/// Assigns the poses. Returns the stamps, if the recording has any.
 std::vector<double> assign_poses(Sequence& sequence, const Layout& layout) {
     sequence.pose_source = layout.poses.value_or(layout.pose_source);
     if (!layout.T_world_sensor.empty()) {
@@ -106,7 +106,7 @@ void keep(std::vector<T>& values, std::size_t first, std::size_t last, std::size
     std::vector<T> kept;
     for (std::size_t i = first; i < values.size() && i <= last; i += stride) {
         kept.push_back(values[i]);
-        if (stride > values.size()) break;  // i + stride may overflow
+        if (stride > values.size()) break;  // because i + stride may overflow
     }
     values = std::move(kept);
 }
@@ -155,7 +155,7 @@ void apply_fixes(Sequence& sequence, const OpenOptions& options) {
     std::vector<double>& of_poses = sequence.pose_stamps;
     const auto span = [](const std::vector<double>& s) { return s.back() - s.front(); };
     const double unit = options.time_unit;
-    // Matched by order, they may be in seconds although the scans' are not.
+    // Stamps of poses matched by order may be in seconds although those of the scans are not.
     if (!of_poses.empty() && std::abs(span(of_poses) - span(sequence.stamps)) <
                                  std::abs(span(of_poses) - unit * span(sequence.stamps))) {
         for (double& stamp : of_poses) stamp *= unit;
@@ -165,7 +165,8 @@ void apply_fixes(Sequence& sequence, const OpenOptions& options) {
     }
 }
 
-/// Without poses, nobody knows where in the world the sensor was.
+/// Throws if points are in the world frame but there are no poses, because the position of the
+/// sensor is then not known.
 void refuse_world_frame(const Sequence& sequence, const std::filesystem::path& data) {
     if (!sequence.points_in_world) return;
     throw InputError(data, "",
@@ -213,21 +214,23 @@ Sequence open_sequence(const std::filesystem::path& data, const OpenOptions& opt
     return sequence;
 }
 
-// Poses between the scans are of no use without times within them.
+// Poses between the scans are needed only if the scans have times of points.
 void prepare_deskew(Sequence& sequence) {
     if (sequence.trajectory.stamps.empty() && sequence.measured_stamps) {
         sequence.trajectory = {sequence.stamps, sequence.T_world_sensor};
         put_in_order(sequence.trajectory);
     }
     if (sequence.trajectory.stamps.size() < 2) {
-        sequence.notes.push_back("no poses over time: the scans' motion is not undone");
+        sequence.notes.push_back(
+            "no poses over time: the sensor's motion during each scan is not undone; give poses "
+            "with stamps");
         return;
     }
     const Cloud first = read_scan(sequence, 0);
     if (!sequence.sweep && point_times(first, sequence.stamps.front()).empty()) {
         sequence.notes.push_back(
             "the points have no times of their own (no field t, time, timestamp or offset_time "
-            "that varies): the scans' motion is not undone");
+            "that varies): the sensor's motion during each scan is not undone");
         return;
     }
     sequence.deskew = true;

@@ -20,7 +20,8 @@ bool Lines::next() {
     const std::size_t end = text_.find('\n', offset_);
     line_ = text_.substr(offset_, end == std::string_view::npos ? end : end - offset_);
     offset_ += line_.size() + (end == std::string_view::npos ? 0 : 1);
-    if (number_ == 0 && line_.starts_with("\xEF\xBB\xBF")) line_.remove_prefix(3);  // UTF-8 mark
+    // Byte order mark of UTF-8.
+    if (number_ == 0 && line_.starts_with("\xEF\xBB\xBF")) line_.remove_prefix(3);
     if (line_.ends_with('\r')) line_.remove_suffix(1);
     ++number_;
     return true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Text as untrusted input: lines with their numbers, tokens, numbers that ignore the locale.
+/// Reads untrusted text: lines with their numbers, tokens, and numbers independent of the locale.
 #pragma once
 
 #include <cstddef>
@@ -13,19 +13,21 @@
 
 namespace dynamic_filter::io {
 
-/// Walks the lines of a text (LF or CRLF) and knows where it is, for messages.
+/// Iterates over the lines of a text (LF or CRLF), and knows the position for messages.
 class Lines {
 public:
     Lines(std::string_view text, std::filesystem::path file)
         : text_(text), file_(std::move(file)) {}
 
-    bool next();  ///< to the next line; false at the end of the text
+    bool next();  ///< goes to the next line; false at the end of the text
     [[nodiscard]] std::string_view line() const { return line_; }
     [[nodiscard]] std::size_t number() const { return number_; }  ///< from 1
-    [[nodiscard]] std::size_t offset() const { return offset_; }  ///< [bytes] behind the line
+    /// [bytes] position after the line.
+    [[nodiscard]] std::size_t offset() const { return offset_; }
     [[nodiscard]] std::string_view text() const { return text_; }
     [[nodiscard]] const std::filesystem::path& file() const { return file_; }
-    [[noreturn]] void fail(const std::string& what) const;  ///< InputError naming the line
+    /// Throws InputError that names the line.
+    [[noreturn]] void fail(const std::string& what) const;
 
 private:
     std::string_view text_, line_;
@@ -33,22 +35,24 @@ private:
     std::size_t number_ = 0, offset_ = 0;
 };
 
-/// Cuts the first token off `rest`; empty when there is none left.
+/// Removes the first token from `rest` and returns it; empty if there is none left.
 std::string_view take_token(std::string_view& rest);
 std::vector<std::string_view> split_tokens(std::string_view line);
-std::vector<std::string_view> split_at(std::string_view line, char separator);  ///< trimmed
+/// Parts without blanks at their ends.
+std::vector<std::string_view> split_at(std::string_view line, char separator);
 std::string_view trim(std::string_view text);
 std::string to_lower(std::string_view text);
 
-/// The whole token as a number: decimal point whatever the locale; nan and inf count as numbers.
+/// Reads the whole token as a number. The decimal separator is always a point; nan and inf are
+/// numbers.
 std::optional<double> parse_real(std::string_view token);
-/// A count as headers write it: digits only, no sign, no leading zero.
+/// Reads a count as in headers: only digits, no sign, no leading zero.
 std::optional<std::uint64_t> parse_count(std::string_view token);
 
-/// Foreign text made fit for a message: quoted, clipped, printable.
+/// Makes untrusted text safe for a message: quoted, shortened, printable.
 std::string quote(std::string_view text);
 
-/// a * b, or nothing if that overflows.
+/// Returns a * b, or nothing if that overflows.
 std::optional<std::uint64_t> product(std::uint64_t a, std::uint64_t b);
 
 }  // namespace dynamic_filter::io

@@ -38,11 +38,11 @@ std::vector<Column> numbered(std::size_t count, const Lines& lines) {
 
 struct Body {
     std::vector<Column> columns;
-    std::size_t offset = 0;    ///< [bytes] of the first point's line
-    std::uint64_t points = 0;  ///< lines that are left
+    std::size_t offset = 0;    ///< [bytes] offset of the line of the first point
+    std::uint64_t points = 0;  ///< number of lines with points
 };
 
-/// Walks the text once: the names of the columns, and how many points follow.
+/// Reads the text once to find the names of the columns and the number of points.
 Body survey(std::string_view text, const std::filesystem::path& file) {
     Body body;
     Lines lines(text, file);
@@ -62,7 +62,7 @@ Body survey(std::string_view text, const std::filesystem::path& file) {
     return body;
 }
 
-/// A comma beside semicolons is no separator; 1,5 would be read as two numbers.
+/// Throws if lines contain commas and semicolons: 1,5 would be read as two numbers.
 void refuse_decimal_commas(std::string_view text, const std::filesystem::path& file) {
     for (Lines lines(text, file); lines.next();) {
         const std::string_view line = trim(lines.line());
@@ -72,7 +72,7 @@ void refuse_decimal_commas(std::string_view text, const std::filesystem::path& f
     }
 }
 
-/// Shortest text that reads back as the same number.
+/// The shortest text that is read back as the same number.
 template <class T>
 void append_number(std::string& text, T value) {
     if constexpr (sizeof(T) == 1) {

@@ -5,8 +5,7 @@
 
 namespace dynamic_filter::io {
 
-/// The field that says when each point was measured, under any of its usual names; nullptr if there
-/// is none.
+/// The field with the time of each point, under any of its usual names; nullptr if there is none.
 const Field* time_field(const Cloud& cloud);
 
 }  // namespace dynamic_filter::io

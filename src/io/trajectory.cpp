@@ -11,7 +11,7 @@
 namespace dynamic_filter::io {
 namespace {
 
-/// share 0: a, 1: b; beyond them the motion goes on.
+/// Interpolates: share 0 gives a, 1 gives b; values outside extrapolate.
 Pose between(const Pose& a, const Pose& b, double share) {
     const Eigen::Quaterniond from(a.linear()), to(b.linear());
     Pose pose = Pose::Identity();
@@ -36,8 +36,7 @@ Span span_of(const std::vector<double>& values) {
     return span;
 }
 
-/// The largest unit [s] in which the scan takes no more than a second; a scan takes a millisecond
-/// at least.
+/// The largest unit [s] in which the scan takes at most 1 s. A scan takes at least 1 ms.
 std::optional<double> unit_of(double duration) {
     for (const double unit : {1.0, 1e-3, 1e-6, 1e-9}) {
         const double seconds = duration * unit;
@@ -95,7 +94,7 @@ std::vector<float> point_times(const Cloud& cloud, double stamp) {
     if (!(span.most > span.least)) return {};
     const auto unit = unit_of(span.most - span.least);
     if (!unit) return {};
-    // Offsets are small; what is not small is the time itself, if it is that of the scan.
+    // Offsets are small; large values are absolute times, if they fit the stamp of the scan.
     const bool absolute = std::abs(span.least * *unit) > 10.0;
     if (absolute && std::abs(span.least * *unit - stamp) > 10.0) return {};
     std::vector<float> times(raw.size());
@@ -108,7 +107,7 @@ std::vector<float> point_times(const Cloud& cloud, double stamp) {
 void undo_motion(Points& points, const std::vector<float>& times, double stamp,
                  const Trajectory& T_world_sensor) {
     constexpr double kBeyond = 0.2, kGap = 1.0;  // [s]
-    constexpr float kStep = 2e-5F;               // [s] points so close in time share a pose
+    constexpr float kStep = 2e-5F;               // [s] points within this time share a pose
     const auto at_stamp = pose_at(T_world_sensor, stamp, kGap, kBeyond);
     if (!at_stamp) return;
     float of = std::numeric_limits<float>::quiet_NaN();

@@ -12,16 +12,16 @@
 namespace dynamic_filter {
 namespace {
 
-constexpr float kCell = 0.5F;             // [m] of the raster
-constexpr int kHalf = 120;                // cells from its middle to its border
-constexpr float kTall = 0.5F;             // [m] what stands upright
-constexpr double kTurnStep = 0.0175;      // [rad] a degree
+constexpr float kCell = 0.5F;             // [m] cell size of the raster
+constexpr int kHalf = 120;                // cells from the center of the raster to its border
+constexpr float kTall = 0.5F;             // [m] height of a column that counts as upright
+constexpr double kTurnStep = 0.0175;      // [rad] one degree
 constexpr std::size_t kMostPoints = 500;  // of the scan
 constexpr std::size_t kFewestPoints = 30;
 
 using Flat = std::vector<Eigen::Vector2f>;
 
-/// One place for each column of points that is tall, as seen from above.
+/// One place, seen from above, for each column of points that is tall enough.
 Flat upright_columns(const Points& points) {
     struct Column {
         float low, high;
@@ -29,7 +29,8 @@ Flat upright_columns(const Points& points) {
         float count = 0.0F;
     };
     tsl::robin_map<VoxelKey, std::size_t, VoxelHash> numbers;
-    std::vector<Column> columns;  // in the order of the points: the hash decides nothing
+    // In the order of the points, so that results do not depend on the hash.
+    std::vector<Column> columns;
     for (const Point& p : points) {
         const auto cell = cell_of({p.x(), p.y(), 0.0F}, 1.0F / kCell);
         if (!cell) continue;
@@ -48,7 +49,7 @@ Flat upright_columns(const Points& points) {
     return upright;
 }
 
-/// Two where something stands, one beside it.
+/// Raster of upright structures: 2 in a cell with a structure, 1 in the cells beside it.
 class Raster {
 public:
     explicit Raster(const Flat& places) {
@@ -127,7 +128,8 @@ std::vector<Pose> search_displacements(const Points& map, const Points& scan,
     const int cells = static_cast<int>(std::ceil(window.distance / static_cast<double>(kCell)));
     const int turns = static_cast<int>(std::ceil(window.turn / kTurnStep));
     std::vector<Candidate> found = correlate(Raster(there), here, cells, turns);
-    const auto least = [](const Candidate& c) {  // of equal ones, the smallest motion
+    // Of equal candidates, the smallest motion is first.
+    const auto least = [](const Candidate& c) {
         return std::tuple(-c.score, c.x * c.x + c.y * c.y + c.turn * c.turn, c.x, c.y, c.turn);
     };
     const std::size_t looked_at = std::min<std::size_t>(found.size(), 2000);

@@ -7,7 +7,8 @@
 namespace dynamic_filter {
 namespace {
 
-constexpr double kTiny = 1e-4;  // [rad] below it, the series ends sooner than digits cancel
+// [rad] below this angle, a short series is more precise than the formula.
+constexpr double kTiny = 1e-4;
 
 Eigen::Matrix3d cross(const Eigen::Vector3d& v) {
     Eigen::Matrix3d m;
@@ -15,7 +16,7 @@ Eigen::Matrix3d cross(const Eigen::Vector3d& v) {
     return m;
 }
 
-/// How the translation bends while the frame turns.
+/// Left Jacobian of SO(3): the effect of the rotation on the translation during the motion.
 Eigen::Matrix3d left_jacobian(const Eigen::Vector3d& rotation) {
     const double angle = rotation.norm();
     const Eigen::Matrix3d w = cross(rotation);
@@ -54,7 +55,7 @@ Points moved(const Points& points, const Pose& T_to_from) {
 }
 
 Points undo_motion(const Points& points, std::span<const float> times, const Twist& velocity) {
-    constexpr float kStep = 1e-4F;  // [s] points so close in time share a pose
+    constexpr float kStep = 1e-4F;  // [s] points within this time share a pose
     Points undone(points.size());
     float of = 0.0F;
     Eigen::Isometry3f T_stamp_then = Eigen::Isometry3f::Identity();

@@ -16,24 +16,25 @@
 namespace dynamic_filter {
 namespace {
 
-constexpr double kLeastShift = 0.01;          // [m] by which any expectation may be off
-constexpr double kLeastTurn = 0.002;          // [rad]
-constexpr double kFastestTurn = 1.5;          // [rad/s] of a sensor whose motion is not known
-constexpr double kNarrow = 0.2, kWide = 2.0;  // [m] reach of the registration
-constexpr std::size_t kCandidates = 6;        // of a search
+constexpr double kLeastShift = 0.01;  // [m] smallest uncertainty of the expected position
+constexpr double kLeastTurn = 0.002;  // [rad] smallest uncertainty of the expected rotation
+constexpr double kFastestTurn = 1.5;  // [rad/s] limit for a sensor whose motion is not known
+constexpr double kNarrow = 0.2, kWide = 2.0;  // [m] initial reach of the registration
+constexpr std::size_t kCandidates = 6;        // number of poses that a wide search tries
 constexpr SearchWindow kSmallest{2.0, 0.1}, kLargest{20.0, 0.6};
-constexpr double kNearly = 0.95;           // as many inliers
-constexpr double kYoung = 0.75;            // of lost_below: a map of one scan has many holes
-constexpr double kHabit = 0.2;             // weight of a scan in the usual share
-constexpr int kMostBeginnings = 10;        // with a first scan whose motion was not known
-constexpr double kAgreed = 0.003;          // [m], [rad]
-constexpr int kGiveUp = 10;                // lost scans in a row: a new map begins
-constexpr double kMapRadius = 1.5;         // in ranges of the sensor
-constexpr double kForgetEvery = 20.0;      // [m]
-constexpr double kFarFromOrigin = 1000.0;  // [m] where floats are still fine enough
+constexpr double kNearly = 0.95;  // share of inliers that counts as equally good
+constexpr double kYoung = 0.75;  // factor of lost_below for a map of one scan, which has many holes
+constexpr double kHabit = 0.2;   // weight of a scan in the mean share of points on the map
+constexpr int kMostBeginnings = 10;    // iterations for the first scan, whose motion was not known
+constexpr double kAgreed = 0.003;      // [m], [rad] change at which the iterations stop
+constexpr int kGiveUp = 10;            // number of lost scans in a row after which a new map begins
+constexpr double kMapRadius = 1.5;     // radius of the map as a multiple of the range of the sensor
+constexpr double kForgetEvery = 20.0;  // [m] motion after which far parts of the map are removed
+// [m] distance from the origin up to which floats are precise enough.
+constexpr double kFarFromOrigin = 1000.0;
 
-/// In the direction in which the points say least about the place, do they say less than the motion
-/// before?
+/// True if, in the least determined direction, the points give less information than the prior,
+/// which is an extrapolation of the previous motion.
 bool is_weak(const Registration& found, const PosePrior& prior) {
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(
         found.information.topLeftCorner<3, 3>());
@@ -42,12 +43,12 @@ bool is_weak(const Registration& found, const PosePrior& prior) {
 
 }  // namespace
 
-/// One step: where the sensor is expected, and what may be off about it.
+/// The data of one scan: the expected pose and its uncertainty.
 struct Step {
     PosePrior prior;
-    double dt = 0.0;     // [s] since the scan before
-    double shift = 0.0;  // [m] that the expected place may be off
-    ScanSample sample;   // for registration
+    double dt = 0.0;     // [s] since the previous scan
+    double shift = 0.0;  // [m] uncertainty of the expected position
+    ScanSample sample;   // the points for the registration
 };
 
 struct Odometry::Impl {
@@ -67,21 +68,23 @@ struct Odometry::Impl {
 
     OdometryConfig config;
     SurfaceMap map;
-    Eigen::Vector3d origin = Eigen::Vector3d::Zero();  // of the map frame, in the world
+    // Origin of the map frame, in the world frame.
+    Eigen::Vector3d origin = Eigen::Vector3d::Zero();
     Pose T_map_last = Pose::Identity();
     double stamp = 0.0;
     Twist velocity = Twist::Zero();
     bool velocity_known = false;
     double usual_inliers = 0.0;
     int lost_in_a_row = 0;
-    ScanSample newest;  // for the map
-    ScanSample first;   // of a map, until the velocity is known: its motion was not undone
+    ScanSample newest;  // points of the newest scan, for the map
+    // First scan of a map, without motion compensation, until the velocity is known.
+    ScanSample first;
     Pose T_map_first = Pose::Identity();
     Eigen::Vector3d forgot_at = Eigen::Vector3d::Zero();
 };
 
-/// The motion goes on, if the sensor accelerates and turns no harder than the settings say; at the
-/// start it may be as fast as they say.
+/// Extrapolates the previous motion. Its uncertainty follows from the accelerations in the
+/// settings; at the start of a recording, from the speed in the settings.
 Step Odometry::Impl::expect(double dt, const std::optional<Pose>& guess) const {
     Step step;
     step.dt = dt;
@@ -96,7 +99,8 @@ Step Odometry::Impl::expect(double dt, const std::optional<Pose>& guess) const {
     return step;
 }
 
-/// Registers, and once more with the motion during the scan that follows from the result.
+/// Registers the scan. If the times of its points are known, registers it again with the motion
+/// compensation that follows from the result.
 Registration Odometry::Impl::register_from(const Pose& start, const Step& step,
                                            double reach) const {
     const Points at_stamp = step.sample.at_stamp(velocity_of(start, step.dt));
@@ -106,15 +110,16 @@ Registration Odometry::Impl::register_from(const Pose& start, const Step& step,
     return register_points(map, again, found.T_map_sensor, step.prior, kNarrow);
 }
 
-/// The best of the places that look like the map from above, and of `best`.
+/// Returns the best registration: `best`, or one from the poses at which the scan looks like the
+/// map from above.
 Registration Odometry::Impl::search(const Step& step, Registration best) const {
     const SearchWindow window{
         std::clamp(config.speed * step.dt, kSmallest.distance, kLargest.distance),
         std::clamp(kFastestTurn * step.dt, kSmallest.turn, kLargest.turn)};
     const Pose& expected = step.prior.T_map_sensor;
     const Points around = moved(map.places(), expected.inverse());
-    // Patterns of beams look alike in places that lie apart: of those that fit nearly as well, the
-    // one near what is expected is right more often.
+    // Beam patterns look alike in distant places. So among poses that fit nearly equally well, the
+    // one near the expected pose is preferred; it is right more often.
     const auto shift_of = [&](const Registration& r) {
         return (expected.inverse() * r.T_map_sensor).translation().norm();
     };
@@ -133,8 +138,9 @@ Registration Odometry::Impl::search(const Step& step, Registration best) const {
     return best;
 }
 
-/// The first scan moved as the second did: the map of it is made anew, its motion undone, until the
-/// two agree on the motion.
+/// Assumes that the motion during the first scan was the same as during the second one. Makes the
+/// map again from the first scan with this motion compensation, until both scans give the same
+/// motion.
 Registration Odometry::Impl::begin_again(const Step& step, Registration found) {
     for (int i = 0; i < kMostBeginnings; ++i) {
         map = SurfaceMap(config.voxel);
@@ -190,7 +196,7 @@ Odometry::~Odometry() = default;
 
 Tracked Odometry::track(const Points& points, std::span<const float> times, double stamp,
                         const std::optional<Pose>& guess) {
-    constexpr double kShortest = 1e-3;  // [s]
+    constexpr double kShortest = 1e-3;  // [s] shortest time between scans
     Impl& o = *impl_;
     const double dt = std::max(kShortest, stamp - std::exchange(o.stamp, stamp));
     o.newest = sample_for_map(points, times, o.config);

@@ -10,7 +10,7 @@
 namespace dynamic_filter {
 namespace {
 
-/// During scan i; the first moved as the second.
+/// Velocity during scan i. The first scan gets the velocity of the second one.
 Twist velocity_at(std::span<const Scan> scans, std::span<const Pose> T_world_sensor,
                   std::size_t i) {
     const std::size_t to = std::max<std::size_t>(i, 1);

@@ -8,11 +8,12 @@
 namespace dynamic_filter {
 namespace {
 
-constexpr double kSharpest = 0.08;  // [m] to which the reach shrinks
-constexpr double kShrink = 0.6;     // an iteration
+constexpr double kSharpest = 0.08;  // [m] final reach
+constexpr double kShrink = 0.6;     // factor of the reach per iteration
 constexpr int kMostIterations = 20;
 constexpr double kConverged = 1e-4;  // [m], [rad]
-// Neighbouring points err alike, so they tell less than as many independent ones.
+// Errors of neighboring points are similar, so the points carry less information than the same
+// number of independent points.
 constexpr double kIndependent = 0.1;
 
 struct Sums {
@@ -51,7 +52,7 @@ Sums linearise(const SurfaceMap& map, const Points& points, const Pose& T, doubl
 }  // namespace
 
 double blur_on_map(const SurfaceMap& map, const Points& points, const Pose& T_map_sensor) {
-    constexpr double kNowhere = 0.5;  // [m] of points where the map knows no surface
+    constexpr double kNowhere = 0.5;  // [m] value of points where the map has no surface
     if (points.empty()) return kNowhere;
     const Eigen::Isometry3f T = T_map_sensor.cast<float>();
     double sum = 0.0;
@@ -81,7 +82,7 @@ Registration register_points(const SurfaceMap& map, const Points& points, const 
         result.information = sums.H;
         const Twist off = log(prior.T_map_sensor.inverse() * result.T_map_sensor);
         Information H = sums.H + prior.information;
-        H.diagonal().array() += 1e-6;  // where neither knows anything
+        H.diagonal().array() += 1e-6;  // for directions without any information
         const Twist step = H.ldlt().solve(sums.b - prior.information * off);
         result.T_map_sensor = result.T_map_sensor * exp(step);
         if (reach <= kSharpest && step.norm() < kConverged) break;

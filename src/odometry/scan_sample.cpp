@@ -8,10 +8,11 @@
 namespace dynamic_filter {
 namespace {
 
-constexpr std::size_t kLookedAt = 60000;  // points of a scan: of more, every second, third ...
-constexpr double kMapSpacing = 0.4;       // in voxels of the map
+// Largest number of points used; of larger scans, every second, third, ... point is used.
+constexpr std::size_t kLookedAt = 60000;
+constexpr double kMapSpacing = 0.4;  // in voxels of the map
 
-/// The first point in each voxel.
+/// Indices of the first point in each voxel.
 std::vector<std::uint32_t> first_in_voxels(const Points& points, double size) {
     const auto per_metre = static_cast<float>(1.0 / size);
     const auto [keys, of_keys] = keys_of(points, per_metre);
@@ -45,7 +46,7 @@ ScanSample these_of(const ScanSample& sample, const std::vector<std::uint32_t>& 
     });
 }
 
-/// Every second, third ... point of those in range.
+/// Every second, third, ... point of those within the range of the settings.
 ScanSample in_range(const Points& points, std::span<const float> times,
                     const OdometryConfig& config) {
     const auto near = static_cast<float>(config.nearest * config.nearest);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Some of a scan's points, evenly spread over what it saw.
+/// Samples of the points of a scan that cover the scan evenly.
 #pragma once
 
 #include <cstdint>
@@ -12,26 +12,27 @@
 
 namespace dynamic_filter {
 
-/// Points in the order of the scan, as they were measured.
+/// Points in the order of the scan, without motion compensation.
 struct ScanSample {
-    std::vector<std::uint32_t> chosen;  ///< their places in the scan
-    Points points;                      ///< parallel
-    std::vector<float> times;           ///< parallel [s], or empty: all at once
+    std::vector<std::uint32_t> chosen;  ///< indices of the points in the scan
+    Points points;                      ///< parallel to `chosen`
+    std::vector<float> times;           ///< parallel [s]; empty: all points were measured at once
 
-    /// As if all had been measured at the scan's stamp, by a sensor of this velocity.
+    /// The points after motion compensation to the stamp of the scan, for a sensor of this
+    /// velocity.
     [[nodiscard]] Points at_stamp(const Twist& velocity) const {
         return times.empty() ? points : undo_motion(points, times, velocity);
     }
 };
 
-/// For the map: one point in each small voxel within the range of the settings.
+/// Points for the map: one in each small voxel, within the range of the settings.
 ScanSample sample_for_map(const Points& points, std::span<const float> times,
                           const OdometryConfig& config);
 
-/// For registration: of those, one in each larger voxel.
+/// Points for the registration: one of the points for the map in each larger voxel.
 ScanSample sample_for_registration(const ScanSample& of_map, const OdometryConfig& config);
 
-/// Without the points whose label is dynamic; empty labels: all.
+/// The sample without points labelled dynamic; with empty labels, all points.
 ScanSample without_dynamic(const ScanSample& sample, const Labels& labels);
 
 }  // namespace dynamic_filter

@@ -7,13 +7,18 @@
 namespace dynamic_filter {
 namespace {
 
-constexpr float kFewest = 5.0F;       // points of a plane
-constexpr float kMost = 1000.0F;      // points: what was mapped first is drifted least
-constexpr float kSpread = 0.1F;       // of the voxel's size: a plane is spread by more both ways
-constexpr float kNoise = 0.01F;       // [m] least roughness of a surface
-constexpr float kRoughest = 0.5F;     // [m] of a surface, with the uncertainty of its place
-constexpr float kIndependent = 0.1F;  // share of the points: neighbours of one scan err alike
-constexpr float kGrowth = 1.25F;      // a plane is fitted anew when it has so many times the points
+constexpr float kFewest = 5.0F;  // smallest number of points of a plane
+// Largest number of points; older points have drifted less, so newer ones are not added.
+constexpr float kMost = 1000.0F;
+// Of the voxel size: smallest spread of the points in both directions of a plane.
+constexpr float kSpread = 0.1F;
+constexpr float kNoise = 0.01F;  // [m] smallest roughness of a surface
+// [m] largest roughness of a surface, with the uncertainty of its position.
+constexpr float kRoughest = 0.5F;
+// Effective share of the points, because errors of neighboring points are similar.
+constexpr float kIndependent = 0.1F;
+// The plane is fitted again when the number of points has grown by this factor.
+constexpr float kGrowth = 1.25F;
 
 Point corner_of(VoxelKey key, float size) { return unpack(key).cast<float>() * size; }
 
@@ -112,7 +117,7 @@ const Surface* SurfaceMap::at(const Point& place) const {
 
 template <class Keep>
 void SurfaceMap::rebuild(const Cell& by, const Keep& keep) {
-    Cell shift = by;  // in voxels of the level
+    Cell shift = by;  // in voxels of this level
     for (std::size_t l = kLevels; l-- > 0; shift *= 2) {
         Level kept;
         kept.size = levels_[l].size;

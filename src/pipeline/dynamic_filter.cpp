@@ -14,7 +14,7 @@ namespace dynamic_filter {
 
 namespace {
 
-/// The one place that asks which method it is.
+/// The only function that depends on which method is configured.
 std::unique_ptr<FilterMethod> make_method(const Config& config) {
     validate(config);
     if (config.method == Method::scans) return std::make_unique<ScansMethod>(config);
@@ -23,7 +23,7 @@ std::unique_ptr<FilterMethod> make_method(const Config& config) {
 
 }  // namespace
 
-/// A method, and where its map lies in the world.
+/// The method, and the position of its map in the world.
 struct DynamicFilter::Impl {
     explicit Impl(const Config& config)
         : voxel_size(config.map.voxel_size),
@@ -41,7 +41,7 @@ struct DynamicFilter::Impl {
     double voxel_size;
     std::unique_ptr<FilterMethod> method;
     PoseTracker tracker;
-    std::optional<Eigen::Vector3d> origin;  // of the map frame, in the world
+    std::optional<Eigen::Vector3d> origin;  // origin of the map frame, in the world frame
     bool finished = false;
 };
 

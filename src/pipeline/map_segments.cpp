@@ -10,7 +10,7 @@ namespace dynamic_filter {
 
 namespace {
 
-/// Of the map, with what its containers hold in reserve.
+/// Memory of the map per voxel, including the reserve of its containers.
 constexpr std::size_t kBytesPerVoxel = 172;
 
 }  // namespace
@@ -27,7 +27,7 @@ void MapSegments::add(std::size_t first_index) {
     forgot_at_.reset();
 }
 
-/// What is about to be forgotten is not decided, where that is all that would be done.
+/// A map that is removed right after this is not decided, because nobody would see the result.
 std::vector<Verdict> MapSegments::begin(std::size_t first_index) {
     std::vector<Verdict> rest;
     const bool forgets = horizon_ > 0.0;
@@ -44,9 +44,9 @@ std::optional<Verdict> MapSegments::settle_oldest(std::size_t left) {
     return verdict;
 }
 
-/// Not with every scan: to cut the map costs as much as to copy it.
+/// The map is not cut after every scan, because cutting it costs as much as copying it.
 void MapSegments::forget_far(const Pose& T_world_sensor) {
-    constexpr double kShareBetween = 0.25;  // of the horizon
+    constexpr double kShareBetween = 0.25;  // share of the horizon
     const Eigen::Vector3d& here = T_world_sensor.translation();
     if (!forgot_at_) forgot_at_ = here;
     const double horizon = horizon_ > 0.0 ? horizon_ : 1e9;
@@ -60,7 +60,7 @@ std::optional<std::size_t> MapSegments::segment_of(const Scan& scan) const {
     const auto next =
         std::upper_bound(segments_.begin(), segments_.end(), scan.index,
                          [](std::size_t index, const Segment& s) { return index < s.first_index; });
-    if (next == segments_.begin()) return std::nullopt;  // it is forgotten
+    if (next == segments_.begin()) return std::nullopt;  // the map of this scan was removed
     return static_cast<std::size_t>(next - segments_.begin()) - 1;
 }
 

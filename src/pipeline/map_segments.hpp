@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// The maps of one trajectory: a new one begins where it breaks. Single-threaded; its owner holds a
-/// lock. Which scan breaks the trajectory, pose_jump.hpp and scan_queue.hpp tell.
+/// The maps of one trajectory: a new map begins at each break of the trajectory. Single-threaded:
+/// the owner holds a lock. pose_jump.hpp and scan_queue.hpp detect the breaks.
 #pragma once
 
 #include <cstdint>
@@ -20,30 +20,33 @@ public:
     /// Throws ConfigError.
     MapSegments(const Config& config, const OnlineOptions& options);
 
-    /// The map that the next scan goes to.
+    /// The map into which the next scan goes.
     [[nodiscard]] DynamicFilter& newest() { return *segments_.back().filter; }
-    /// Ends the newest map, and begins one with the scan of this index. Returns instant verdicts
-    /// that were still due.
+    /// Ends the newest map, and begins a new one with the scan of this index. Returns the instant
+    /// verdicts that were not returned before.
     std::vector<Verdict> begin(std::size_t first_index);
-    /// Decides the voxels of the newest map; returns instant verdicts that were still due.
+    /// Decides the voxels of the newest map. Returns the instant verdicts that were not returned
+    /// before.
     std::vector<Verdict> finish() { return newest().finish(); }
 
-    /// Keeps a scan of the newest map until it is settled.
+    /// Stores a scan of the newest map until it is settled.
     void keep_unsettled(Scan scan) { unsettled_.push_back(std::move(scan)); }
-    /// The verdict on the oldest scan kept, which is given up, if more than `left` are.
+    /// If more than `left` scans are stored: returns the verdict on the oldest one and removes that
+    /// scan.
     std::optional<Verdict> settle_oldest(std::size_t left);
 
-    /// Cuts the newest map to the horizon around the sensor, if it is time.
+    /// Removes the parts of the newest map beyond the horizon, if the sensor has moved far enough.
     void forget_far(const Pose& T_world_sensor);
 
-    // Of the map that the scan went to; of maps no longer kept all is unknown.
+    // Verdict from the map into which the scan went. All points are unknown if that map was
+    // removed.
     [[nodiscard]] Verdict verdict(const Scan& scan) const;
     [[nodiscard]] Verdict settled(const Scan& scan) const;
     /// See OnlineFilter.
     [[nodiscard]] std::vector<std::uint64_t> places_of(const Scan& scan) const;
     [[nodiscard]] std::vector<VoxelHistory> histories(std::span<const std::uint64_t> places) const;
 
-    // Of all maps kept.
+    // From all maps that are kept.
     [[nodiscard]] std::vector<StaticVoxel> static_map() const;
     [[nodiscard]] StageTimes times() const;
     [[nodiscard]] MapContents contents() const;
@@ -51,18 +54,19 @@ public:
 
 private:
     struct Segment {
-        std::size_t first_index;  ///< Scan::index of the first scan in it
+        std::size_t first_index;  ///< Scan::index of the first scan of the map
         std::unique_ptr<DynamicFilter> filter;
     };
     void add(std::size_t first_index);
     [[nodiscard]] std::optional<std::size_t> segment_of(const Scan& scan) const;
 
     Config config_;
-    double horizon_;    // [m]; 0: none
-    std::size_t most_;  // of what DynamicFilter::size() counts
+    double horizon_;    // [m]; 0: no limit
+    std::size_t most_;  // limit on DynamicFilter::size()
     std::vector<Segment> segments_;
     std::deque<Scan> unsettled_;
-    std::optional<Eigen::Vector3d> forgot_at_;  // where the newest map was cut last
+    // Where the sensor was when the newest map was last cut.
+    std::optional<Eigen::Vector3d> forgot_at_;
 };
 
 }  // namespace dynamic_filter

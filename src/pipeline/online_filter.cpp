@@ -23,7 +23,7 @@ OnlineOptions checked(OnlineOptions options) {
     if (!(options.horizon >= 0.0)) {
         throw ConfigError("OnlineOptions::horizon is not a length; expected 0 (none) or more");
     }
-    constexpr int kMost = 1024;  // oneTBB counts in 16 bits
+    constexpr int kMost = 1024;  // oneTBB stores this number in 16 bits
     if (options.threads < 0 || options.threads > kMost) {
         throw ConfigError("OnlineOptions::threads is " + std::to_string(options.threads) +
                           "; expected 0 (all cores) to " + std::to_string(kMost));
@@ -31,7 +31,7 @@ OnlineOptions checked(OnlineOptions options) {
     return options;
 }
 
-/// Of the maps: their scans have poses that are not to be refined again.
+/// Settings of the maps. Their scans already have poses, which must not be refined again.
 Config with_given_poses(Config config) {
     config.odometry.refine = false;
     return config;
@@ -43,25 +43,26 @@ void answer(QueuedScan& scan, std::optional<Verdict> verdict) {
 
 }  // namespace
 
-/// Two locks: `map_lock` for the maps, that of `stages` for the queue and the counters; who holds
-/// the latter takes no other. Where windows are judged, the front-end judges without `map_lock`: it
-/// touches nothing then that others do.
+/// There are two locks: `map_lock` guards the maps, and the lock of `stages` guards the queue and
+/// the counters. A thread that holds the lock of `stages` takes no other lock. With the method
+/// "submaps", the front-end judges without `map_lock`, because it then uses no data of other
+/// threads.
 struct OnlineFilter::Engine {
     Engine(const Config& config, OnlineOptions options_of_all, OnlineCallbacks call);
 
-    // Called by users.
+    // Functions for users.
     void push(QueuedScan scan);
     void finish();
     [[nodiscard]] Counters count() const;
 
-    // The first thread: judging.
+    // The first thread: it judges scans.
     TwoStages::Job next_job();
     TwoStages::Rest judge_or_tell(QueuedScan& next);
     TwoStages::Rest judge(QueuedScan& next);
     void begin_map_if_broken(const QueuedScan& next);
     void deliver(std::vector<Verdict>& verdicts, std::size_t index, QueuedScan& asked);
 
-    // The second thread: what judging left to do.
+    // The second thread: it does the work that judging left to do.
     void integrate(const std::function<void()>& rest, std::optional<Scan>& unsettled,
                    const Pose& T_world_sensor);
 
@@ -75,22 +76,22 @@ struct OnlineFilter::Engine {
 
     // Guarded by the lock of `stages`.
     ScanQueue queue;
-    Counters counters;  // but for `queued`
+    Counters counters;  // without `queued`
     bool finished = false;
 
     mutable std::mutex map_lock;
     MapSegments maps;
     const bool judges_each_scan;
 
-    std::mutex notice_lock, finish_lock;  // one at a time
+    std::mutex notice_lock, finish_lock;  // so that calls of the same kind never overlap
 
-    // Of the first thread.
+    // Data of the first thread.
     PoseTracker tracker;
     std::uint64_t run = 0;
     std::optional<StampedPose> before_last, last;
     Durations latency;
 
-    TwoStages stages;  // the last member: its threads use all others
+    TwoStages stages;  // must be the last member, because its threads use all others
 };
 
 OnlineFilter::Engine::Engine(const Config& config, OnlineOptions options_of_all,
@@ -128,7 +129,8 @@ void OnlineFilter::Engine::push(QueuedScan scan) {
     }
     for (QueuedScan& d : dropped) {
         answer(d, std::nullopt);
-        tell({NoticeKind::dropped, d.scan.index, "newer scans came while it waited"});
+        tell({NoticeKind::dropped, d.scan.index,
+              "the queue was full: newer scans came while this one waited"});
     }
     if (!refused) return;
     answer(scan, std::nullopt);
@@ -150,7 +152,7 @@ void OnlineFilter::Engine::finish() {
     }
 }
 
-/// Until its verdict is delivered, a scan is queued.
+/// A scan counts as queued until its verdict is delivered.
 Counters OnlineFilter::Engine::count() const {
     const auto hold = stages.lock();
     Counters now = counters;
@@ -217,7 +219,8 @@ TwoStages::Rest OnlineFilter::Engine::judge(QueuedScan& next) {
     return rest;
 }
 
-/// Evidence from before a break would be held against places that are not the same.
+/// After a break, poses do not fit those before it, so the old evidence would be compared with the
+/// wrong places.
 void OnlineFilter::Engine::begin_map_if_broken(const QueuedScan& next) {
     const StampedPose now{next.scan.T_world_sensor, next.scan.stamp};
     const bool restarts = next.run != run;
@@ -230,10 +233,10 @@ void OnlineFilter::Engine::begin_map_if_broken(const QueuedScan& next) {
     before_last = last = std::nullopt;
     Notice notice{restarts ? NoticeKind::restart : NoticeKind::jump, next.scan.index,
                   "stamps went back by more than a second; a new map begins"};
-    if (lost) notice.text = "the odometry lost its way some scans ago; a new map begins";
+    if (lost) notice.text = "the odometry has been lost for some scans; a new map begins";
     if (jump) {
         notice.text = "the pose is " + std::to_string(std::lround(*jump)) +
-                      " m from where the poses before led; a new map begins";
+                      " m from where the previous poses lead; a new map begins";
     }
     tell(notice);
 }
@@ -260,10 +263,10 @@ void OnlineFilter::Engine::integrate(const std::function<void()>& rest,
     maps.forget_far(T_world_sensor);
 }
 
-/// Settles what is left, then `end` decides the newest map or gives it up.
+/// Settles the remaining scans; then `end` decides the newest map, or drops it.
 void OnlineFilter::Engine::end_map(const std::function<std::vector<Verdict>()>& end) {
     settle_until(0);
-    std::vector<Verdict> due;  // of the last window, where submaps observe
+    std::vector<Verdict> due;  // verdicts of the last window, with the method "submaps"
     {
         const std::lock_guard hold(map_lock);
         due = end();

@@ -47,8 +47,9 @@ bool PoseTracker::track(Scan& scan) {
     return true;
 }
 
-/// The odometry tells the motion from scan to scan, the given poses where that leads in the long
-/// run: its frame is moved in the world, as slowly as the way is long.
+/// Combines two sources: the odometry is accurate from scan to scan, and the given poses over long
+/// distances. So the frame of the odometry is slowly moved in the world, in proportion to the
+/// distance driven.
 Tracked PoseTracker::refine(const Scan& scan) {
     const Pose T_world_given = scan.T_world_sensor;
     std::optional<Pose> guess;

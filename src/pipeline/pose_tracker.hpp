@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// The poses of scans that come without, or with poses that are to be refined. Single-threaded.
+/// Estimates poses for scans without poses, and refines given poses. Single-threaded.
 #pragma once
 
 #include <map>
@@ -17,33 +17,36 @@ class PoseTracker {
 public:
     explicit PoseTracker(const OdometryConfig& config) : config_(config) {}
 
-    /// Gives the scan a pose if it has none, or a better one if poses are refined, and undoes the
-    /// sensor's motion during the scan if the times of its points are known. False: the scan has a
-    /// pose, which is taken as it is. Throws Error if only some scans have poses.
+    /// Gives the scan a pose if it has none, or a refined pose if refinement is on; does motion
+    /// compensation if the times of its points are known. Returns false if the scan keeps its given
+    /// pose. Throws Error if only some scans have poses.
     bool track(Scan& scan);
-    /// Tells instant verdicts the poses of their scans; returns the labels of the scan tracked
-    /// last, if its verdict is among them.
+    /// Writes the estimated poses into the instant verdicts on their scans. Returns the labels of
+    /// the scan that was tracked last, if its verdict is among them.
     Labels attach(std::vector<Verdict>& verdicts);
-    /// The labels of the scan tracked last: what moves is no landmark. Empty: nothing is known.
+    /// Adds the scan that was tracked last to the map of the odometry, without points labelled
+    /// dynamic; with empty labels, all points are added.
     void learn(const Labels& labels);
-    /// What comes next has nothing to do with what came before.
+    /// Forgets all scans, because the next one begins a new recording.
     void restart() { odometry_.reset(); }
-    /// Whether the odometry began a new map with the scan tracked last.
+    /// True if the odometry began a new map with the scan that was tracked last.
     [[nodiscard]] bool begins_anew() const;
 
-    [[nodiscard]] const Durations& times() const { return times_; }  ///< [s] of both
+    /// [s] of track() and learn() together.
+    [[nodiscard]] const Durations& times() const { return times_; }
 
 private:
     Tracked refine(const Scan& scan);
 
     OdometryConfig config_;
     std::optional<bool> with_poses_;
-    std::size_t newest_ = 0;                   // Scan::index
-    std::map<std::size_t, Tracked> untold_{};  // by Scan::index: until the scan's verdict comes
+    std::size_t newest_ = 0;  // Scan::index
+    // Keys: Scan::index; kept until the verdict on the scan comes.
+    std::map<std::size_t, Tracked> untold_{};
     std::optional<Odometry> odometry_;
-    Pose T_world_given_ = Pose::Identity();     // of the scan before, as it came
-    Pose T_world_odometry_ = Pose::Identity();  // where the odometry's frame is
-    Pose T_odometry_last_ = Pose::Identity();   // of the scan before
+    Pose T_world_given_ = Pose::Identity();     // given pose of the previous scan
+    Pose T_world_odometry_ = Pose::Identity();  // pose of the odometry frame in the world
+    Pose T_odometry_last_ = Pose::Identity();   // pose of the previous scan in the odometry frame
     Durations times_;
 };
 

@@ -10,7 +10,8 @@ namespace dynamic_filter {
 
 namespace {
 
-constexpr double kRestart = 1.0;  // [s] back in time: no scan is as late, the recording began anew
+// [s] back in time; no scan is that late, so the recording began again.
+constexpr double kRestart = 1.0;
 
 std::string seconds(double value) {
     char text[32];
@@ -61,7 +62,7 @@ std::optional<Notice> ScanQueue::refusal(const Scan& scan) const {
     });
     if (waits || (taken_ && repeats(taken_->run, taken_->stamp, taken_->T_world_sensor))) {
         return because(NoticeKind::duplicate,
-                       "the scan of " + seconds(scan.stamp) + " at this pose has come before");
+                       "the scan of " + seconds(scan.stamp) + " at this pose was pushed before");
     }
     if (taken_ && taken_->run == run_ && scan.stamp < taken_->stamp) {
         return because(NoticeKind::late, "its stamp " + seconds(scan.stamp) +

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Scans that wait to be judged, in the order of their stamps. No locks: its owner holds one.
+/// Scans that wait to be judged, in the order of their stamps. It takes no locks; the owner holds
+/// one.
 #pragma once
 
 #include <chrono>
@@ -16,22 +17,25 @@ namespace dynamic_filter {
 
 struct QueuedScan {
     Scan scan;
-    std::uint64_t run = 0;  ///< of growing stamps; a restart begins the next
+    /// Number of the run: within a run stamps increase, a restart begins the next run.
+    std::uint64_t run = 0;
     std::chrono::steady_clock::time_point since = std::chrono::steady_clock::now();
     std::shared_ptr<std::promise<std::optional<Verdict>>> reply;  ///< may be null
 };
 
 class ScanQueue {
 public:
-    /// Why the scan cannot be taken; empty: it can.
+    /// The reason why the scan cannot be taken; empty if it can.
     [[nodiscard]] std::optional<Notice> refusal(const Scan& scan) const;
 
-    /// Puts a scan that is not refused into its place. Stamps that went back by more than a second
-    /// begin a new run; a little, and the scan goes before those that still wait.
+    /// Inserts a scan that is not refused. If its stamp is more than 1 s older than the newest one,
+    /// it begins a new run. If it is a little older, it goes before the waiting scans with later
+    /// stamps.
     void add(QueuedScan waiting);
 
-    /// The oldest.
-    QueuedScan take();  ///< to judge it: what is older is late from now on
+    /// Returns the scan with the oldest stamp.
+    /// To judge it: scans with older stamps are late from now on.
+    QueuedScan take();
     QueuedScan drop();  ///< to make room
 
     [[nodiscard]] std::size_t size() const { return waiting_.size(); }
@@ -43,13 +47,13 @@ private:
     std::deque<QueuedScan> waiting_;
     std::uint64_t run_ = 0;
     std::optional<bool> with_poses_;
-    std::optional<double> newest_;  // stamp within the run
+    std::optional<double> newest_;  // largest stamp within the run
     struct Taken {
         std::uint64_t run;
         double stamp;
         Pose T_world_sensor;
     };
-    std::optional<Taken> taken_;  // last
+    std::optional<Taken> taken_;  // the scan that was taken last
 };
 
 }  // namespace dynamic_filter

@@ -9,11 +9,11 @@
 namespace dynamic_filter {
 
 TwoStages::TwoStages(Hooks hooks) : hooks_(std::move(hooks)) {
-    Lock hold = lock();  // no job is taken before `own_` is set
+    Lock hold = lock();  // so that no job is taken before `own_` is set
     first_ = std::thread([this] { guarded(&TwoStages::run_first, first_busy_); });
     try {
         second_ = std::thread([this] { guarded(&TwoStages::run_second, second_busy_); });
-    } catch (...) {  // the first must not outlive what it uses
+    } catch (...) {  // joins the first thread, which uses members of this object
         stopping_ = true;
         hold.unlock();
         first_.join();
@@ -47,7 +47,7 @@ void TwoStages::run_second() {
         {
             Lock hold = lock();
             changed_.wait(hold, [&] { return !rests_.empty() || (stopping_ && !first_busy_); });
-            if (rests_.empty()) return;  // what the first has done is finished all the same
+            if (rests_.empty()) return;  // work left by the first thread is finished in any case
             rest = std::move(rests_.front());
             rests_.pop_front();
             second_busy_ = true;
@@ -59,7 +59,7 @@ void TwoStages::run_second() {
     }
 }
 
-/// A stage that fails stops both threads and leaves nothing half done; the next caller gets the
+/// If a stage fails, both threads stop and no work stays half done; the next caller gets the
 /// exception.
 void TwoStages::guarded(void (TwoStages::*loop)(), bool& busy) {
     try {

@@ -13,7 +13,7 @@ namespace {
 /// A square raster around the sensor, seen from above.
 struct Raster {
     float reach, cell;  // [m]
-    int side;           // cells
+    int side;           // cells per side
 
     Raster(float reach_m, float cell_m)
         : reach(reach_m), cell(cell_m), side(static_cast<int>(2.0F * reach_m / cell_m) + 1) {}
@@ -26,7 +26,7 @@ struct Raster {
         return y * static_cast<std::size_t>(side) + x;
     }
     [[nodiscard]] std::size_t cells() const { return static_cast<std::size_t>(side) * side; }
-    /// Calls use(cell) for a cell and those around it.
+    /// Calls use(cell) for a cell and for the cells around it.
     template <class Use>
     void each_around(std::size_t center, const Use& use) const {
         const int x = static_cast<int>(center) % side, y = static_cast<int>(center) / side;
@@ -38,7 +38,7 @@ struct Raster {
     }
 };
 
-/// Height of the ground in each cell: that of the lowest point in it and in those around it.
+/// Height of the ground in each cell: the lowest point in the cell and in the cells around it.
 std::vector<float> ground_of(const Raster& raster, const Points& points,
                              const PointVoxels& voxels) {
     std::vector<float> lowest(raster.cells(), std::numeric_limits<float>::infinity());
@@ -58,7 +58,7 @@ std::vector<float> ground_of(const Raster& raster, const Points& points,
 
 constexpr std::uint32_t kEmpty = kNoCluster - 1, kWaiting = kNoCluster - 2;
 
-/// Numbers what is connected with a cell, unless it is too long.
+/// Numbers connected cells; groups that are too long get no number.
 class Flood {
 public:
     Flood(const Raster& raster, int longest) : raster_(raster), longest_(longest) {}
@@ -108,7 +108,8 @@ Clusters find_clusters(const Points& points, const PointVoxels& voxels,
             continue;
         }
         const std::size_t at = raster.at(points[i]);
-        clusters.of_points[i] = static_cast<std::uint32_t>(at);  // its cell, for now
+        // Temporarily the cell of the point.
+        clusters.of_points[i] = static_cast<std::uint32_t>(at);
         if (cluster_of[at] == kWaiting) continue;
         cluster_of[at] = kWaiting;
         filled.push_back(at);

@@ -34,7 +34,7 @@ std::optional<Surface> plane_of(const Points& points, const Config& config) {
     return Surface{axis->cast<float>(), axis->cast<float>().dot(mean), 0.0F};
 }
 
-/// Fits twice: the second time without what the first plane shows not to belong to it.
+/// Fits a plane twice: the second time without the points that do not lie on the first plane.
 std::optional<Surface> fit(const Points& points, const Config& config) {
     const auto outlier = static_cast<float>(config.outlier);
     const auto flat = static_cast<float>(config.flat);
@@ -66,7 +66,8 @@ std::optional<Surface> contact_surface(std::span<const VoxelVerdict> around, con
     if (!surface) return std::nullopt;
     const float height = surface->height(*moving);
     if (std::abs(height) < static_cast<float>(config.lowest))
-        return std::nullopt;  // part of the surface, judged wrongly
+        // The dynamic voxels lie on the surface itself, so their verdict is wrong.
+        return std::nullopt;
     if (height < 0.0F) *surface = {-surface->normal, -surface->offset, surface->roughness};
     return surface;
 }

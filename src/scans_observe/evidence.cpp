@@ -11,12 +11,12 @@ namespace {
 
 constexpr unsigned kMost = std::numeric_limits<std::uint16_t>::max();
 
-/// Halves all counters until each can take so many more: their proportions are what tells.
+/// Halves all counters until each can grow by `weight`. Only the ratios of counters matter.
 void make_room(Evidence& e, unsigned weight) {
     const unsigned any_bit =
         static_cast<unsigned>(e.n_own | e.n_occ | e.n_free | e.n_switch | e.occupied | e.free |
                               e.hits | e.passes | e.n_flicker | e.moved);
-    if (any_bit + weight <= kMost) return;  // nearly always, and no counter is larger
+    if (any_bit + weight <= kMost) return;  // nearly always; no counter is larger than any_bit
     const auto largest = [&] {
         return std::max({e.n_own, e.n_occ, e.n_free, e.n_switch, e.occupied, e.free, e.hits,
                          e.passes, e.n_flicker, e.moved});
@@ -24,7 +24,8 @@ void make_room(Evidence& e, unsigned weight) {
     while (largest() + weight > kMost) {
         for (std::uint16_t* counter : {&e.n_own, &e.n_occ, &e.n_free, &e.n_switch, &e.occupied,
                                        &e.free, &e.hits, &e.passes, &e.n_flicker, &e.moved}) {
-            *counter = static_cast<std::uint16_t>((*counter + 1) / 2);  // what was seen stays seen
+            // Rounded up, so that a counter above 0 stays above 0.
+            *counter = static_cast<std::uint16_t>((*counter + 1) / 2);
         }
     }
 }
@@ -33,14 +34,15 @@ void add(std::uint16_t& counter, unsigned weight) {
     counter = static_cast<std::uint16_t>(counter + weight);
 }
 
-/// True if all is alike that a score depends on.
+/// True if all values that the score depends on are equal.
 bool have_same_score(const Evidence& a, const Evidence& b) {
     return a.occupied == b.occupied && a.free == b.free && a.hits == b.hits &&
            a.passes == b.passes && a.n_switch == b.n_switch && a.n_flicker == b.n_flicker &&
            is_unknown(a) == is_unknown(b);
 }
 
-/// What tells about things so thin that they lie between the beams of most scans.
+/// Counts hits and passes of beams through the voxel itself. Only these tell about objects that are
+/// so thin that they lie between the beams of most scans.
 void record_pass(Evidence& e, const Observation& o, unsigned weight) {
     const bool passed = is_passed(o.sight);
     if (!passed && !o.hit) return;
@@ -91,7 +93,7 @@ void record_owner(Evidence& evidence, std::uint32_t scan) {
 }
 
 void record_moved(Evidence& evidence, unsigned scans) {
-    const unsigned most = std::min(scans, kMost / 2);  // hours of rest
+    const unsigned most = std::min(scans, kMost / 2);  // a voxel may be occupied for hours
     make_room(evidence, most);
     add(evidence.moved, most);
 }

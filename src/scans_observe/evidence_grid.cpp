@@ -9,21 +9,23 @@ namespace dynamic_filter {
 
 namespace {
 
-/// The voxels of this scan met last. It comes back to them with every ring or column.
+/// Cache of the voxels of this scan that were met last. Each ring or column of the scan comes back
+/// to the same voxels.
 class OwnVoxels {
 public:
     struct Entry {
         VoxelKey key = kNoKey;
         std::uint32_t voxel = kNoVoxel;
     };
-    /// Where the voxel is, if it is here; the caller fills in what is not.
+    /// The entry in which the voxel is, or into which the caller must write it.
     Entry& at(VoxelKey key) { return entries_[VoxelHash{}(key) % entries_.size()]; }
 
 private:
     std::vector<Entry> entries_ = std::vector<Entry>(4096);
 };
 
-/// Points whose voxels are to be found, until there are enough of them to prefetch.
+/// Points whose voxels are still to be found; they are collected until there are enough to
+/// prefetch.
 struct Waiting {
     std::array<std::size_t, 32> points{};
     std::array<VoxelKey, 32> keys{};
@@ -68,7 +70,7 @@ PointVoxels EvidenceGrid::add_points(const Scan& scan) {
     return voxels_of_points;
 }
 
-/// Voxels that were met together are asked together, block by block.
+/// Numbers the new voxels block by block, because later they are accessed block by block, too.
 void EvidenceGrid::number_by_block(std::size_t known, PointVoxels& voxels_of_points) {
     const auto first = static_cast<std::uint32_t>(known);
     const std::vector<std::uint32_t> renumbered = voxels_.group_by_block(first);
@@ -78,7 +80,7 @@ void EvidenceGrid::number_by_block(std::size_t known, PointVoxels& voxels_of_poi
     neighbors_.update(voxels_);
 }
 
-/// Of the voxels from `known` on; their states are alike until now.
+/// Computes the centroids of the voxels from `known` on, which are new.
 void EvidenceGrid::find_centroids(std::size_t known, const MapPoints& in_map,
                                   const PointVoxels& voxels_of_points) {
     std::vector<std::uint32_t> counts(voxels_.size() - known);
@@ -86,7 +88,8 @@ void EvidenceGrid::find_centroids(std::size_t known, const MapPoints& in_map,
         const std::uint32_t voxel = voxels_of_points[i];
         if (voxel == kNoVoxel || voxel < known) continue;
         states_[voxel].centroid +=
-            in_map.points[i] - center(in_map.keys[i], voxel_size_);  // so floats lose nothing
+            // Relative to the center of the voxel, so that floats lose no precision.
+            in_map.points[i] - center(in_map.keys[i], voxel_size_);
         ++counts[voxel - known];
     }
     for (std::size_t v = known; v < voxels_.size(); ++v) {
@@ -97,7 +100,7 @@ void EvidenceGrid::find_centroids(std::size_t known, const MapPoints& in_map,
     }
 }
 
-/// The voxels of those keys, which this scan owns.
+/// Finds the voxels of these keys, and records this scan as their owner.
 void EvidenceGrid::own(std::span<const VoxelKey> keys, std::span<std::uint32_t> voxels) {
     voxels_.insert(keys, voxels);
     states_.resize(voxels_.size(), {.evidence = {.first_owner = scans_}});
@@ -141,7 +144,7 @@ std::vector<std::uint32_t> EvidenceGrid::blocks_from(std::uint32_t first) const 
 }
 
 std::vector<std::uint32_t> EvidenceGrid::within(const Point& center, float radius) const {
-    const float reach = radius + 4.0F * voxel_size_;  // of the middle of a block
+    const float reach = radius + 4.0F * voxel_size_;  // measured from the center of a block
     std::vector<std::uint32_t> found;
     for (std::uint32_t b = 0; b < voxels_.blocks(); ++b) {
         if ((middle_of(b) - center).norm() > reach) continue;

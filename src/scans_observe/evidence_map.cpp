@@ -10,7 +10,7 @@ namespace dynamic_filter {
 
 namespace {
 
-constexpr std::size_t kGrain = 64;  // blocks that a thread takes at a time
+constexpr std::size_t kGrain = 64;  // number of blocks that a thread takes at a time
 
 }  // namespace
 
@@ -26,7 +26,7 @@ PointVoxels EvidenceMap::insert(const Scan& scan, StageTimes& times) {
     }
     known_ = grid_.size();
     PointVoxels voxels_of_points;
-    timed(times, "insertion", [&] {  // of the points, and beside it of the beams
+    timed(times, "insertion", [&] {  // insertion of the points beside that of the beams
         parallel_for(2, 1, [&](std::size_t begin, std::size_t end) {
             if (begin == 0) voxels_of_points = grid_.add_points(scan);
             if (end == 2) is_due_ = observers_.add(scan);
@@ -45,15 +45,16 @@ void EvidenceMap::observe_elsewhere(StageTimes& times) {
     timed(times, "visibility_check_elsewhere", [&] { check_known(grid_.blocks_touched(false)); });
 }
 
-/// Voxels that are asked about, those of a block together.
+/// Voxels that are to be observed, ordered by block.
 struct EvidenceMap::Places {
     std::vector<std::uint32_t> blocks;
-    std::vector<std::size_t> first;  // of each block, the place of its first voxel below; the end
+    // For each block, the index of its first voxel below; then the end.
+    std::vector<std::size_t> first;
     std::vector<std::uint32_t> voxels;
     Points centroids;
 };
 
-/// The voxels of those blocks that are `wanted`.
+/// The voxels of these blocks for which `wanted` is true.
 template <class Wanted>
 EvidenceMap::Places EvidenceMap::places_in(std::vector<std::uint32_t> blocks,
                                            const Wanted& wanted) const {
@@ -70,7 +71,8 @@ EvidenceMap::Places EvidenceMap::places_in(std::vector<std::uint32_t> blocks,
     }
     places.centroids.reserve(places.voxels.size());
     for (std::size_t i = 0; i < places.voxels.size(); ++i) {
-        constexpr std::size_t kAhead = 16;  // voxels of a block may lie far apart in memory
+        // Prefetched, because the voxels of a block may be far apart in memory.
+        constexpr std::size_t kAhead = 16;
         if (i + kAhead < places.voxels.size()) {
             __builtin_prefetch(&grid_[places.voxels[i + kAhead]]);
         }
@@ -79,7 +81,7 @@ EvidenceMap::Places EvidenceMap::places_in(std::vector<std::uint32_t> blocks,
     return places;
 }
 
-/// The newest observer checks the voxels that were known before its scan.
+/// The newest observer observes the voxels that were known before its scan.
 void EvidenceMap::check_known(std::span<const std::uint32_t> blocks) {
     const Observer& newest = observers_.kept().back();
     parallel_for(blocks.size(), kGrain, [&](std::size_t begin, std::size_t end) {
@@ -97,8 +99,8 @@ void EvidenceMap::check_known(std::span<const std::uint32_t> blocks) {
     });
 }
 
-/// The voxels that the newest scan has added ask the observers, oldest first. An observer is asked
-/// about all of them at once: its image is in the cache then.
+/// The earlier observers, oldest first, observe the voxels that the newest scan has added. Each
+/// observer handles all of these voxels at once, so that its image stays in the cache.
 void EvidenceMap::check_new() {
     const Places places =
         places_in(grid_.blocks_from(known_), [&](std::uint32_t v) { return v >= known_; });
@@ -125,13 +127,15 @@ SightMargins EvidenceMap::margins_for(const Observer& observer) const {
     return margins;
 }
 
-/// Which of those blocks may hold a voxel that the observer sees.
+/// Indices of those blocks that may hold a voxel in the view of the observer.
 std::vector<std::size_t> EvidenceMap::blocks_in_sight(std::span<const std::uint32_t> blocks,
                                                       const Observer& observer) const {
     const SightMargins margins = margins_for(observer);
-    const float radius = 3.5F * grid_.voxel_size();  // of the sphere around a block, and a little
+    // Radius of the sphere around a block, and a little more.
+    const float radius = 3.5F * grid_.voxel_size();
     const Point sensor = observer.T_sensor_map.inverse().translation();
-    const float in_reach = margins.farthest + radius + 0.1F;  // and a little: may_see() decides
+    // A little more, because may_see() decides.
+    const float in_reach = margins.farthest + radius + 0.1F;
     Points centers;
     std::vector<std::size_t> near, in_sight;
     for (std::size_t b = 0; b < blocks.size(); ++b) {
@@ -149,7 +153,7 @@ std::vector<std::size_t> EvidenceMap::blocks_in_sight(std::span<const std::uint3
     return in_sight;
 }
 
-/// What the observer sees at each of the places.
+/// The observation of each of the places.
 std::vector<Sight> EvidenceMap::look(const Observer& observer, const Points& centroids) const {
     const SightMargins margins = margins_for(observer);
     Directions seen;
@@ -159,7 +163,7 @@ std::vector<Sight> EvidenceMap::look(const Observer& observer, const Points& cen
     return sights;
 }
 
-/// The same, but most blocks are out of sight.
+/// The same for places in blocks, most of which are out of view.
 std::vector<Sight> EvidenceMap::look(const Observer& observer, const Places& places) const {
     Points centroids;
     std::vector<std::size_t> at;
@@ -177,7 +181,7 @@ std::vector<Sight> EvidenceMap::look(const Observer& observer, const Places& pla
 
 std::vector<std::vector<std::size_t>> EvidenceMap::free_keyframes(
     std::span<const std::uint32_t> voxels) const {
-    std::vector<std::uint32_t> place(grid_.size(), kNoVoxel), blocks;  // place among `voxels`
+    std::vector<std::uint32_t> place(grid_.size(), kNoVoxel), blocks;  // index among `voxels`
     for (std::size_t i = 0; i < voxels.size(); ++i) {
         place[voxels[i]] = static_cast<std::uint32_t>(i);
         blocks.push_back(grid_.voxels().block_of_voxel(voxels[i]));

@@ -32,7 +32,7 @@ std::optional<Surface> contact_of(std::uint32_t voxel, const std::vector<VoxelDe
     return contact_surface(around, config.scans.contact);
 }
 
-/// Points of static voxels that lie above the surface there.
+/// Indices of points of static voxels that lie above the surface of their voxel.
 std::vector<std::size_t> points_above(const LocatedScan& scan,
                                       const std::vector<VoxelDecision>& decided,
                                       const Labels& labels, const ScansConfig::Contact& config) {
@@ -74,7 +74,8 @@ std::vector<std::optional<std::uint32_t>> occupied_since(const std::vector<Voxel
         if (label != Label::dynamic) continue;
         const Evidence& e = grid[v].evidence;
         const bool is_seen = e.last == Sight::occupied && e.run >= longest && !e.seen_empty;
-        const bool has_points = e.last_owner - e.since + 1 >= longest;  // else it is but near one
+        // With fewer scans, the points may only lie near the voxel.
+        const bool has_points = e.last_owner - e.since + 1 >= longest;
         if (is_seen && has_points) since[v] = e.since;
     }
     return since;
@@ -84,7 +85,7 @@ void decide_points(const LocatedScan& scan, const std::vector<VoxelDecision>& de
                    const EvidenceGrid& grid, const Config& config, Verdict& verdict) {
     std::vector<bool> moving(decided.size());  // dynamic voxels with a point in this scan
     for (std::size_t i = 0; i < scan.voxels.size(); ++i) {
-        if (scan.voxels[i] >= decided.size()) continue;  // kNoVoxel, too
+        if (scan.voxels[i] >= decided.size()) continue;  // also for kNoVoxel
         const auto& probability = decided[scan.voxels[i]].probability;
         verdict.labels[i] = label_of(probability, config.map.occupancy_threshold);
         verdict.probability[i] = probability.value_or(0.0F);

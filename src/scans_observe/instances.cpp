@@ -12,7 +12,7 @@ VoxelKey block_of(const EvidenceGrid& grid, std::uint32_t voxel) {
     return pack(grid.voxels().corner(grid.voxels().block_of_voxel(voxel)));
 }
 
-/// True if the voxel was not there, or surely empty, before the track came.
+/// True if the voxel had no points, or was surely empty, before the track came.
 bool came_with(std::uint32_t start, const Evidence& e) { return e.since >= start; }
 
 }  // namespace
@@ -21,7 +21,8 @@ void Instances::update(const Scan& scan, const PointVoxels& voxels, EvidenceGrid
                        Labels& labels) {
     if (last_stamp_ && scan.stamp - *last_stamp_ < config_.every) return;
     const std::uint32_t newest = grid.scans() - 1;
-    const std::uint32_t scans = last_stamp_ ? newest - last_scan_ : 1;  // it stands for so many
+    // Number of scans for which this one stands.
+    const std::uint32_t scans = last_stamp_ ? newest - last_scan_ : 1;
     last_stamp_ = scan.stamp;
     last_scan_ = newest;
     forget(scan.stamp);
@@ -65,8 +66,9 @@ std::vector<Instances::Cluster> Instances::describe(const Clusters& found,
     return clusters;
 }
 
-/// Whether the cluster may be what the track was: about as large, and near where it was or would
-/// be by now. Else a thing would pass its name on to what it touches.
+/// True if the cluster may be the object of the track: its size is similar, and its center is near
+/// the last or the expected center of the track. Without this test, the track of an object would
+/// continue with another object that it touches.
 bool Instances::fits(const Track& track, const Cluster& cluster, double stamp) const {
     const auto elapsed = static_cast<float>(stamp - track.seen.stamp);
     const Point expected = track.seen.center + elapsed * track.velocity;
@@ -74,12 +76,12 @@ bool Instances::fits(const Track& track, const Cluster& cluster, double stamp) c
         std::min((cluster.center - expected).norm(), (cluster.center - track.seen.center).norm());
     const auto now = static_cast<double>(cluster.voxels.size());
     const auto before = static_cast<double>(track.seen.voxels);
-    const double least = config_.fewest;  // small clusters come and go
+    const double least = config_.fewest;  // tolerance for small clusters, whose size varies
     return jump <= static_cast<float>(config_.jump) && now <= config_.growth * before + least &&
            before <= config_.growth * now + least;
 }
 
-/// Gives clusters the track that they overlap most; each track goes to one cluster.
+/// Gives each cluster the track that it overlaps most. Each track is given to at most one cluster.
 void Instances::match(std::vector<Cluster>& clusters, const EvidenceGrid& grid,
                       double stamp) const {
     std::vector<std::tuple<std::size_t, std::size_t, Id>> matches;  // shared voxels, cluster, track
@@ -108,7 +110,7 @@ void Instances::match(std::vector<Cluster>& clusters, const EvidenceGrid& grid,
     }
 }
 
-/// The track goes on with the cluster, which stands for so many scans.
+/// Continues the track of the cluster, or begins a new one. The cluster stands for `scans` scans.
 void Instances::follow(Cluster& cluster, EvidenceGrid& grid, double stamp, std::uint32_t scans) {
     if (cluster.voxels.size() < static_cast<std::size_t>(config_.fewest)) {
         cluster.track.reset();
@@ -146,7 +148,7 @@ void Instances::follow(Cluster& cluster, EvidenceGrid& grid, double stamp, std::
     track.history = {};
 }
 
-/// Tracks that were lost from sight.
+/// Removes the tracks that were not seen for too long.
 void Instances::forget(double stamp) {
     const auto is_lost = [&](double seen) { return stamp - seen > config_.lost; };
     std::erase_if(tracks_, [&](const auto& track) { return is_lost(track.second.seen.stamp); });

@@ -21,14 +21,15 @@ Verdict InstantVerdicts::judge(std::size_t index, const PointVoxels& voxels,
     said_.resize(grid.size());
     std::vector<std::uint32_t> due;
     for (std::size_t i = 0; i < voxels.size(); ++i) {
-        constexpr std::size_t kAhead = 16;  // points whose voxels are prefetched
+        constexpr std::size_t kAhead = 16;  // number of points for which voxels are prefetched
         if (i + kAhead < voxels.size() && voxels[i + kAhead] != kNoVoxel) {
             __builtin_prefetch(&grid[voxels[i + kAhead]]);
             __builtin_prefetch(&said_[voxels[i + kAhead]]);
         }
         const std::uint32_t voxel = voxels[i];
         if (voxel == kNoVoxel || !is_due(said_[voxel], grid[voxel])) continue;
-        said_[voxel] = {grid[voxel].score, Label::static_};  // for now, so that it is listed once
+        // Temporary label, so that the voxel is listed only once.
+        said_[voxel] = {grid[voxel].score, Label::static_};
         due.push_back(voxel);
     }
     const auto occupancy = occupancy_of(grid, due, config_);

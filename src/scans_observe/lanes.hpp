@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-/// Sixteen floats at a time, for the kernels: the compiler splits them where vectors are shorter.
-/// Everything is inlined, so that no level's code is linked into another's.
+/// Vectors of sixteen floats for the kernels; the compiler splits them if the machine has shorter
+/// vectors. All functions are inlined, so that the code of one instruction-set level is not linked
+/// into another one.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +12,8 @@ namespace dynamic_filter::kernel::DYNAMIC_FILTER_LEVEL {
 constexpr int kLanes = 16;
 
 using Floats = float __attribute__((vector_size(4 * kLanes)));
-using Ints = std::int32_t __attribute__((vector_size(4 * kLanes)));  // masks: 0 or -1
+// Masks: 0 is false, -1 is true.
+using Ints = std::int32_t __attribute__((vector_size(4 * kLanes)));
 
 #define DF_INLINE static inline __attribute__((always_inline))
 

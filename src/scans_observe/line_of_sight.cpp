@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
-/// Without the call to the C library that std::floor is on the oldest machines.
+/// Rounds down without a call to the C library, which std::floor needs on old machines.
 int floor_of(float x) {
     const int cut = static_cast<int>(x);
     return cut - (static_cast<float>(cut) > x ? 1 : 0);
@@ -84,11 +84,13 @@ bool may_see(const BeamImage& image, const Beam& center, float radius,
              const SightMargins& margins) {
     const float nearest = center.range - radius;
     const bool in_range = nearest <= margins.farthest && center.range + radius >= margins.nearest;
-    if (!in_range) return false;  // nor if it is not a number
+    if (!in_range) return false;  // also for NaN
     const ImageGrid& grid = image.grid();
-    const float slant = std::abs(center.elevation) + 0.5F;     // [rad] of what lies within `radius`
-    if (nearest < 2.0F * radius || slant > 1.3F) return true;  // the bounds below need it far off
-    // The angle is at least asin of the radius over the range.
+    // [rad] largest elevation within `radius`.
+    const float slant = std::abs(center.elevation) + 0.5F;
+    // The bounds below hold only for distant spheres.
+    if (nearest < 2.0F * radius || slant > 1.3F) return true;
+    // The angular radius is at least asin(radius / range).
     const float reach = 1.1F * radius / center.range + margins.beside / nearest;
     const float rows = reach / grid.elevation_step + 1.1F;
     const float columns = reach / (std::cos(slant) * grid.azimuth_step) + 1.1F;

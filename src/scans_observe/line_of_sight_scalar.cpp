@@ -13,25 +13,26 @@ namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
-/// A beam as seen from the place: angles [rad] to the right and up, both true arcs.
+/// A beam relative to the place: angles [rad] to the right and up, both as true arcs.
 struct Near {
     float right = 0.0F, up = 0.0F, range = 0.0F;
-    float nearness = std::numeric_limits<float>::infinity();  // infinite: there is none
+    float nearness = std::numeric_limits<float>::infinity();  // infinite: there is no beam
     [[nodiscard]] bool exists() const { return nearness < 1e9F; }
 };
 
-/// The nearest beam of each quadrant: [above][right].
+/// The nearest beam of each quadrant; indices: [above][right].
 using Quad = std::array<std::array<Near, 2>, 2>;
 
-/// How far [m] the place at range r and angle 0 is before the line through two returns of a plane
-/// that holds the sensor; negative: behind it.
+/// Distance [m] of the place (range r, angle 0) in front of the line through two returns; negative
+/// if it is behind the line. The returns and the place lie in a plane that contains the sensor.
 float before_line(float angle_a, float range_a, float angle_b, float range_b, float r,
                   float same_spot) {
     const float xa = range_a * (1.0F - 0.5F * angle_a * angle_a), ya = range_a * angle_a;
     const float xb = range_b * (1.0F - 0.5F * angle_b * angle_b), yb = range_b * angle_b;
     const float dx = xb - xa, dy = yb - ya, length = std::sqrt(dx * dx + dy * dy);
     if (length < same_spot) return std::min(range_a, range_b) - r;
-    const float side = (dx * ya - dy * xa) > 0.0F ? -1.0F : 1.0F;  // where the sensor is
+    // The side of the line on which the sensor is.
+    const float side = (dx * ya - dy * xa) > 0.0F ? -1.0F : 1.0F;
     return side * (dx * (0.0F - ya) - dy * (r - xa)) / length;
 }
 
@@ -57,7 +58,7 @@ public:
     }
 
 private:
-    /// Visits the beams around the place. True if one of them ended at it.
+    /// Visits the beams around the place. Returns true if one of them ended at the place.
     bool touched() {
         const float row = (place_.elevation - grid_.elevation_min) / grid_.elevation_step;
         const float rows = reach_up_ / grid_.elevation_step;
@@ -102,7 +103,7 @@ private:
         return beam.exists() && beam.range > place_.range + margins_.beyond;
     }
 
-    /// Judges by the surface between the nearest beams.
+    /// Decides by the surface between the nearest beams.
     [[nodiscard]] Sight between() const {
         int beams = 0;
         bool any_beyond = false, all_behind = true, on_surface = false, passed = false;
@@ -143,8 +144,8 @@ private:
         return sure ? Sight::free : Sight::weak_free;
     }
 
-    /// Above or below the image's border, or a hole in it, only a beam that all but meets the place
-    /// counts.
+    /// Above and below the image, and at holes in it, a beam counts only if it passes very close to
+    /// the place.
     [[nodiscard]] bool passes_close(const Near& beam) const {
         return is_beyond(beam) &&
                std::abs(beam.up) <= std::max(margins_.close_beside * beside_,

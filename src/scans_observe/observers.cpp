@@ -30,7 +30,8 @@ bool Observers::add(const Scan& scan) {
 std::vector<Observers::Asked> Observers::asked_by_new() const {
     std::vector<Asked> asked;
     if (kept_.empty()) return asked;
-    constexpr float kLeast = 0.01F;  // so that an image without beams does not divide by zero
+    // The lower limit avoids a division by zero for an image without beams.
+    constexpr float kLeast = 0.01F;
     const float coverage = std::max(kept_.back().image.coverage(), kLeast);
     const auto one_by_one =
         static_cast<std::size_t>(static_cast<float>(config_.images_asked) / coverage);

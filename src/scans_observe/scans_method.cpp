@@ -8,10 +8,10 @@
 
 namespace dynamic_filter {
 
-/// The scan's points go into voxels; if it is a keyframe, its beams check the voxels around them;
-/// new voxels ask the earlier keyframes; each voxel of the scan is judged by its evidence and its
-/// neighbours'; what moves as one is judged as one. What can wait: the beams check the rest of the
-/// map.
+/// Judges a scan in these steps: its points go into voxels; if it is a keyframe, it observes the
+/// voxels around its points; earlier keyframes observe the new voxels; each voxel of the scan gets
+/// a verdict from its own evidence and that of its neighbors; tracked clusters are judged as a
+/// whole. The observation of the rest of the map can wait.
 Judged ScansMethod::judge(Scan scan) {
     return timed(times_, "judge", [&] {
         const PointVoxels voxels = evidence_.insert(scan, times_);
@@ -49,7 +49,7 @@ void ScansMethod::decide(const LocatedScan& scan, Verdict& verdict) const {
     }
 }
 
-/// A point in it belongs to something that came and is still there.
+/// True if the object in this voxel came, and is still there.
 bool ScansMethod::stays(std::uint32_t voxel, std::size_t index) const {
     const auto since = occupied_since_[voxel];
     return since && index >= evidence_.index_of_owner(*since);
@@ -100,7 +100,7 @@ std::vector<VoxelOccupancy> ScansMethod::static_map() const {
         if (label_of(probability, config_.map.occupancy_threshold) == Label::static_) {
             result.push_back({v, *probability});
         } else if (is_there) {
-            result.push_back({v, 1.0F});  // seen there until the end
+            result.push_back({v, 1.0F});  // seen there until the end of the recording
         }
     }
     return result;
@@ -123,7 +123,7 @@ std::vector<VoxelHistory> ScansMethod::histories(std::span<const std::uint32_t> 
                         .first = evidence_.index_of_owner(e.first_owner),
                         .last = evidence_.index_of_owner(e.last_owner),
                         .free_keyframes = {}};
-        // Of what stays, it would be many keyframes and little news.
+        // Not for voxels that stay in the map: they would need many keyframes and tell little.
         const bool was_removed =
             label_of(histories[i].probability, config_.map.occupancy_threshold) == Label::dynamic;
         if (e.n_free == 0 || !was_removed) continue;

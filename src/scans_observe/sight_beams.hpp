@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// The beams around sixteen places, read from the image. Included by sight_kernel.cpp only, once
-/// for each level.
+/// Reads the beams around sixteen places from the image. Only sight_kernel.cpp includes this file,
+/// once per instruction-set level.
 #pragma once
 
 #include <numbers>
@@ -26,28 +26,30 @@ DF_INLINE int largest(Ints v) {
     for (int k = 1; k < kLanes; ++k) most = v[k] > most ? v[k] : most;
     return most;
 }
-/// On [-pi/2, pi/2]; error below 3e-5.
+/// Cosine on [-pi/2, pi/2]; the error is below 3e-5.
 DF_INLINE Floats cosine(Floats x) {
     const Floats s = x * x;
     return 1.0F + s * (-0.5F + s * (1.0F / 24.0F + s * (-1.0F / 720.0F + s * (1.0F / 40320.0F))));
 }
 
-/// Sixteen places, and how far around each beams matter. Lengths in pixels, if nothing is said.
+/// Sixteen places, and the distance within which beams matter to each. Lengths are in pixels unless
+/// stated otherwise.
 struct Places {
     Ints in_range;
     Floats range, touch;               // [m]
-    Floats column_width;               // [rad] true arc
-    Floats column, row;                // where in the image
-    Floats reach_columns, reach_rows;  // half the window
-    Floats own_columns, own_rows;      // of a beam that is the place's own
-    Floats beside_rows;                // SightMargins::beside
+    Floats column_width;               // [rad] width of a column as a true arc
+    Floats column, row;                // position in the image
+    Floats reach_columns, reach_rows;  // half the size of the window
+    Floats own_columns, own_rows;  // largest distance of a beam that belongs to the place itself
+    Floats beside_rows;            // SightMargins::beside
     Floats per_reach_column, per_reach_row;
 };
 DF_INLINE Places places_at(const SightArgs& args, const float* azimuths, const float* elevations,
                            const float* ranges) {
     const Floats azimuth = load(azimuths), elevation = load(elevations), range = load(ranges);
     Places p;
-    // Comparisons with NaN are false: what is not a number is not judged, nor anything made of it.
+    // Comparisons with NaN are false, so places with NaN are not judged, and no value computed from
+    // NaN is used.
     p.in_range = (range >= args.nearest) & (range <= args.farthest) & (magnitude(azimuth) <= 4.0F) &
                  (magnitude(elevation) <= 2.0F);
     const Floats zero{}, one = zero + 1.0F;
@@ -70,9 +72,9 @@ DF_INLINE Places places_at(const SightArgs& args, const float* azimuths, const f
     return p;
 }
 
-/// Where columns are kept; at or beyond `stored_columns`: not at all.
+/// Column in the stored view; a result of `stored_columns` or more means that it is not stored.
 DF_INLINE Ints stored(const SightArgs& args, Ints column) {
-    // The window may begin a circle before, and the view may begin near its end.
+    // The window may begin one circle earlier, and the view may begin near the end of the circle.
     Ints from_first = column - args.first_column;
     from_first = from_first < 0 ? from_first + args.columns : from_first;
     from_first = from_first < 0 ? from_first + args.columns : from_first;
@@ -81,8 +83,8 @@ DF_INLINE Ints stored(const SightArgs& args, Ints column) {
 
 constexpr int kMargin = 3;  // BeamImage::kMargin
 
-/// The first pixel of each row section that begins at those columns; what lies outside the image or
-/// the view, or is not wanted, is empty.
+/// The first pixel of each section of a row that begins at these columns. A section outside the
+/// image or the view, or one that is not wanted, points to empty pixels.
 DF_INLINE Ints first_pixels(const SightArgs& args, Ints row, Ints column, Ints wanted) {
     const int length = args.stored_columns + 2 * kMargin;
     const Ints place = stored(args, column);
@@ -97,7 +99,7 @@ DF_INLINE Ints pixels_at(const SightArgs& args, Ints first) {
     return pixels;
 }
 
-/// Four pixels in a row for each place: read along the rows, then turned.
+/// Four consecutive pixels for each place; they are read along the rows and then transposed.
 struct Section {
     Ints pixels[4];
 };
@@ -130,7 +132,7 @@ DF_INLINE Section section_at(const SightArgs& args, Ints first) {
 
 /// One beam for each place.
 struct Beams {
-    Ints there;  // and near enough to matter
+    Ints there;  // true if the beam exists and is near enough
     Floats right, up, range;
     Ints touches, blocks;
 };

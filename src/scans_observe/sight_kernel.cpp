@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Compiled several times, each with its own DYNAMIC_FILTER_LEVEL and instruction set. Only builtins
-// and raw pointers here: an inline library function compiled for AVX could be linked into code that
-// runs on older machines.
+// This file is compiled several times, each time with its own DYNAMIC_FILTER_LEVEL and instruction
+// set. It uses only builtins and raw pointers: an inline library function compiled for AVX could be
+// linked into code that runs on older machines.
 #include "sight_kernel.hpp"
 
 #include "lanes.hpp"
@@ -11,17 +11,18 @@ namespace dynamic_filter::kernel::DYNAMIC_FILTER_LEVEL {
 
 namespace {
 
-constexpr float kNone = 1e30F;  // nearness where there is no beam
+constexpr float kNone = 1e30F;  // nearness if there is no beam
 
-/// Beams as seen from the places: pixels to the right and up.
+/// Beams relative to the places: pixels to the right and up.
 struct Near {
     Floats right, up, range, nearness;
 };
 DF_INLINE Ints exists(const Near& beam) { return beam.nearness < kNone; }
 
-/// How the places lie to the lines through two returns, in a plane that holds the sensor.
+/// On which side of the line through two returns the places lie, in a plane that contains the
+/// sensor.
 struct Side {
-    Ints before, on;  // by more than the margin; within it
+    Ints before, on;  // in front of it by more than the margin; within the margin
 };
 DF_INLINE Side side_of(const SightArgs& args, Floats angle_a, Floats range_a, Floats angle_b,
                        Floats range_b, Floats r, Floats margin) {
@@ -29,23 +30,25 @@ DF_INLINE Side side_of(const SightArgs& args, Floats angle_a, Floats range_a, Fl
     const Floats xb = range_b * (1.0F - 0.5F * angle_b * angle_b), yb = range_b * angle_b;
     const Floats dx = xb - xa, dy = yb - ya, length_sq = dx * dx + dy * dy;
     const Floats cross = -dx * ya - dy * (r - xa);
-    const Floats to_line = dx * ya - dy * xa > 0.0F ? -cross : cross;  // away from the sensor: -
+    // Negative away from the sensor.
+    const Floats to_line = dx * ya - dy * xa > 0.0F ? -cross : cross;
     const Ints one_spot = length_sq < args.same_spot * args.same_spot;
-    const Floats distance = one_spot ? smaller(range_a, range_b) - r : to_line;  // times length
+    // Multiplied by the length.
+    const Floats distance = one_spot ? smaller(range_a, range_b) - r : to_line;
     const Floats limit_sq = margin * margin * (one_spot ? Floats{} + 1.0F : length_sq);
     return {(distance > 0.0F) & (distance * distance > limit_sq), distance * distance <= limit_sq};
 }
 
 constexpr int kUndecided = 8;
 
-/// What the pooled image and one beam tell: most places lie behind all that is around them, or the
-/// very beam to them touches them. As judge() finds, or undecided.
+/// A quick decision from the pooled image and one beam: most places lie behind all returns around
+/// them, or are touched by the beam towards them. Gives the result of judge(), or undecided.
 DF_INLINE Ints first_check(const SightArgs& args, const Places& p) {
     const Ints row = floored(p.row), column = floored(p.column);
     const Ints inside = p.in_range & (row >= 0) & (row < args.rows);
     const Ints pixels = pixels_at(args, first_pixels(args, row, column, inside));
     const Ints touched = beams_of(args, p, pixels, row, column).touches;
-    constexpr float kWidest = 4.0F;  // columns that three reads of the pooled image cover
+    constexpr float kWidest = 4.0F;  // number of columns that three reads of the pooled image cover
     const Ints covered = inside & (p.reach_rows <= 1.0F) & (p.reach_columns <= kWidest);
     Ints farthest_cm{};
     const auto pool = [&](Ints center) {
@@ -70,8 +73,8 @@ DF_INLINE Ints first_check(const SightArgs& args, const Places& p) {
     return touched ? Ints{} + 1 : (behind | outside | ~p.in_range) ? Ints{} : Ints{} + kUndecided;
 }
 
-/// What the beams around the places tell: the nearest of each quadrant, [above][right], and whether
-/// any touches or blocks.
+/// What the beams around the places show: the nearest beam of each quadrant, [above][right], and
+/// whether any beam touches or blocks the place.
 struct Around {
     Near quad[2][2];
     Ints touched{}, blocked{};
@@ -101,8 +104,9 @@ DF_INLINE Around nothing_around() {
     return around;
 }
 
-/// Sixteen places are looked at in a window as wide as the widest of theirs, so those of a kind go
-/// together. Most places are so far away that theirs is 3 x 3 pixels: the first kind.
+/// Sixteen places are processed with the widest of their windows, so places with windows of similar
+/// size are grouped. Most places are so far away that their window is 3 x 3 pixels: the first
+/// group.
 constexpr int kWindows = 6;
 DF_INLINE Ints window_of(const Places& p) {
     const Floats reach = p.reach_columns;
@@ -149,14 +153,15 @@ DF_INLINE Around beams_around(const SightArgs& args, const Places& p) {
     return around;
 }
 
-/// See line_of_sight.hpp: the surface between the nearest beams.
+/// Decides by the surface between the nearest beams, see line_of_sight.hpp.
 DF_INLINE Ints judge(const SightArgs& args, const Places& p, const Around& around) {
     const Floats zero{};
     const auto& quad = around.quad;
     const Floats range = p.range, surface = args.surface + args.per_metre * range;
     const Floats far = range + args.beyond;
     const auto is_beyond = [&](const Near& beam) { return exists(beam) & (beam.range > far); };
-    // Beams go on where the place is free: near enough to the place, they went through it.
+    // If the place is free, its beams go on behind it; those near enough went through the place
+    // itself.
     const auto passes = [&](const Near& beam) {
         return exists(beam) & (magnitude(beam.up) <= p.beside_rows) &
                (magnitude(beam.right) <= p.own_columns);
@@ -176,8 +181,8 @@ DF_INLINE Ints judge(const SightArgs& args, const Places& p, const Around& aroun
                                      args.elevation_step * above.up, above.range, range, surface);
         on_surface |= both & up_down.on & (smaller(below.range, above.range) < range) &
                       (larger(below.range, above.range) > range);
-        // Above or below the image's border, or a hole in it, only a beam that all but meets the
-        // place counts.
+        // Above and below the image, and at holes in it, a beam counts only if it passes very close
+        // to the place.
         const Floats close = larger(args.close_beside * p.beside_rows, zero + args.close_pixels);
         const Ints passes_close = (is_beyond(below) & (magnitude(below.up) <= close)) |
                                   (is_beyond(above) & (magnitude(above.up) <= close));
@@ -198,12 +203,12 @@ DF_INLINE Ints judge(const SightArgs& args, const Places& p, const Around& aroun
            (((around.touched | on) & 1) | (free & 2) | (weak & 4) | (free & passed & 8));
 }
 
-/// Places that are collected until there are sixteen of them, by their number.
+/// Numbers of places that are collected until there are sixteen of them.
 struct Pending {
     std::size_t index[2 * kLanes] = {};
     int count = 0;
 };
-/// Up to sixteen places, and nothing after them: a place at range 0 is not judged.
+/// Up to sixteen places, filled up with places at range 0, which are not judged.
 struct Sixteen {
     float azimuth[kLanes] = {}, elevation[kLanes] = {}, range[kLanes] = {};
 };
@@ -212,7 +217,8 @@ DF_INLINE void put(Sixteen& into, int k, const SightArgs& args, std::size_t inde
     into.elevation[k] = args.elevation[index];
     into.range[k] = args.range[index];
 }
-/// Not inlined: the loops around it would be unrolled, and the code leave its cache.
+/// Not inlined: otherwise the compiler unrolls the loops around it, and the code does not fit into
+/// the instruction cache.
 template <bool small>
 __attribute__((noinline)) void judge_sixteen(const SightArgs& args, Pending& w) {
     const int done = w.count < kLanes ? w.count : kLanes;
@@ -249,7 +255,8 @@ void check_lines_of_sight(const SightArgs& args) {
         const Places p = places_at(args, azimuth, elevation, range);
         const Ints sight = first_check(args, p);
         const Ints undecided = (sight == kUndecided) & 1, window = window_of(p);
-        for (int k = 0; k < count; ++k) {  // no branches: which way they go cannot be foreseen
+        // Without branches, because the CPU could not predict them.
+        for (int k = 0; k < count; ++k) {
             const std::size_t i = begin + static_cast<std::size_t>(k);
             args.sights[i] = static_cast<std::uint8_t>(sight[k]);
             Pending& alike = pending[window[k]];

@@ -14,17 +14,20 @@ namespace dynamic_filter {
 
 namespace {
 
-/// Those who may vote on the voxels of a block. Cells are counted from the block's first one.
+/// The voxels that may vote on the voxels of a block. Cells are counted from the first cell of the
+/// block.
 struct Neighborhood {
-    static constexpr std::size_t kMost = 8 * 8 * 8;  // a block, and two cells around it
+    // Cells of a block and of the two cells around it.
+    static constexpr std::size_t kMost = 8 * 8 * 8;
     using Column = std::array<float, kMost>;
     Column x{}, y{}, z{}, weight{}, score{}, first{}, last{};
     std::size_t count = 0;
-    std::array<std::uint32_t, kMost> voters{};  // kNoVoxel: too far
+    std::array<std::uint32_t, kMost> voters{};  // kNoVoxel: too far away
     std::array<Cell, kMost> cells{};
 
-    /// For the voxels `asked`, all of this block. Who is too far from all of them keeps a place, so
-    /// that sums are rounded alike whoever is asked, but is not looked up.
+    /// Collects the voters for the voxels `asked`, which all lie in this block. A voxel that is too
+    /// far from all of them keeps its slot, so that sums are rounded in the same way for any
+    /// selection, but its data are not read.
     void gather(const EvidenceGrid& grid, std::uint32_t block, const Eigen::AlignedBox3i& asked,
                 float sure) {
         constexpr int kReach = 2;
@@ -81,8 +84,8 @@ struct Neighborhood {
     }
 };
 
-/// How occupied a voxel can be, as its points were part of what moves: one half at the share at
-/// which it is dynamic.
+/// Upper limit of the occupancy of a voxel whose points belonged to moving objects. It is one half
+/// at the share at which the voxel is dynamic.
 float rest_of(const Evidence& e, const ScansConfig::Instances& config) {
     if (e.moved == 0) return 1.0F;
     const float moved = static_cast<float>(e.moved) / static_cast<float>(e.n_own);
@@ -95,7 +98,8 @@ std::vector<std::optional<float>> occupancy_of(const EvidenceGrid& grid,
                                                std::span<const std::uint32_t> voxels,
                                                const ScansConfig& scans) {
     const ScansConfig::Vote& config = scans.vote;
-    std::vector<std::pair<std::uint32_t, std::size_t>> by_block;  // block, place among `voxels`
+    // Pairs of block and index in `voxels`.
+    std::vector<std::pair<std::uint32_t, std::size_t>> by_block;
     for (std::size_t i = 0; i < voxels.size(); ++i) {
         by_block.emplace_back(grid.voxels().block_of_voxel(voxels[i]), i);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Compiled several times, as sight_kernel.cpp is.
+// This file is compiled several times, like sight_kernel.cpp.
 #include "vote_kernel.hpp"
 
 #include "lanes.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// The inner loop of the neighbours' vote, compiled once per instruction-set level from
-/// vote_kernel.cpp.
+/// The inner loop of the vote of neighbors. vote_kernel.cpp is compiled once per instruction-set
+/// level.
 #pragma once
 
 #include <cstddef>
@@ -9,21 +9,21 @@
 
 namespace dynamic_filter::kernel {
 
-/// Voters, as parallel arrays: cells along each axis, weight, score times weight, first and last
+/// The voters as parallel arrays: cell along each axis, weight, score times weight, first and last
 /// owner.
 struct VoteArgs {
     const float *x = nullptr, *y = nullptr, *z = nullptr;
     const float *weight = nullptr, *score = nullptr, *first = nullptr, *last = nullptr;
     std::size_t count = 0;  ///< a multiple of kVoters
-    // The voxel that is voted on.
+    // Data of the voxel on which they vote.
     float own_x = 0.0F, own_y = 0.0F, own_z = 0.0F, own_first = 0.0F, own_last = 0.0F;
-    // ScansConfig::Vote.
+    // The weights of ScansConfig::Vote.
     float company = 0.0F, neighborhood = 0.0F, far = 0.0F, alone = 0.0F;
 };
 
-/// Fill up the arrays with voters that are out of reach.
+/// The arrays are filled up to a multiple of this with voters that are out of reach.
 constexpr std::size_t kVoters = 16;
-constexpr float kOutOfReach = 8e6F;  // cells: no key goes as far
+constexpr float kOutOfReach = 8e6F;  // cells; farther than any key
 
 DYNAMIC_FILTER_DECLARE_KERNEL(float, vote, VoteArgs)
 

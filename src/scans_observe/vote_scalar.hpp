@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// The specification of the neighbours' vote, one voter at a time. The vector kernel is tested
-/// against it at every instruction-set level.
+/// Reference implementation of the vote of neighbors, one voter at a time. Tests compare the vector
+/// kernel with it at every instruction-set level.
 #pragma once
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 
 namespace dynamic_filter::kernel {
 
-/// What the voters say of the voxel: the weighted mean score of those that were there at the same
-/// time, and that of all, as far as they lie within two cells. Within +-(company + neighborhood).
+/// The vote on a voxel: the weighted mean score of the voters that had points at the same time,
+/// plus that of all voters within two cells. It lies within +-(company + neighborhood).
 inline float vote_scalar(const VoteArgs& args) {
     float company = 0.0F, companions = 0.0F, around = 0.0F, neighbors = 0.0F;
     for (std::size_t i = 0; i < args.count; ++i) {

@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 
 std::size_t index_of(Prototype prototype) { return static_cast<std::size_t>(prototype); }
 
-/// Frame at a place in the ground plane that looks along `heading`.
+/// A frame at a point of the ground plane; its x axis looks along `heading`.
 Affine3d standing_at(const Vector2d& p, double z, const Vector2d& heading) {
     Affine3d T = Affine3d::Identity();
     T.linear() << heading.x(), -heading.y(), 0.0,  //
@@ -31,12 +31,12 @@ Affine3d standing_at(const Vector2d& p, double z, const Vector2d& heading) {
 Affine3d joint(const Vector3d& at, double angle) {
     const SinCos a = portable_sincos(angle);
     Affine3d T = Affine3d::Identity();
-    T.linear() << a.cos, 0.0, a.sin, 0.0, 1.0, 0.0, -a.sin, 0.0, a.cos;  // about y
+    T.linear() << a.cos, 0.0, a.sin, 0.0, 1.0, 0.0, -a.sin, 0.0, a.cos;  // rotation about y
     T.translation() = at;
     return T;
 }
 
-/// A limb that hangs along -z in its own frame, put from `from` towards `to` in the x-z plane.
+/// A frame for a limb that hangs along -z in its own frame: from `from` to `to`, in the x-z plane.
 Affine3d pointing(const Vector3d& from, const Vector3d& to) {
     const Vector3d d = (to - from).normalized();
     Affine3d T = Affine3d::Identity();
@@ -45,7 +45,8 @@ Affine3d pointing(const Vector3d& from, const Vector3d& to) {
     return T;
 }
 
-/// Legs of a cyclist from the crank's angle; the knees by the law of cosines.
+/// Places the legs of a cyclist from the angle of the crank; the knees follow from the law of
+/// cosines.
 void place_pedalling(const Affine3d& T, double crank, Placements& out) {
     for (const double side : {1.0, -1.0}) {
         const SinCos a = portable_sincos(crank + (side > 0.0 ? 0.0 : std::numbers::pi));
@@ -120,7 +121,7 @@ void place_walker(const Walker& walker, const Stride& stride, double ground, Pla
     const double hip = leg_length * 1.75;
     const double step =
         static_cast<double>(stride.swing) * portable_sincos(static_cast<double>(stride.phase)).sin;
-    // legs apart do not reach as far down: the hips sink, so that the soles stay on the ground
+    // With the legs apart, the feet would not reach the ground, so the hips are lowered.
     const double sink = hip * (1.0 - portable_sincos(step).cos);
     const Affine3d T = standing_at(stride.position.cast<double>(), ground - tall * sink,
                                    stride.heading.cast<double>()) *
@@ -132,7 +133,7 @@ void place_walker(const Walker& walker, const Stride& stride, double ground, Pla
     out.push_back({(T * joint({0.0, -0.09, hip}, step)).cast<float>(), kind});
     out.push_back({(T * joint({0.0, 0.23, 1.40}, 0.9 * step)).cast<float>(), kind});
     out.push_back({(T * joint({0.0, -0.23, 1.40}, -0.9 * step)).cast<float>(), kind});
-    if (walker.luggage) {  // a suitcase is as large whoever owns it
+    if (walker.luggage) {  // the suitcase has the same size for all people
         const Affine3d beside =
             standing_at(stride.position.cast<double>(), ground, stride.heading.cast<double>()) *
             Eigen::Translation3d(-0.3, -0.35, 0.0);
@@ -158,7 +159,7 @@ void place_vehicle(const Vehicle& vehicle, double t, Placements& out) {
 }
 
 double door_opening(const Ride& ride, double t) {
-    constexpr double rest = 1.0, slide = 1.5;  // [s] shut while it stands, and to open
+    constexpr double rest = 1.0, slide = 1.5;  // [s] closed while the train stands; [s] to open
     const double came = halts_at(ride), leaves = came + ride.stop_time;
     return std::clamp(std::min(t - came - rest, leaves - rest - t) / slide, 0.0, 1.0);
 }

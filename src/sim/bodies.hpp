@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Where the rigid parts of people, cyclists and vehicles are at a moment.
+/// Poses of the rigid parts of people, cyclists and vehicles at a given time.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -19,7 +19,7 @@ struct Vehicle {
     float brightness = 1.0F;
 };
 
-/// Half the length and half the width [m].
+/// Half of the length and half of the width [m].
 Eigen::Vector2d half_footprint(VehicleKind kind);
 
 std::vector<Part> walker_parts(std::size_t index, bool luggage = false);
@@ -27,18 +27,18 @@ std::vector<Part> vehicle_parts(const Vehicle& vehicle);
 
 using Placements = std::vector<Placement>;
 
-/// Appends the placements of the parts, in the order of walker_parts(); `ground` is the height of
-/// the floor there.
+/// Appends the placements of the parts of a walker, in the order of walker_parts(); `ground` is the
+/// height of the floor there.
 void place_walker(const Walker& walker, const Stride& stride, double ground, Placements& out);
 
 /// The same for vehicle_parts(), at a time [s].
 void place_vehicle(const Vehicle& vehicle, double t, Placements& out);
 
-/// How far the doors of a wagon are open, 0 to 1: only while it stands.
+/// How far the doors of a wagon are open, 0 to 1. They open only while the wagon stands.
 double door_opening(const Ride& ride, double t);
 
-/// Discs that cover the vehicle, for those on foot to yield to; none for wagons, as people keep to
-/// the platform by themselves and must be let in.
+/// Appends discs that cover the vehicle, to which people on foot yield. Wagons get none: people
+/// stay on the platform anyway, and must be able to get in.
 void add_movers(const Vehicle& vehicle, double t, std::vector<Mover>& out);
 
 }  // namespace dynamic_filter::sim

@@ -47,11 +47,11 @@ Caster::Caster(const Mesh& still, std::vector<Mesh> prototypes, std::vector<Part
       normal_to_world_(parts_.size(), Eigen::Matrix3f::Identity()),
       device_(rtcNewDevice(nullptr)),
       scene_(new_scene(device_)) {
-    // What stands still is a scene of its own, too: it is not built again when things move.
+    // The static objects are a scene of their own, so that it is not built again when objects move.
     still_scene_ = new_scene(device_);
     attach_mesh(device_, still_scene_, still);
     rtcCommitScene(still_scene_);
-    attach_copy(device_, scene_, still_scene_);  // gets id 0; the parts follow as 1, 2, ...
+    attach_copy(device_, scene_, still_scene_);  // gets id 0; the parts get 1, 2, ...
     for (const Mesh& mesh : prototypes_) {
         prototype_scenes_.push_back(new_scene(device_));
         attach_mesh(device_, prototype_scenes_.back(), mesh);

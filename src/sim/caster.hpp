@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Nearest hit of a ray in a still mesh and in moving copies of prototype meshes (Embree: Wald et
-/// al., ACM Trans. Graphics 2014).
+/// Finds the nearest hit of a ray with the static mesh and with moving copies of prototype meshes
+/// (Embree: Wald et al., ACM Trans. Graphics 2014).
 #pragma once
 
 #include <embree3/rtcore.h>
@@ -12,30 +12,30 @@
 
 namespace dynamic_filter::sim {
 
-/// A moving rigid part: which prototype it copies, a factor on its reflectivity (clothes, paint),
-/// and the person or vehicle it belongs to.
+/// A moving rigid part: its prototype, a factor of its reflectivity (clothes, paint), and the
+/// person or vehicle to which it belongs.
 struct Part {
     std::size_t prototype = 0;
     float brightness = 1.0F;
     std::uint16_t instance = 0;
 };
 
-/// Where a part is at a moment, and what it counts as then.
+/// The pose of a part at a given time, and its kind at that time.
 struct Placement {
     Eigen::Affine3f T_world_part;
     Kind kind;
 };
 
 struct Hit {
-    float range = 0.0F;   ///< [m] in units of the direction's length
+    float range = 0.0F;   ///< [m] if the direction is a unit vector
     float cosine = 0.0F;  ///< |cos| of the angle between ray and surface normal
     float reflectivity = 0.0F;
     Kind kind = Kind::structure;
-    std::uint16_t instance = 0;  ///< 0: of what stands still
+    std::uint16_t instance = 0;  ///< 0: static
     bool found = false;
 };
 
-/// cast() may run in many threads at once, place() may not.
+/// cast() may run in many threads at once, but place() may not.
 class Caster {
 public:
     Caster(const Mesh& still, std::vector<Mesh> prototypes, std::vector<Part> parts);
@@ -43,7 +43,7 @@ public:
     Caster(const Caster&) = delete;
     Caster& operator=(const Caster&) = delete;
 
-    /// `placements` is parallel to the parts.
+    /// Moves the parts; `placements` is parallel to them.
     void place(const std::vector<Placement>& placements);
 
     /// `direction` is a unit vector; hits beyond `reach` [m] are not found.
@@ -54,8 +54,9 @@ private:
     std::vector<Material> still_materials_;
     std::vector<Mesh> prototypes_;
     std::vector<Part> parts_;
-    std::vector<Kind> kinds_;                       // of the parts
-    std::vector<Eigen::Matrix3f> normal_to_world_;  // inverse transpose of the parts' linear maps
+    std::vector<Kind> kinds_;  // one per part
+    // One per part: inverse transpose of its linear map.
+    std::vector<Eigen::Matrix3f> normal_to_world_;
     RTCDevice device_ = nullptr;
     RTCScene scene_ = nullptr;
     RTCScene still_scene_ = nullptr;

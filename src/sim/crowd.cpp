@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double settle_time = 15.0;  // [s]
+constexpr double settle_time = 15.0;  // [s] that the crowd walks before the simulation starts
 constexpr double relaxation = 0.5;    // [s] to reach the desired velocity
 constexpr double wall_strength = 3.0, wall_range = 0.15;
 constexpr double fastest = 1.7;     // [m/s]
@@ -24,7 +24,7 @@ struct Body {
     Vector2d position, velocity = Vector2d::Zero(), heading, leg_start;
     double phase = 0.0, swing = 0.0, speed = 0.0;
     double pause_until = -1.0;
-    double leg_since = 0.0;  // when the present waypoint became the target
+    double leg_since = 0.0;  // time at which the present waypoint became the target
     std::size_t next = 0;
     bool standing = false, waiting = false;
 };
@@ -32,12 +32,12 @@ struct Body {
 struct State {
     const CrowdPlan& plan;
     std::vector<Body> bodies;
-    std::vector<Pair> pairs;  // of walkers near each other
+    std::vector<Pair> pairs;  // pairs of walkers near each other
     std::vector<Mover> movers;
     double time = 0.0;
 };
 
-/// No vehicle comes near while this walker goes from `a` to `b`.
+/// True if no vehicle comes near while this walker goes from `a` to `b`.
 bool is_free_to_cross(const State& state, const Walker& walker, const Vector2d& a,
                       const Vector2d& b) {
     const double duration = (b - a).norm() / walker.speed + 1.0;
@@ -63,8 +63,8 @@ void aim_at_next(const State& state, const Walker& walker, Body& body) {
     body.waiting = reached.gated;
 }
 
-/// Follows the route: stands, waits at the kerb, goes on, or leaves out a waypoint that others
-/// block for too long.
+/// Follows the route: the walker stands, waits at the kerb, goes on, or skips a waypoint that is
+/// blocked for too long.
 void steer(const State& state, const Walker& walker, Body& body) {
     const Waypoint& target = walker.route[body.next];
     if (body.standing && state.time < body.pause_until) return;
@@ -91,10 +91,10 @@ void steer(const State& state, const Walker& walker, Body& body) {
 Vector2d desired_velocity(const Walker& walker, const Body& body) {
     if (body.standing || body.waiting) {
         const auto last = (body.next + walker.route.size() - 1) % walker.route.size();
-        const Vector2d back = walker.route[last].at - body.position;  // holds the place
+        const Vector2d back = walker.route[last].at - body.position;  // keeps the place
         return back.norm() < 0.15 ? Vector2d(0.0, 0.0) : Vector2d(0.6 * unit_or(back, back));
     }
-    // back to the line between the waypoints first: flows stay in their lanes
+    // Goes back to the line between the waypoints first, so that walkers stay in their lanes.
     const Vector2d& target = walker.route[body.next].at;
     const Vector2d& from =
         walker.route[(body.next + walker.route.size() - 1) % walker.route.size()].at;
@@ -119,7 +119,7 @@ void add_pair_forces(const State& state, std::vector<Vector2d>& forces) {
     }
 }
 
-/// Forces act softly; this keeps bodies apart where the push of others is too strong.
+/// The forces are soft; this step separates bodies that were pushed into each other.
 void separate(State& state) {
     for (const auto& [i, j] : state.pairs) {
         const Vector2d offset = state.bodies[i].position - state.bodies[j].position;
@@ -145,7 +145,7 @@ void separate(State& state) {
     }
 }
 
-/// Turns the body and moves the legs as far as it has really moved.
+/// Turns the body, and moves the legs according to the real motion.
 void update_gait(const Walker& walker, Body& body, const Vector2d& moved) {
     const double speed = std::sqrt(moved.squaredNorm()) / crowd_step;
     body.speed = speed;
@@ -155,7 +155,7 @@ void update_gait(const Walker& walker, Body& body, const Vector2d& moved) {
         const Vector2d& face = walker.route[last].face;
         if (face.squaredNorm() > 0.0 && speed < 0.5) look = unit_or(face - body.position, look);
     }
-    const double turn = 0.12;  // share of the turn made in one step
+    const double turn = 0.12;  // share of the turn per step
     body.heading = unit_or((1.0 - turn) * body.heading + turn * look,
                            Vector2d(-body.heading.y(), body.heading.x()));
     const double swing = speed < 0.12 ? 0.0 : std::clamp(0.32 * speed, 0.12, 0.5);

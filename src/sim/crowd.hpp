@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Walking people by the social force model (Helbing & Molnar, Phys. Rev. E 51, 1995) with the
-/// contact term of Helbing, Farkas & Vicsek (Nature 407, 2000).
+/// Simulates pedestrians by the social force model (Helbing & Molnar, Phys. Rev. E 51, 1995), with
+/// the contact term of Helbing, Farkas & Vicsek (Nature 407, 2000).
 #pragma once
 
 #include <Eigen/Core>
@@ -14,11 +14,13 @@ namespace dynamic_filter::sim {
 
 struct Waypoint {
     Eigen::Vector2d at = Eigen::Vector2d::Zero();
-    double reach = 0.8;  ///< [m] counts as reached within
-    double pause = 0.0;  ///< [s] to stand there
-    bool gated = false;  ///< on the way from here on, wait until no vehicle comes
-    Eigen::Vector2d face = Eigen::Vector2d::Zero();  ///< look here while standing; zero: nowhere
-    /// When somebody who could go on at a time may do so (a light, a train's doors); empty: then.
+    double reach = 0.8;  ///< [m] distance at which the waypoint counts as reached
+    double pause = 0.0;  ///< [s] pause there
+    bool gated = false;  ///< true: from here on, the walker waits until no vehicle comes
+    /// Direction to look in during the pause; zero: none.
+    Eigen::Vector2d face = Eigen::Vector2d::Zero();
+    /// Earliest time at which a walker who could go on at a given time may do so (because of a
+    /// light or of the doors of a train). Empty: at that time.
     std::function<double(double)> release = {};
 };
 
@@ -26,38 +28,39 @@ struct Walker {
     double height = 1.75;         ///< [m]
     double radius = 0.22;         ///< [m]
     double speed = 1.2;           ///< [m/s] desired
-    std::vector<Waypoint> route;  ///< walked round and round
-    std::size_t next = 0;         ///< waypoint ahead at the start
+    std::vector<Waypoint> route;  ///< closed: after the last waypoint comes the first
+    std::size_t next = 0;         ///< index of the first target
     Eigen::Vector2d start = Eigen::Vector2d::Zero();
-    int company = -1;      ///< walkers of one company keep together
-    bool luggage = false;  ///< a suitcase on wheels at the right hand
+    int company = -1;      ///< walkers with the same number stay together
+    bool luggage = false;  ///< pulls a suitcase on wheels with the right hand
 };
 
 struct CrowdPlan {
     std::vector<Walker> walkers;
     DistanceField field;
-    std::function<std::vector<Mover>(double)> movers;  ///< at a time [s], also beyond the duration
+    /// State at a time [s], also beyond the duration.
+    std::function<std::vector<Mover>(double)> movers;
 };
 
-/// A walker at one moment.
+/// The state of a walker at one time.
 struct Stride {
     Eigen::Vector2f position = Eigen::Vector2f::Zero();
     Eigen::Vector2f heading = Eigen::Vector2f::UnitX();  ///< unit vector
-    float phase = 0.0F;                                  ///< [rad] of the gait, never wrapped
+    float phase = 0.0F;                                  ///< [rad] phase of the gait, not wrapped
     float swing = 0.0F;                                  ///< [rad] largest angle of the legs
-    float speed = 0.0F;                                  ///< [m/s] as really moved
+    float speed = 0.0F;                                  ///< [m/s] of the real motion
 };
 
 constexpr double crowd_step = 0.05;  ///< [s]
-constexpr double leg_length = 0.5;   ///< of the height
+constexpr double leg_length = 0.5;   ///< share of the height
 
 struct Crowd {
     std::size_t walkers = 0;
-    std::vector<Stride> strides;  ///< step after step, walkers within
+    std::vector<Stride> strides;  ///< time after time: the state of each walker
 };
 
-/// Strides for times 0, crowd_step, ... up to `duration` [s]; before that the crowd walks 15 s to
-/// settle.
+/// States at the times 0, crowd_step, ... up to `duration` [s]. Before time 0, the crowd walks 15 s
+/// until its motion is natural.
 Crowd simulate_crowd(const CrowdPlan& plan, double duration);
 
 Stride stride_at(const Crowd& crowd, std::size_t walker, double t);

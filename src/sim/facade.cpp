@@ -16,7 +16,7 @@ constexpr double door_half_width = 0.9;
 constexpr double door_height = 2.3;
 constexpr float plaster = 0.5F, wood = 0.3F, pane = 0.15F, stone = 0.4F;
 
-/// Where boxes of one front go, in the front's own frame.
+/// Places the boxes of one facade, given in the frame of the facade.
 struct Front {
     Scene& scene;
     const Facade& facade;
@@ -25,7 +25,7 @@ struct Front {
     void box(const Vector3d& low, const Vector3d& high, float reflectivity) const {
         add_box(scene.still, T, {low, high}, reflectivity);
     }
-    /// A box from the floor up that people cannot walk through.
+    /// A box from the floor up, through which people cannot walk.
     void solid(const Vector2d& low, const Vector2d& high, double top, float reflectivity) const {
         box({low.x(), low.y(), 0}, {high.x(), high.y(), top}, reflectivity);
         const Vector2d middle = (low + high) / 2;
@@ -35,7 +35,7 @@ struct Front {
     }
 };
 
-/// Back and side walls, ceiling and rear furniture of the room behind x0..x1.
+/// Adds the room behind x0..x1: back and side walls, ceiling, and furniture at the back.
 void add_room(const Front& front, double x0, double x1, Random& random) {
     const double depth = front.facade.room_depth, top = front.facade.ground_floor;
     front.solid({x0, depth}, {x1, depth + wall_thickness}, top, plaster);
@@ -55,7 +55,8 @@ void add_room(const Front& front, double x0, double x1, Random& random) {
 
 void add_shop(const Front& front, double x0, double x1, Random& random) {
     add_room(front, x0, x1, random);
-    front.solid({x0, 0}, {x1, 0.15}, 0.45, stone);  // below the pane, which LiDAR does not see
+    // Below the window pane, which a LiDAR does not see.
+    front.solid({x0, 0}, {x1, 0.15}, 0.45, stone);
     front.box({x0, 0, 2.7}, {x1, 0.3, front.facade.ground_floor}, plaster);
     for (const double x : {x0, (x0 + x1) / 2 - 0.04, x1 - 0.08}) {
         front.box({x, 0.02, 0.45}, {x + 0.08, 0.1, 2.7}, stone);
@@ -99,7 +100,7 @@ void add_wall(const Front& front, double x0, double x1) {
     front.box({x0 + 0.5, -0.06, 0}, {x1, 0, 0.7}, stone);
 }
 
-/// One storey of one bay: a window with its reveal and sill.
+/// One window of a floor, with its reveal and sill.
 void add_window(const Front& front, double x0, double x1, double z) {
     const double left = x0 + 0.3 * (x1 - x0), right = x1 - 0.3 * (x1 - x0);
     const double bottom = z + 0.9, top = z + 2.4;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// The street of the scene `jam`: its measures, its traffic and its people.
+/// The street of the scene `jam`: its dimensions, traffic and people.
 #pragma once
 
 #include <cstdint>
@@ -11,28 +11,29 @@
 
 namespace dynamic_filter::sim::jam {
 
-constexpr double lane = 1.8, cycle_lane = 3.65;         // middle, from the middle of the street
+// [m] middle of each lane, from the middle of the street.
+constexpr double lane = 1.8, cycle_lane = 3.65;
 constexpr double parking = 5.2;                         // middle of the row of parked cars
-constexpr double kerb = 6.5, front = 11.0;              // edges of the pavement
+constexpr double kerb = 6.5, front = 11.0;              // [m] edges of the pavement
 constexpr double pavement = 0.15;                       // [m] above the street
 constexpr double duration = 185.0;                      // [s]
 constexpr double begin = -20.0, end = duration + 30.0;  // [s] of the traffic
 
-/// A part of the row of parked cars where none may stand.
+/// A part of the row of parked cars that must stay free.
 struct Free {
-    double side, from, until;  ///< +1 or -1, and x
+    double side, from, until;  ///< +1 or -1, and range of x
 };
 
 struct Plan {
     std::vector<Signal> signals;
-    std::vector<Driver> drivers;  ///< the first one carries the sensor
+    std::vector<Driver> drivers;  ///< the first vehicle carries the sensor
     std::vector<Free> free;
-    double bus_stop = 0.0;  ///< x; the stop is on the side of +y
+    double bus_stop = 0.0;  ///< x; the bus stop is on the side of +y
 };
 
 Plan plan(std::uint64_t seed);
 
-/// Walkers who cross at the lights, wait at the stop, talk, or go up and down the pavements.
+/// Walkers who cross at the lights, wait at the bus stop, talk, or walk along the pavements.
 std::vector<Walker> people(int count, const Plan& plan, const DistanceField& field,
                            std::uint64_t seed);
 

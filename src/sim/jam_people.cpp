@@ -9,9 +9,9 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double footway = 8.8;  // [m] y that people walk at
+constexpr double footway = 8.8;  // [m] |y| at which people walk
 
-/// A place at the kerb to wait at for the light, in sight of the other side.
+/// A place at the kerb to wait for the light; the other side is visible from it.
 Waypoint kerbside(const Signal& signal, double side, Random& random) {
     const Vector2d at{signal.at + random.uniform(-1.8, 1.8),
                       side * (kerb + random.uniform(0.4, 1.7))};
@@ -20,7 +20,7 @@ Waypoint kerbside(const Signal& signal, double side, Random& random) {
             }};
 }
 
-/// Over the street, along the other pavement, a look into a window, and back.
+/// Route over the street, along the other pavement, to a shop window, and back.
 std::vector<Waypoint> crossing(const Signal& signal, Random& random) {
     std::vector<Waypoint> out;
     const double first = random.chance(0.5) ? 1.0 : -1.0;
@@ -35,7 +35,7 @@ std::vector<Waypoint> crossing(const Signal& signal, Random& random) {
     return out;
 }
 
-/// To the bus stop, a wait there, and on.
+/// Route to the bus stop, with a wait there, and on.
 std::vector<Waypoint> waiting(double stop, Random& random) {
     const Vector2d at{stop + random.uniform(-4.5, 4.5), random.uniform(kerb + 0.5, kerb + 1.8)};
     const double way = random.chance(0.5) ? 1.0 : -1.0;
@@ -48,7 +48,7 @@ std::vector<Waypoint> waiting(double stop, Random& random) {
              .pause = random.uniform(0.0, 20.0)}};
 }
 
-/// Along a pavement to a talk, and back.
+/// Route along a pavement to a conversation, and back.
 std::vector<Waypoint> talking(Random& random) {
     const double side = random.chance(0.5) ? 1.0 : -1.0;
     const double x = random.uniform(-25.0, 235.0);
@@ -71,7 +71,7 @@ std::vector<Waypoint> strolling(Random& random) {
     return out;
 }
 
-/// Starts at a waypoint of the own route that is not on the street.
+/// Lets the walker start at a waypoint of its route that is not on the street.
 void start_at(Walker& walker, std::size_t waypoint) {
     walker.next = waypoint;
     walker.start = walker.route[waypoint].at;
@@ -90,7 +90,8 @@ std::vector<Walker> people(int count, const Plan& plan, const DistanceField& fie
     for (int turn = 0; room() > 0; ++turn) {
         Walker walker = draw_walker(random);
         if (turn % 10 < 4) {
-            walker.speed = std::max(walker.speed, 1.0);  // or the light turns before they are over
+            // Slower people would not be across before the light changes.
+            walker.speed = std::max(walker.speed, 1.0);
             walker.route = crossing(
                 plan.signals[static_cast<std::size_t>(turn) % plan.signals.size()], random);
             start_at(walker, static_cast<std::size_t>(random.below(2)) * 3 +

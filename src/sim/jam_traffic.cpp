@@ -5,7 +5,7 @@
 namespace dynamic_filter::sim::jam {
 namespace {
 
-/// Lights that turn one after another, so that who is let go at one is held at the next.
+/// Lights that turn red at different times, so that drivers who pass one light stop at the next.
 void add_signals(Plan& plan, Random& random) {
     double green = random.uniform(36.0, 42.0);
     for (const double x : {30.0, 130.0, 230.0}) {
@@ -18,7 +18,7 @@ void add_signals(Plan& plan, Random& random) {
     }
 }
 
-/// Somebody in the lane towards `way`, at x when the traffic begins.
+/// A driver in the lane in direction `way`, at x when the traffic begins.
 Driver in_lane(VehicleKind kind, double way, double x, Random& random) {
     const bool cyclist = kind == VehicleKind::cyclist;
     return {.kind = kind,
@@ -33,7 +33,7 @@ VehicleKind any_kind(Random& random) {
     return random.chance(0.2) ? VehicleKind::van : VehicleKind::car;
 }
 
-/// Mostly cars, one behind the other from x on; the first of them is nearest to where they go.
+/// A column of mostly cars, one behind the other from x on; the first one is the foremost.
 void add_column(Plan& plan, double way, double x, int count, Random& random) {
     for (int i = 0; i < count; ++i) {
         plan.drivers.push_back(in_lane(any_kind(random), way, x, random));
@@ -55,7 +55,7 @@ void draw_up(Plan& plan, Driver& driver, double x, double time) {
     plan.free.push_back({-driver.way, std::min(back, ahead), std::max(back, ahead)});
 }
 
-/// And from there back into the lane.
+/// Lets a driver swerve from the kerb back into the lane.
 void pull_out(Plan& plan, Driver& driver, double x) {
     const double place = driver.way * x;
     driver.swerves.push_back({place + 0.8, place + 15.0, -driver.way * lane});
@@ -67,7 +67,7 @@ struct Range {
     double low, high;
 };
 
-/// A car that was parked from the beginning and leaves, not before a time of that range.
+/// A car that is parked at the start and leaves at some time within the range.
 void add_leaving(Plan& plan, double way, double x, const Range& times, Random& random) {
     Driver driver = in_lane(VehicleKind::car, way, x, random);
     driver.y = at_kerb(driver.kind, way);
@@ -86,7 +86,8 @@ void add_parking(Plan& plan, double way, double x, double slot, Random& random) 
     plan.drivers.push_back(driver);
 }
 
-/// The lane of the sensor, from what waits at the third light back to who follows it.
+/// The lane of the sensor, from the vehicles that wait at the third light to those behind the
+/// sensor.
 void add_own_lane(Plan& plan, Random& random) {
     Driver sensor = in_lane(VehicleKind::car, 1.0, -165.0 - random.uniform(0.0, 8.0), random);
     sensor.speed = 7.0;
@@ -102,7 +103,7 @@ void add_own_lane(Plan& plan, Random& random) {
     add_leaving(plan, 1.0, random.uniform(172.0, 182.0), {70.0, 95.0}, random);
 }
 
-/// The lane beside it: a bus and a van that deliver people and parcels, and more cars.
+/// The opposite lane: a bus that brings people, a delivery van, and more cars.
 void add_other_lane(Plan& plan, Random& random) {
     plan.bus_stop = random.uniform(166.0, 172.0);
     plan.free.push_back({1.0, plan.bus_stop - 12.0, plan.bus_stop + 12.0});

@@ -19,17 +19,17 @@ struct Echo {
     std::uint16_t instance = 0;
 };
 
-/// The returned power falls with range squared, incidence and reflectivity (Lambert); what is
-/// weak is lost more often.
+/// Probability of a return. The returned power depends on range squared, incidence angle and
+/// reflectivity (Lambert); weak returns are lost more often.
 double detection(const Hit& hit, double max_range) {
-    constexpr double gain = 4.0;  // white, facing, at the maximum range: 98 % return
+    constexpr double gain = 4.0;  // a white surface at the maximum range, seen head-on: 98 % return
     const double ratio = max_range / static_cast<double>(hit.range);
     const double power = static_cast<double>(hit.reflectivity * hit.cosine) * ratio * ratio;
     return 0.998 * (1.0 - portable_exp(-gain * std::min(power, 10.0)));
 }
 
 Echo measure(const Hit& hit, const Sensor& sensor, std::uint64_t bits) {
-    constexpr double resolution = 0.002;  // [m] as the sensors' own formats
+    constexpr double resolution = 0.002;  // [m] as in the data formats of real sensors
     if (!hit.found || static_cast<double>(hit.range) < sensor.min_range) return {};
     if (unit(hash(bits, 3)) >= detection(hit, sensor.max_range)) return {};
     const double noisy = static_cast<double>(hit.range) + sensor.sigma * normal(bits);
@@ -39,7 +39,7 @@ Echo measure(const Hit& hit, const Sensor& sensor, std::uint64_t bits) {
     return {static_cast<float>(range), std::clamp(shade, 0.0F, 1.0F), hit.kind, hit.instance};
 }
 
-/// The rays of one scan, some of which are cast at a time.
+/// The rays of one scan; they are cast in parts.
 struct Shot {
     const Caster& caster;
     const Sensor& sensor;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// One scan: rays, noise, lost returns. A snapshot, or one part after another while things move.
+/// Simulates one scan: rays, noise and lost returns. All rays are cast at once, or in parts while
+/// objects move.
 #pragma once
 
 #include <cstdint>
@@ -17,20 +18,20 @@ struct Returns {
     std::vector<float> intensity;
     Labels labels;
     std::vector<Kind> kinds;
-    std::vector<std::uint16_t> instances;  ///< 0: stands still
-    std::vector<float> shares;             ///< 0..1: which part of the sweep had passed
+    std::vector<std::uint16_t> instances;  ///< 0: static object
+    std::vector<float> shares;             ///< 0..1: elapsed share of the sweep
 };
 
-/// Everything at once.
+/// Casts all rays at the same time.
 Returns sense(const Caster& caster, const Sensor& sensor, const Pose& T_world_sensor,
               std::uint64_t seed, std::size_t scan);
 
-/// The sensor while its rays turn: T_world_sensor of a share of the sweep, 0..1.
+/// Motion of the sensor during a sweep: T_world_sensor at a share of the sweep, 0..1.
 using SweepPose = std::function<Pose(double)>;
 
-/// In slices of equal duration, in each of which the sensor moves evenly; `begin_slice` is told the
-/// share of the sweep in its middle, and puts things where they are then. Points are in the sensor
-/// frame of their own moment.
+/// Casts the rays in slices of equal duration; the sensor moves evenly in each slice. `begin_slice`
+/// gets the share of the sweep at the middle of the slice, and moves the objects to that time. Each
+/// point is in the sensor frame at its own time.
 Returns sweep(const Caster& caster, const Sensor& sensor, const SweepPose& T_world_sensor,
               const std::function<void(double)>& begin_slice, std::uint64_t seed, std::size_t scan);
 

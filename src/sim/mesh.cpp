@@ -49,7 +49,7 @@ void add_quad(Mesh& mesh, const Vector3d& corner, const Vector3d& u, const Vecto
 }
 
 void pave(Mesh& mesh, std::size_t first) {
-    constexpr float level = 0.9F;  // ramps too
+    constexpr float level = 0.9F;  // includes ramps
     const auto vertex = [&](int i) { return mesh.vertices[static_cast<std::size_t>(i)]; };
     for (std::size_t i = first; i < mesh.triangles.size(); ++i) {
         const auto& t = mesh.triangles[i];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Triangle meshes and the few shapes that all bodies and buildings are made of.
+/// Triangle meshes, and the simple shapes of which bodies and buildings are made.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -10,8 +10,8 @@
 
 namespace dynamic_filter::sim {
 
-/// Of a surface. A bare reflectivity (0..1) means a structure; the kind of moving parts comes from
-/// their placement instead.
+/// Material of a surface. A reflectivity (0..1) alone means a structure. The kind of moving parts
+/// comes from their placement instead.
 struct Material {
     constexpr Material(float r, Kind k = Kind::structure) : reflectivity(r), kind(k) {}
     float reflectivity;
@@ -24,7 +24,7 @@ struct Mesh {
     std::vector<Material> materials;  ///< one per triangle
 };
 
-/// Radius at a height: the outline of a body of revolution.
+/// Radius at a height: a point of the outline of a body of revolution.
 struct Outline {
     double radius = 0.0;
     double z = 0.0;
@@ -36,14 +36,15 @@ void append(Mesh& mesh, const Mesh& other, const Eigen::Affine3d& T);
 void add_quad(Mesh& mesh, const Eigen::Vector3d& corner, const Eigen::Vector3d& u,
               const Eigen::Vector3d& v, Material material);
 
-/// Makes the level surfaces from triangle `first` on ground: people tread on them.
+/// Marks the horizontal surfaces from triangle `first` on as ground, because people walk on them.
 void pave(Mesh& mesh, std::size_t first);
 
 /// An axis-aligned box in the frame `T`.
 void add_box(Mesh& mesh, const Eigen::Affine3d& T, const Eigen::AlignedBox3d& box,
              Material material);
 
-/// A body of revolution around z in the frame `T` (scale in `T` makes it elliptic); ends closed.
+/// A body of revolution around z in the frame `T`, with closed ends. A scale in `T` makes it
+/// elliptic.
 void add_lathe(Mesh& mesh, const Eigen::Affine3d& T, const std::vector<Outline>& outline, int sides,
                Material material);
 
@@ -64,7 +65,7 @@ struct Crown {
     std::uint64_t seed = 0;
 };
 
-/// Loose triangles in an ellipsoid, denser towards its hull, so that some rays pass through.
+/// Loose triangles in an ellipsoid, denser near its surface, so that some rays pass through.
 void add_leaves(Mesh& mesh, const Crown& crown, Material material);
 
 }  // namespace dynamic_filter::sim

@@ -14,7 +14,7 @@ std::size_t index_of(int row, int column, int columns) {
            static_cast<std::size_t>(column);
 }
 
-/// Lowers the field where the obstacle is nearer than all before it.
+/// Lowers the field where this obstacle is nearer than all previous ones.
 void imprint(DistanceField& field, const Obstacle& obstacle) {
     const double reach = obstacle.half.norm() + obstacle.radius + cut_off;
     const Eigen::Vector2d low = (obstacle.centre - field.origin).array() - reach;

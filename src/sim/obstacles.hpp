@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// What walkers must go around: still shapes in the ground plane and their distance field.
+/// Obstacles for walkers: static shapes in the ground plane, and their distance field.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,7 +7,7 @@
 
 namespace dynamic_filter::sim {
 
-/// A disc (half is zero, radius is not) or a turned rectangle.
+/// A disc (half is zero, radius is not) or a rotated rectangle.
 struct Obstacle {
     Eigen::Vector2d centre = Eigen::Vector2d::Zero();
     Eigen::Vector2d half = Eigen::Vector2d::Zero();
@@ -28,12 +28,13 @@ struct DistanceField {
 
     struct Sample {
         double distance = 0.0;
-        Eigen::Vector2d away = Eigen::Vector2d::Zero();  ///< gradient: away from the obstacle
+        /// Gradient: direction away from the obstacle.
+        Eigen::Vector2d away = Eigen::Vector2d::Zero();
     };
     [[nodiscard]] Sample at(const Eigen::Vector2d& p) const;
 };
 
-/// Covers [low, high]; distances above 3 m are cut off there.
+/// Computes the field on [low, high]; distances above 3 m are set to 3 m.
 DistanceField distance_field(const std::vector<Obstacle>& obstacles, const Eigen::Vector2d& low,
                              const Eigen::Vector2d& high);
 

@@ -23,7 +23,7 @@ Path measured(std::vector<Vector2d> points, bool closed) {
     return path;
 }
 
-/// Tangent at a point of the polyline: the mean of its neighbours' directions.
+/// Tangent at a point of the polyline: the mean of the directions of its neighbors.
 Vector2d tangent(const Path& path, std::size_t i) {
     const std::size_t last = path.points.size() - 1;
     const std::size_t before = i > 0 ? i - 1 : (path.closed ? last - 1 : 0);
@@ -31,7 +31,7 @@ Vector2d tangent(const Path& path, std::size_t i) {
     return (path.points[after] - path.points[before]).normalized();
 }
 
-/// Beyond the ends of the log: on at the speed of the first or last entries.
+/// Before and after the log, the vehicle moves at the speed of its first or last entries.
 double logged(const Log& log, double t) {
     const double steps = (t - log.from) / log_step;
     const auto last = static_cast<std::ptrdiff_t>(log.way.size()) - 2;

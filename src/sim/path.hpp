@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Smooth curves in the ground plane and how far something has come along one.
+/// Smooth curves in the ground plane, and motion along them.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,44 +18,45 @@ struct PathPoint {
     Eigen::Vector2d direction = Eigen::Vector2d::UnitX();  ///< unit vector
 };
 
-/// A uniform cubic B-spline of these corners: smooth to the second derivative, but it cuts corners.
-/// An open path starts and ends at the outer corners; a closed one goes round.
+/// A uniform cubic B-spline of these corners. It is smooth to the second derivative, and does not
+/// pass through the corners. An open path starts and ends at the outer corners; a closed one is
+/// periodic.
 Path smooth_path(const std::vector<Eigen::Vector2d>& corners, bool closed);
 
-/// The straight pieces between these points.
+/// Straight segments between these points.
 Path polyline(std::vector<Eigen::Vector2d> points);
 
-/// Two straights of length 2 * half_straight along x, joined by half circles; starts on the lower
-/// straight at `start_x`, towards +x.
+/// Two straight segments of length 2 * half_straight along x, connected by half circles. It starts
+/// on the lower segment at `start_x`, towards +x.
 Path stadium(double half_straight, double radius, double start_x);
 
-/// Beyond the ends of an open path: straight on.
+/// Point of a path; beyond the ends of an open path, it goes straight on.
 PathPoint at(const Path& path, double s);
 
 constexpr double log_step = 0.1;  ///< [s] between the entries of a log
 
-/// How far something has come, as a simulation of traffic wrote it down.
+/// Distance along a path over time, recorded by a simulation of traffic.
 struct Log {
     double from = 0.0;        ///< [s] time of the first entry
-    std::vector<double> way;  ///< [m] along the path, every log_step
+    std::vector<double> way;  ///< [m] along the path, one entry per log_step
 };
 
-/// A ride at constant speed, with at most one stop (braking and starting at 1.5 m/s2).
+/// A motion at constant speed with at most one stop (braking and accelerating at 1.5 m/s2).
 struct Ride {
     Path path;
     double start = 0.0;      ///< [m] along the path at time 0
     double speed = 5.0;      ///< [m/s]
     double stop_at = -1.0;   ///< [m] along the path; below `start`: no stop
-    double stop_time = 0.0;  ///< [s] of standing
-    Log log = {};            ///< if it has entries, they tell the way, not speed and stop
+    double stop_time = 0.0;  ///< [s] duration of the stop
+    Log log = {};            ///< if not empty, it replaces speed and stop
 };
 
-/// When a ride with a stop comes to stand [s].
+/// Time [s] at which a ride with a stop comes to a halt.
 double halts_at(const Ride& ride);
 
 double travelled(const Ride& ride, double t);
 
-/// [m/s] Of a logged ride at that time, of others on the way between stops.
+/// [m/s] of a logged ride at that time; of other rides between stops.
 double speed_at(const Ride& ride, double t);
 
 }  // namespace dynamic_filter::sim

@@ -9,7 +9,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Clear of walls, and of those placed already unless they are company.
+/// True if the place is clear of walls and of the walkers already placed, except those of the same
+/// company.
 bool is_vacant(const std::vector<Walker>& walkers, std::size_t count, const Walker& walker,
                const Vector2d& p, const DistanceField& field) {
     if (field.at(p).distance < walker.radius) return false;
@@ -48,7 +49,8 @@ Walker companion(const Walker& leader, double offset, Random& random) {
         Waypoint waypoint = leader.route[i];
         const Vector2d along = leader.route[(i + 1) % n].at - leader.route[(i + n - 1) % n].at;
         const double length = along.norm();
-        if (waypoint.face.squaredNorm() > 0.0) {  // opposite the leader, or beside for the third
+        // Opposite the first person, or beside for the third one.
+        if (waypoint.face.squaredNorm() > 0.0) {
             const Vector2d to = waypoint.face - waypoint.at;
             waypoint.at = waypoint.face +
                           Vector2d(-to.y(), to.x()) * (offset > 0.0 ? 1.0 : -1.0) * 0.9 + 0.4 * to;
@@ -64,7 +66,8 @@ void scatter(std::vector<Walker>& walkers, const DistanceField& field, Random& r
     for (std::size_t i = 0; i < walkers.size(); ++i) {
         Walker& walker = walkers[i];
         if (i > 0 && walker.company >= 0 && walker.company == walkers[i - 1].company) {
-            const Walker& leader = walkers[i - 1];  // same leg, same share of it
+            // Same segment of the route, and same share of it.
+            const Walker& leader = walkers[i - 1];
             const std::size_t n = walker.route.size();
             const std::size_t leg = (leader.next + n - 1) % n;
             const Vector2d& a = leader.route[leg].at;

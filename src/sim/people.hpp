@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Drawing of who walks: body sizes, speeds, companies, and where along their route they start.
+/// Draws the walkers: body sizes, speeds, companies, and starting points on their routes.
 #pragma once
 
 #include <functional>
@@ -11,14 +11,15 @@
 
 namespace dynamic_filter::sim {
 
-/// Adult (1.5 to 1.95 m) or, one time in ten, child (1.0 to 1.35 m).
+/// An adult (1.5 to 1.95 m) or, with a probability of one tenth, a child (1.0 to 1.35 m).
 Walker draw_walker(Random& random);
 
-/// Someone like `leader` who walks the same route at `offset` [m] to the left and talks where the
-/// leader does.
+/// A walker like `leader`, on the same route at `offset` [m] to the left, who talks where the
+/// leader talks.
 Walker companion(const Walker& leader, double offset, Random& random);
 
-/// Puts everyone somewhere along the own route, clear of obstacles and (if room allows) of others.
+/// Places all walkers somewhere on their routes, clear of obstacles and, if there is room, of each
+/// other.
 void scatter(std::vector<Walker>& walkers, const DistanceField& field, Random& random);
 
 }  // namespace dynamic_filter::sim

@@ -11,14 +11,14 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double never = 1e9;    // [s]
-constexpr double slowest = 4.0;  // [s] that somebody at a door needs to be in
+constexpr double slowest = 4.0;  // [s] that a person at a door needs to get in
 
-/// Holds somebody until a time.
+/// A release that holds a walker until a time.
 std::function<double(double)> until(double time) {
     return [time](double t) { return std::max(t, time); };
 }
 
-/// Places that are taken once only: people stand for minutes and would push each other.
+/// Standing places, each used only once: people stand for minutes and would push each other.
 struct Places {
     std::vector<Vector2d> taken;
 
@@ -40,8 +40,8 @@ struct Station {
     Random random;
     Places places;
 
-    /// Where somebody can stand without being in the robot's way: at the edge, at the wall, or
-    /// between the pillars.
+    /// A place to stand outside the way of the robot: at the edge, at the wall, or between the
+    /// pillars.
     Vector2d spot() {
         return places.take(
             [&]() -> Vector2d {
@@ -54,7 +54,7 @@ struct Station {
             },
             0.9);
     }
-    /// Another one, so far away that whoever goes there has moved for all to see.
+    /// Another place, at such a distance that the walker clearly moves.
     Vector2d spot_away_from(const Vector2d& p) {
         Vector2d q = spot();
         for (int attempt = 0; attempt < 20 && (p - q).norm() < 4.0; ++attempt) q = spot();
@@ -79,7 +79,7 @@ struct Station {
     double side() { return random.chance(0.5) ? 1.0 : -1.0; }
 };
 
-/// Through the doorway of an exit; `out` is the way there.
+/// Adds the way through the doorway of an exit; `out` selects the direction.
 void pass_exit(std::vector<Waypoint>& route, double side, bool out, Random& random) {
     const double y = random.uniform(-2.4, -1.4);
     const Waypoint before{.at = {side * (half_length - 1.2), y}, .reach = 0.7};
@@ -88,7 +88,7 @@ void pass_exit(std::vector<Waypoint>& route, double side, bool out, Random& rand
     route.push_back(out ? behind : before);
 }
 
-/// Along the middle of the platform, past pillars, to an exit.
+/// Adds the way along the middle of the platform, past pillars, to an exit.
 void leave(Station& station, std::vector<Waypoint>& route, double from, double side) {
     const double y = station.random.uniform(-2.6, -1.4);
     for (double x = from + 6.0 * side; side * x < half_length - 4.0; x += 8.0 * side)
@@ -97,7 +97,7 @@ void leave(Station& station, std::vector<Waypoint>& route, double from, double s
     route.push_back({.at = station.behind_exit(side), .release = until(never)});
 }
 
-/// Stands at a spot, walks to the door when it is open, and is carried off.
+/// Route: stands, walks to the door when it opens, and leaves with the train.
 std::vector<Waypoint> getting_on(Station& station) {
     const std::vector<double> all = doors();
     const double door =
@@ -118,7 +118,7 @@ std::vector<Waypoint> getting_on(Station& station) {
             {.at = station.in_train(door), .reach = 0.5, .release = until(never)}};
 }
 
-/// Is carried to the platform, gets off and leaves it, or waits there for somebody.
+/// Route: comes with the train, gets off, and leaves the platform or waits there.
 std::vector<Waypoint> getting_off(Station& station) {
     const std::vector<double> all = doors();
     const double door =
@@ -139,7 +139,7 @@ std::vector<Waypoint> getting_off(Station& station) {
     return route;
 }
 
-/// Stands for minutes, goes elsewhere, and stands again.
+/// Route: stands for minutes, walks to another place, and stands again.
 std::vector<Waypoint> staying(Station& station) {
     const Vector2d a = station.spot();
     const Vector2d b = station.spot_away_from(a);
@@ -151,7 +151,7 @@ std::vector<Waypoint> staying(Station& station) {
              .face = {b.x(), 20.0}}};
 }
 
-/// From one exit to the other, now and then with a halt.
+/// Route from one exit to the other, sometimes with a halt.
 std::vector<Waypoint> passing(Station& station) {
     std::vector<Waypoint> route;
     for (const double way : {1.0, -1.0}) {
@@ -171,7 +171,7 @@ std::vector<Waypoint> passing(Station& station) {
     return route;
 }
 
-/// Two or three who talk; all turn away together.
+/// Adds two or three people who talk, and later leave together.
 void add_group(std::vector<Walker>& walkers, int size, int company, Station& station) {
     const Vector2d middle = station.places.take(
         [&]() -> Vector2d {
@@ -220,7 +220,8 @@ std::vector<Walker> people(int count, const Timetable& timetable, std::uint64_t 
         Walker walker = draw_walker(station.random);
         walker.luggage = station.random.chance(0.35);
         if (kind < 3) {
-            walker.speed = std::max(walker.speed, 1.0);  // or the doors shut before
+            // Slower people would not be in before the doors close.
+            walker.speed = std::max(walker.speed, 1.0);
             walker.route = getting_on(station);
         } else if (kind < 5) {
             walker.route = getting_off(station);

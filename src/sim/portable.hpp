@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Elementary functions from IEEE basic operations only. The C library's may differ in the last bit
-/// between processors, which a crowd (a chaotic system) would blow up into other trajectories.
+/// Elementary functions from IEEE basic operations only. Those of the C library may differ in the
+/// last bit between processors; as a crowd is a chaotic system, its trajectories would then differ.
 #pragma once
 
 namespace dynamic_filter::sim {

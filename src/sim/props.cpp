@@ -31,7 +31,7 @@ void block_rectangle(Scene& scene, const Spot& spot, double length, double width
         {.centre = spot.at, .half = {length / 2, width / 2}, .axis = spot.axis});
 }
 
-/// Box given by its middle in plan and the heights of its bottom and top.
+/// A box at a spot, from the corner `low` to the corner `high`.
 void box(Scene& scene, const Spot& spot, const Vector3d& low, const Vector3d& high,
          Material material) {
     add_box(scene.still, frame(spot), {low, high}, material);
@@ -125,7 +125,7 @@ void add_tree(Scene& scene, const Spot& spot, double height, std::uint64_t seed)
               {{1.4 * trunk, 0}, {trunk, 0.4}, {0.8 * trunk, fork}, {0.3 * trunk, 0.8 * height}},
               10, trunk_wood);
     const double spread = 0.28 * height;
-    for (int i = 0; i < 4; ++i) {  // boughs, each with its part of the crown
+    for (int i = 0; i < 4; ++i) {  // boughs, each with a part of the crown
         const Vector3d root(spot.at.x(), spot.at.y(), spot.z + fork * random.uniform(0.85, 1.1));
         const Vector3d tip =
             root + Vector3d((i % 2 == 0 ? 1 : -1) * random.uniform(0.2, 0.6) * spread,

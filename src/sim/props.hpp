@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Street furniture and house fronts. Each adds its mesh to the scene and, where people could bump
-/// into it, its obstacle.
+/// Street furniture and house facades. Each function adds a mesh to the scene, and an obstacle if
+/// people could walk into the object.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,14 @@
 
 namespace dynamic_filter::sim {
 
-/// A frame in the ground plane: where a thing stands and which way its x axis looks.
+/// A frame in the ground plane: the position of an object and the direction of its x axis.
 struct Spot {
     Eigen::Vector2d at = Eigen::Vector2d::Zero();
     Eigen::Vector2d axis = Eigen::Vector2d::UnitX();
     double z = 0.0;
 };
 
-/// first, first + step, ... below `end`: where the things of a row stand.
+/// Positions of the objects in a row: first, first + step, ... below `end`.
 std::vector<double> row(double first, double end, double step);
 
 void add_ground(Scene& scene, const Eigen::AlignedBox2d& area, double z, float reflectivity);
@@ -39,19 +39,20 @@ void add_parked_car(Scene& scene, const Spot& spot, float brightness);
 enum class Bay { wall, recess, shop, door };
 
 struct Facade {
-    Spot spot;  ///< left end of the front seen from the street; x along the front, y into the house
+    /// Left end of the facade seen from the street; x along the facade, y into the house.
+    Spot spot;
     std::vector<Bay> bays;
     double bay_width = 4.0;
     double ground_floor = 3.4;  ///< [m] its height
     int upper_floors = 2;
-    double room_depth = 2.5;  ///< of shops and behind doors
-    std::uint64_t seed = 0;   ///< decides how the rooms are furnished
+    double room_depth = 2.5;  ///< [m] of shops and of the rooms behind doors
+    std::uint64_t seed = 0;   ///< for the furniture of the rooms
 };
 
-/// Windows have reveals and sills, shops are open to the eye but not to the foot, doors to both.
+/// Windows have reveals and sills. Beams enter shops, but people do not; both enter doors.
 void add_facade(Scene& scene, const Facade& facade);
 
-/// Middle of the doorway of a bay, and a place in the room behind it.
+/// The middle of the doorway of a bay, and a place in the room behind it.
 Eigen::Vector2d doorway(const Facade& facade, std::size_t bay);
 Eigen::Vector2d behind_door(const Facade& facade, std::size_t bay);
 

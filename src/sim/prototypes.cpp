@@ -16,7 +16,8 @@ constexpr float cloth = 0.45F, skin = 0.5F, paint = 0.6F, rubber = 0.08F, metal 
 
 Affine3d shift(double x, double y, double z) { return Affine3d(Eigen::Translation3d(x, y, z)); }
 
-/// Someone of 1.75 m from the hips up; the frame's origin is on the ground below the hips.
+/// Upper body of a person of 1.75 m, from the hips up. The origin of the frame is on the ground
+/// below the hips.
 Mesh torso(bool with_pack) {
     Mesh mesh;
     const Affine3d flat = shift(0, 0, 0) * Eigen::Scaling(0.62, 1.0, 1.0);
@@ -43,7 +44,7 @@ Mesh torso(bool with_pack) {
 }
 
 Mesh leg() {
-    Mesh mesh;  // from the hip, leg_length * 1.75 m above the sole
+    Mesh mesh;  // from the hip, which is leg_length * 1.75 m above the sole
     add_lathe(
         mesh, Affine3d::Identity(),
         {{0.05, 0.0}, {0.088, -0.06}, {0.08, -0.25}, {0.06, -0.45}, {0.058, -0.55}, {0.042, -0.80}},
@@ -81,7 +82,7 @@ void add_tyre(Mesh& mesh, double x, double radius) {
     }
 }
 
-/// Bicycle and the rider down to the hips.
+/// A bicycle with the rider down to the hips.
 Mesh bicycle() {
     Mesh mesh;
     add_tyre(mesh, -0.5, 0.32);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-/// Counter-based random numbers: a value is a hash of where it is used, so the order of the calls
-/// and the number of threads do not matter.
+/// Counter-based random numbers. Each value is a hash of the place where it is used, so the order
+/// of the calls and the number of threads have no effect.
 #pragma once
 
 #include <cstdint>
 
 namespace dynamic_filter::sim {
 
-/// Finaliser of splitmix64 (Steele et al., OOPSLA 2014): every input bit reaches every output bit.
+/// Finalizer of splitmix64 (Steele et al., OOPSLA 2014): every input bit affects every output bit.
 constexpr std::uint64_t mix(std::uint64_t x) {
     x += 0x9e3779b97f4a7c15ULL;
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
@@ -23,10 +23,10 @@ constexpr std::uint64_t hash(std::uint64_t a, std::uint64_t b, std::uint64_t c) 
 /// Uniform in [0, 1).
 constexpr double unit(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1.0p-53; }
 
-/// Standard normal (Box and Muller 1958) from the two hashes that follow `bits`.
+/// A standard normal number (Box and Muller 1958) from the two hashes that follow `bits`.
 double normal(std::uint64_t bits);
 
-/// A sequence of draws, for code that runs once and in order (the building of scenes).
+/// A sequence of random numbers, for code that runs once and in order (building scenes).
 struct Random {
     std::uint64_t key = 0;
     std::uint64_t count = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// What a scene is made of. A new scene is one file with a function that returns a Scene, and its
-/// line in scenes.cpp.
+/// The parts of a scene. To add a scene, write one file with a function that returns a Scene, and
+/// add its line in scenes.cpp.
 #pragma once
 
 #include <cstdint>
@@ -19,25 +19,26 @@ namespace dynamic_filter::sim {
 struct Scene {
     Mesh still;
     std::vector<Obstacle> obstacles;
-    Eigen::Vector2d low, high;  ///< where people can be
+    Eigen::Vector2d low, high;  ///< bounds of the area for people
     std::vector<Walker> walkers;
     std::vector<Vehicle> vehicles;
-    Ride robot;                  ///< carries the sensor
-    double robot_radius = 0.4;   ///< [m] that walkers keep clear of
+    Ride robot;                  ///< motion of the robot that carries the sensor
+    double robot_radius = 0.4;   ///< [m] around the robot, which walkers keep clear
     double sensor_height = 0.8;  ///< [m]
     double duration = 0.0;       ///< [s]
-    double floor = 0.0;          ///< [m] world height of z = 0: on no boundary of usual voxels
-    std::function<double(const Eigen::Vector2d&)> ground;  ///< height; empty: zero everywhere
-    /// How far those at a place are carried off at a time (aboard a train); empty: nowhere. The
-    /// crowd is simulated as if they stayed.
+    double floor = 0.0;  ///< [m] world height of z = 0, chosen off the boundaries of usual voxels
+    /// Height of the ground; empty: zero everywhere.
+    std::function<double(const Eigen::Vector2d&)> ground;
+    /// Displacement at a time of people at a place (aboard a train); empty: none. The crowd itself
+    /// is simulated without it.
     std::function<Eigen::Vector2d(const Eigen::Vector2d&, double)> carried;
 };
 
 struct SceneEntry {
     std::string name;
-    int pedestrians = 0;  ///< unless asked otherwise
+    int pedestrians = 0;  ///< default number
     double rate_hz = 10.0;
-    int rounds = 0;  ///< that the robot goes within the duration; 0: its way is no round
+    int rounds = 0;  ///< of the robot within the duration; 0: its way has no rounds
     std::function<Scene(int pedestrians, std::uint64_t seed)> make;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// A pedestrian mall, 70 m x 10 m (Sec. IV-A): people stream along it in lanes, cross it between
-/// doors, and the robot drives an elongated loop among them two times.
+/// A pedestrian mall, 70 m x 10 m (Sec. IV-A). People walk along it in lanes, and cross it between
+/// doors. The robot drives an elongated loop twice.
 #include <algorithm>
 
 #include "people.hpp"
@@ -14,7 +14,7 @@ using Eigen::AlignedBox2d;
 using Eigen::Vector2d;
 
 constexpr double half_length = 35.1, half_width = 5.1;
-constexpr double lobby_depth = 2.6;  // behind the ends, where people turn round
+constexpr double lobby_depth = 2.6;  // behind the ends, where people turn
 constexpr double crossings[] = {-22.0, 2.0, 22.0};
 constexpr double first_bay = -36.0, bay_width = 4.0;
 constexpr std::size_t bays = 18;
@@ -26,7 +26,7 @@ bool is_crossing(double x, double room) {
                        [&](double c) { return std::abs(x - c) < room; });
 }
 
-/// The two fronts; `side` is +1 for the one at y = +5.
+/// One of the two facades; `side` is +1 for the one at y = +5.
 Facade front(double side, std::uint64_t seed) {
     Facade facade{.spot = {.at = {side * first_bay, side * half_width}, .axis = {side, 0.0}},
                   .bays = std::vector<Bay>(bays, Bay::wall),
@@ -42,7 +42,7 @@ Facade front(double side, std::uint64_t seed) {
     return facade;
 }
 
-/// End walls with two gates each and a lobby behind.
+/// The walls at the ends, with two gates each and a lobby behind.
 void add_ends(Scene& scene) {
     for (const double side : {-1.0, 1.0}) {
         const double x = side * half_length;
@@ -57,7 +57,7 @@ void add_ends(Scene& scene) {
     }
 }
 
-/// The middle strip, between the two legs of the robot's loop.
+/// The strip in the middle, between the two legs of the robot's loop.
 void add_middle(Scene& scene, std::uint64_t seed) {
     for (const double x : row(-28.0, 28.0, 2.0)) {  // hedges between the two lanes
         if (is_crossing(x + 1.0, 2.0)) continue;
@@ -91,7 +91,7 @@ void add_middle(Scene& scene, std::uint64_t seed) {
     }
 }
 
-/// Along the fronts, outside the lanes.
+/// Objects along the facades, outside the lanes.
 void add_sides(Scene& scene, std::uint64_t seed) {
     Random random{hash(seed, 0x51de)};
     for (const double side : {-1.0, 1.0}) {
@@ -119,7 +119,7 @@ void add_sides(Scene& scene, std::uint64_t seed) {
     }
 }
 
-/// Some laps: down one lane, round in the lobby, back in another.
+/// A route of some laps: along one lane, round in the lobby, and back in another lane.
 std::vector<Waypoint> lane_route(int turn, Random& random) {
     std::vector<Waypoint> route;
     for (const double way : {1.0, -1.0, 1.0, -1.0, 1.0, -1.0}) {
@@ -142,7 +142,7 @@ std::vector<Waypoint> lane_route(int turn, Random& random) {
     return route;
 }
 
-/// From one room to the one opposite and back.
+/// A route from one room to the one opposite and back.
 std::vector<Waypoint> crossing_route(const Facade& left, const Facade& right, int turn,
                                      Random& random) {
     const double x = crossings[turn % 3];
@@ -164,7 +164,7 @@ std::vector<Waypoint> crossing_route(const Facade& left, const Facade& right, in
     return route;
 }
 
-/// Puts a chat into a lane route: at the edge of a lane, out of the robot's way.
+/// Adds a conversation to a route: at the edge of a lane, outside the way of the robot.
 void add_chat(std::vector<Waypoint>& route, Random& random) {
     const auto k = static_cast<std::size_t>(random.below(9)) + 2;
     const Vector2d lane = route[k].at;
@@ -177,7 +177,7 @@ void add_chat(std::vector<Waypoint>& route, Random& random) {
 
 std::vector<Walker> people(int count, const Facade& left, const Facade& right, Random& random) {
     std::vector<Walker> walkers;
-    int companies = 0, turn = 0, crossing = 0;  // routes are dealt out evenly
+    int companies = 0, turn = 0, crossing = 0;  // so that routes are distributed evenly
     while (static_cast<int>(walkers.size()) < count) {
         Walker walker = draw_walker(random);
         const int room = count - static_cast<int>(walkers.size());

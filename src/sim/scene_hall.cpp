@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// A hall of 48 m x 26 m on two levels: shops along the nave, galleries above them with more
-/// people, stairs, columns, a roof; the robot drives down the nave.
+/// A hall of 48 m x 26 m on two levels: shops along the nave, galleries with more people above
+/// them, stairs, columns and a roof. The robot drives along the nave.
 #include <cmath>
 
 #include "people.hpp"
@@ -14,9 +14,9 @@ using Eigen::AlignedBox2d;
 using Eigen::Vector2d;
 
 constexpr double half_length = 24.0, half_width = 13.0, roof = 9.0;
-constexpr double edge = 8.0;   ///< [m] the galleries begin this far from the middle
-constexpr double level = 4.0;  ///< [m] height of their floor
-constexpr double front = 9.0;  ///< the shops below stand back a little
+constexpr double edge = 8.0;   ///< [m] distance of the galleries from the middle
+constexpr double level = 4.0;  ///< [m] height of the floor of the galleries
+constexpr double front = 9.0;  ///< [m] the shops below are a little farther back
 
 void add_slab(Scene& scene, const Eigen::AlignedBox3d& slab) {
     const std::size_t first = scene.still.triangles.size();
@@ -36,7 +36,7 @@ void add_shops(Scene& scene, double side, double at, double z, std::uint64_t see
     add_facade(scene, facade);
 }
 
-/// A flight of stairs along the gallery's edge, from the nave to the gallery.
+/// Stairs along the edge of the gallery, from the nave to the gallery.
 void add_stairs(Scene& scene, double side) {
     constexpr int steps = 20;
     for (int i = 0; i < steps; ++i) {
@@ -51,8 +51,8 @@ void add_side(Scene& scene, double side, std::uint64_t seed) {
     add_slab(scene, {Eigen::Vector3d(-half_length, low, level - 0.35),
                      Eigen::Vector3d(half_length, high, level)});
     const std::size_t people_meet = scene.obstacles.size();
-    add_shops(scene, side, front, 0.0, seed);  // below the gallery nobody walks ...
-    scene.obstacles.resize(people_meet);       // ... and above it these are not in the way
+    add_shops(scene, side, front, 0.0, seed);  // nobody walks below the gallery
+    scene.obstacles.resize(people_meet);  // people on the gallery do not meet the obstacles below
     add_shops(scene, side, half_width, level, seed);
     for (const double x : row(-22.0, 23.0, 4.0)) {
         add_railing(scene, {.at = {x, side * (edge + 0.1)}, .z = level}, 4.0);
@@ -77,12 +77,12 @@ void add_furniture(Scene& scene, std::uint64_t seed) {
     }
 }
 
-/// Part of the hall that people stay in: between two y, from wall to wall.
+/// A part of the hall for some of the people: between two y, from wall to wall.
 struct Floor {
     double low, high;
 };
 
-/// A few places of a floor, each in sight of the one before.
+/// A few places of a floor; each is reached on a straight line from the previous one.
 std::vector<Waypoint> route(const Floor& floor, const DistanceField& field, Random& random) {
     std::vector<Waypoint> out;
     for (int attempt = 0; attempt < 4000 && out.size() < 6; ++attempt) {
@@ -106,7 +106,8 @@ void add_people(Scene& scene, int pedestrians, std::uint64_t seed) {
     const Floor galleries[] = {{edge + 0.6, half_width - 0.6}, {-half_width + 0.6, -edge - 0.6}};
     for (int i = 0; i < pedestrians; ++i) {
         Walker walker = draw_walker(random);
-        const Floor& floor = i % 3 != 2 ? nave : galleries[(i / 3) % 2];  // a third is upstairs
+        // A third of the people is upstairs.
+        const Floor& floor = i % 3 != 2 ? nave : galleries[(i / 3) % 2];
         while (walker.route.size() < 3) walker.route = route(floor, field, random);
         scene.walkers.push_back(walker);
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-/// A street in a jam, 470 m long, with three lights: cars queue, stand and pull off, a bus stands
-/// at its stop, a van delivers, cars park and leave; the sensor rides on a car of the queue.
+/// A street with a traffic jam, 470 m long, with three traffic lights. Cars queue, stand and start;
+/// a bus stands at its stop; a van delivers; cars park and leave. The sensor is on a car of the
+/// queue.
 #include <algorithm>
 
 #include "jam.hpp"
@@ -17,7 +18,7 @@ using Eigen::Vector2d;
 constexpr double first = -70.0, last = 400.0;  // [m] along x
 
 double ground(const Vector2d& p) {
-    constexpr double step = 0.3;  // a foot's length to go up
+    constexpr double step = 0.3;  // [m] over which people step up
     return pavement * std::clamp((std::abs(p.y()) - kerb) / step + 0.5, 0.0, 1.0);
 }
 
@@ -62,7 +63,7 @@ bool is_crossing(const Plan& plan, double x, double room) {
                        [&](const Signal& signal) { return std::abs(x - signal.at) < room; });
 }
 
-/// Trees and lamps at the kerb, and what stands at the walls.
+/// Trees and lamps at the kerb, and objects at the walls.
 void add_furniture(Scene& scene, const Plan& plan, double side, Random& random) {
     const auto kept = [&](double x) {
         return is_crossing(plan, x, 3.5) || (side > 0.0 && std::abs(x - plan.bus_stop) < 6.5);
@@ -90,7 +91,7 @@ void add_furniture(Scene& scene, const Plan& plan, double side, Random& random) 
     }
 }
 
-/// Cars that stand there all the time, a light's length from each other.
+/// Cars that are parked all the time: one every 5.8 m, with some gaps.
 void add_parked(Scene& scene, const Plan& plan, double side, Random& random) {
     for (const double x : row(first, last, 5.8)) {
         if (is_free(plan, side, x, 2.6) || random.chance(0.2)) continue;
@@ -99,7 +100,7 @@ void add_parked(Scene& scene, const Plan& plan, double side, Random& random) {
     }
 }
 
-/// Masts of the lights, and the shelter at the bus stop.
+/// The masts of the lights, and the shelter at the bus stop.
 void add_masts(Scene& scene, const Plan& plan) {
     for (const Signal& signal : plan.signals) {
         for (const double side : {-1.0, 1.0}) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-/// A station platform, 72 m x 9 m: people stand for minutes, alone and in groups, with luggage; a
-/// train comes, people get off and on, it leaves; the robot drives along the platform and back.
+/// A station platform, 72 m x 9 m. People stand for minutes, alone and in groups, with luggage. A
+/// train arrives, people get off and on, and it leaves. The robot drives along the platform and
+/// back.
 #include <cmath>
 
 #include "platform.hpp"
@@ -21,7 +22,7 @@ void add_wall(Scene& scene, double x0, double y0, double x1, double y1) {
     add_block(scene, {.at = {(x0 + x1) / 2, (y0 + y1) / 2}}, {x1 - x0, y1 - y0, ceiling}, 0.5F);
 }
 
-/// The track in its trough, from one tunnel to the other, and the roof above all.
+/// The track in its trough, from one tunnel to the other, and the roof.
 void add_shell(Scene& scene) {
     const double end = exit_until + 0.3;
     add_ground(scene, AlignedBox2d(Vector2d(-end, -half_width), Vector2d(end, half_width)), 0.0,
@@ -42,11 +43,11 @@ void add_shell(Scene& scene) {
         const Spot spot{.at = {0.0, train_y + rail}, .z = track};
         const std::size_t still = scene.obstacles.size();
         add_block(scene, spot, {2 * tunnel, 0.07, 0.15}, 0.5F);
-        scene.obstacles.resize(still);  // below where people walk
+        scene.obstacles.resize(still);  // lower than the people
     }
 }
 
-/// Walls at the ends with the doorways of the exits, and the corridors behind them.
+/// The walls at the ends with the doorways of the exits, and the corridors behind them.
 void add_exits(Scene& scene) {
     for (const double side : {-1.0, 1.0}) {
         const double x = side * (half_length + 0.15), back = side * (exit_until + 0.15);
@@ -55,7 +56,7 @@ void add_exits(Scene& scene) {
         add_wall(scene, x - 0.15, -1.0, x + 0.15, half_width);
         add_wall(scene, back - 0.15, -half_width, back + 0.15, half_width);
         add_wall(scene, low, 1.2, high, 1.5);
-        // stairs go up beside the doorway, behind a wall
+        // Stairs beside the doorway, behind a wall.
         for (int i = 0; i < 14; ++i) {
             const Spot step{.at = {side * (half_length - 6.0 + 0.32 * i), -3.9}};
             const std::size_t first = scene.still.triangles.size();
@@ -83,7 +84,7 @@ void add_long_wall(Scene& scene, Random& random) {
                         .axis = {-1.0, 0.0}};
         switch (random.below(4)) {
             case 0:
-                add_block(scene, spot, {1.1, 0.7, 1.85}, 0.4F);  // sells drinks
+                add_block(scene, spot, {1.1, 0.7, 1.85}, 0.4F);  // vending machine
                 break;
             case 1:
                 add_bin(scene, spot);
@@ -95,7 +96,7 @@ void add_long_wall(Scene& scene, Random& random) {
     }
 }
 
-/// Pillars and what stands between them.
+/// Pillars, and objects between them.
 void add_middle(Scene& scene, Random& random) {
     for (int i = -3; i <= 3; ++i) {
         const double x = pillars * i;
@@ -109,8 +110,8 @@ void add_middle(Scene& scene, Random& random) {
     }
 }
 
-/// What keeps people on the platform and, aboard, off the track: the edge between the doors, the
-/// walls of the train.
+/// Obstacles that keep people on the platform and, in the train, off the track: the edge of the
+/// platform between the doors, and the walls of the train.
 void add_edge(Scene& scene) {
     double from = -half_length - 0.5;
     const auto keep = [&](double x0, double x1, double y, double half) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// An open square, 60 m x 60 m, with a fountain, trees, a stage with steps and a ramp; people cross
-/// it in all directions while the robot drives a slow curve.
+/// An open square, 60 m x 60 m, with a fountain, trees, and a stage with steps and a ramp. People
+/// cross it in all directions while the robot drives a slow curve.
 #include <cmath>
 #include <numbers>
 
@@ -16,13 +16,13 @@ using Eigen::AlignedBox2d;
 using Eigen::Vector2d;
 
 constexpr double half = 30.0;
-constexpr double clearing = 3.0;  // half the width of the streets that lead away from the corners
+constexpr double clearing = 3.0;  // [m] half the width of the streets at the corners
 
 void add_buildings(Scene& scene, std::uint64_t seed) {
     Random random{hash(seed, 0x5a)};
     const Vector2d axes[] = {{1, 0}, {0, -1}, {-1, 0}, {0, 1}};
     for (const Vector2d& axis : axes) {
-        const Vector2d out(-axis.y(), axis.x());  // into the house
+        const Vector2d out(-axis.y(), axis.x());  // direction into the house
         Facade facade{.spot = {.at = half * out - (half - clearing) * axis, .axis = axis},
                       .bays = {},
                       .bay_width = 4.5,
@@ -34,7 +34,7 @@ void add_buildings(Scene& scene, std::uint64_t seed) {
     }
 }
 
-/// Basin with a pillar and a figure on it.
+/// A basin with a pillar and a figure.
 void add_fountain(Scene& scene) {
     Eigen::Affine3d T = Eigen::Affine3d::Identity();
     add_lathe(scene.still, T,
@@ -56,7 +56,7 @@ void add_fountain(Scene& scene) {
     scene.obstacles.push_back({.centre = Vector2d::Zero(), .radius = 3.3});
 }
 
-/// Five steps up to a stage, and a ramp at its side.
+/// A stage with five steps, and a ramp at its side.
 void add_stage(Scene& scene) {
     const Vector2d middle(17.0, 18.0);
     const std::size_t first = scene.still.triangles.size();
@@ -77,7 +77,7 @@ void add_furniture(Scene& scene, std::uint64_t seed) {
     Random random{hash(seed, 0x5b)};
     for (const double x : {-20.0, -12.0, 12.0, 20.0}) {
         for (const double y : {-20.0, -9.0, 9.0, 20.0}) {
-            if (x > 0.0 && y > 0.0 && (x > 15.0 || y > 15.0)) continue;  // the stage
+            if (x > 0.0 && y > 0.0 && (x > 15.0 || y > 15.0)) continue;  // place of the stage
             const Vector2d at(x + random.uniform(-1.0, 1.0), y + random.uniform(-1.0, 1.0));
             add_tree(scene, {.at = at}, random.uniform(5.5, 8.5), random.bits());
             if (random.chance(0.6))
@@ -98,7 +98,7 @@ void add_furniture(Scene& scene, std::uint64_t seed) {
     }
 }
 
-/// A few places on the square, each in sight of the one before.
+/// A few places on the square; each is reached on a straight line from the previous one.
 std::vector<Waypoint> route(const DistanceField& field, Random& random) {
     std::vector<Waypoint> out;
     for (int attempt = 0; attempt < 4000 && out.size() < 7; ++attempt) {
@@ -132,7 +132,7 @@ void add_vehicles(Scene& scene) {
                                        .speed = 3.5,
                                        .stop_at = stop,
                                        .stop_time = 12.0}});
-    // round the trees in the north-west and in the south-east
+    // Around the trees in the north-west and in the south-east.
     const auto cyclist = [&](const std::vector<Vector2d>& corners, double start, double speed) {
         scene.vehicles.push_back(
             {.kind = VehicleKind::cyclist,

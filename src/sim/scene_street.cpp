@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// A street 260 m long: two lanes, parked cars, pavements, house fronts. The sensor rides on a
-/// vehicle at 5 m/s.
+/// A street 260 m long with two lanes, parked cars, pavements and house facades. The sensor is on a
+/// vehicle that drives at 5 m/s.
 #include <algorithm>
 
 #include "people.hpp"
@@ -14,10 +14,10 @@ using Eigen::AlignedBox2d;
 using Eigen::Vector2d;
 
 constexpr double first = -40.0, last = 220.0;  // [m] along x
-constexpr double lane = 1.75;                  // middle of a lane from the middle of the street
-constexpr double parking = 4.6;                // middle of the row of parked cars
-constexpr double kerb = 5.7, front = 10.0;     // edges of the pavement
-constexpr double pavement = 0.15;              // [m] above the street
+constexpr double lane = 1.75;               // [m] middle of a lane, from the middle of the street
+constexpr double parking = 4.6;             // middle of the row of parked cars
+constexpr double kerb = 5.7, front = 10.0;  // [m] edges of the pavement
+constexpr double pavement = 0.15;           // [m] above the street
 constexpr double crossings[] = {38.0, 78.0, 122.0, 160.0};
 constexpr double bus_stop = 100.0;
 
@@ -27,7 +27,7 @@ bool is_kept_free(double x, double room) {
 }
 
 double ground(const Vector2d& p) {
-    constexpr double step = 0.3;  // a foot's length to go up
+    constexpr double step = 0.3;  // [m] over which people step up
     return pavement * std::clamp((std::abs(p.y()) - kerb) / step + 0.5, 0.0, 1.0);
 }
 
@@ -103,7 +103,7 @@ Path straight(double y, double way) {
     return smooth_path({{way * -400.0, y}, {way * 0.0, y}, {way * 400.0, y}}, false);
 }
 
-/// Where along straight(y, way) the place `x` is.
+/// Position along straight(y, way) of the place `x`.
 double along(double x, double way) { return 400.0 + way * x; }
 
 void add_traffic(Scene& scene, Random& random) {
@@ -113,12 +113,13 @@ void add_traffic(Scene& scene, Random& random) {
              .ride = {.path = straight(y, way), .start = along(x, way), .speed = speed},
              .brightness = static_cast<float>(random.uniform(0.5, 1.4))});
     };
-    for (const double ahead : {-15.0, 16.0, 34.0, 62.0}) {  // in the sensor's lane, as fast as it
+    // In the lane of the sensor, at the same speed.
+    for (const double ahead : {-15.0, 16.0, 34.0, 62.0}) {
         ride(VehicleKind::car, -lane, 1.0, ahead, 5.0 + 0.01 * std::max(0.0, ahead));
     }
     for (const double x : {40.0, 75.0, 98.0}) ride(VehicleKind::car, lane, -1.0, x, 8.0);
     ride(VehicleKind::van, lane, -1.0, 120.0, 8.0);
-    // the bus draws up at its stop for ten seconds, clear of the lane behind it
+    // The bus stops in its bay for ten seconds, so that the lane stays free.
     const Path bay = smooth_path({{500.0, lane},
                                   {200.0, lane},
                                   {128.0, lane},
@@ -144,7 +145,7 @@ void add_traffic(Scene& scene, Random& random) {
     ride(VehicleKind::cyclist, 3.15, -1.0, 71.0, 4.7);
 }
 
-/// Up and down a pavement, or over the street at a crossing and back.
+/// A route along a pavement and back, or over the street at a crossing and back.
 std::vector<Waypoint> route(Random& random) {
     const double side = random.chance(0.5) ? 1.0 : -1.0;
     std::vector<Waypoint> out;

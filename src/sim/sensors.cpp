@@ -15,8 +15,8 @@ Eigen::Vector3f direction(const SinCos& a, const SinCos& e) {
     return Eigen::Vector3d(e.cos * a.cos, e.cos * a.sin, e.sin).cast<float>();
 }
 
-/// Two prisms turning at incommensurate speeds (as in Liu et al., "A Low-Cost and High-Precision
-/// Scanning LiDAR", 2021): the sum of two turning deflections, 70.4 x 77.2 degrees in all.
+/// Two prisms that rotate at incommensurate speeds (as in Liu et al., "A Low-Cost and
+/// High-Precision Scanning LiDAR", 2021): the sum of two rotating deflections, 70.4 x 77.2 degrees.
 std::vector<Eigen::Vector3f> rosette(const Sensor& sensor, std::uint64_t seed, std::size_t scan) {
     constexpr double period = 0.1;              // [s] of one scan
     constexpr double turns_1 = 7294.0 / 60.0;   // [1/s]

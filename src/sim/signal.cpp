@@ -6,7 +6,7 @@
 namespace dynamic_filter::sim {
 namespace {
 
-/// [s] since a red began.
+/// Time [s] since the latest red began.
 double into_cycle(const Signal& signal, double t) {
     const double since = t - signal.first;
     return since - signal.cycle * std::floor(since / signal.cycle);

@@ -74,7 +74,7 @@ std::vector<Part> all_parts(const Scene& scene) {
     return parts;
 }
 
-/// [s] For as many rounds as are asked for.
+/// Duration [s] of the requested number of rounds.
 double duration_of(const Scene& scene, const SceneEntry& entry, int rounds) {
     if (rounds == 0) return scene.duration;
     if (entry.rounds > 0) return scene.duration * rounds / entry.rounds;
@@ -86,7 +86,7 @@ double duration_of(const Scene& scene, const SceneEntry& entry, int rounds) {
                       "\" the robot does not go in rounds; it does in " + choices);
 }
 
-/// How many scans are asked for; there must be that many.
+/// The requested number of scans; throws if the scene has fewer.
 std::size_t scan_count(const SimulationOptions& options, double duration, double rate_hz) {
     const auto full = static_cast<std::size_t>(duration * rate_hz + 1e-6);
     const std::size_t scans = options.frames.value_or(full);
@@ -129,7 +129,7 @@ Pose true_pose(const Scene& scene, double t) {
     pose.linear() << p.direction.x(), -p.direction.y(), 0.0, p.direction.y(), p.direction.x(), 0.0,
         0.0, 0.0, 1.0;
     pose.translation() = Eigen::Vector3d(p.position.x(), p.position.y(), scene.sensor_height);
-    // wheels on paving: a few tenths of a degree of roll and pitch
+    // Wheels on paving stones: a few tenths of a degree of roll and pitch.
     constexpr double sway = 0.2 * std::numbers::pi / 180.0;
     return rotated(pose, {sway * portable_sincos(2.1 * t).sin,
                           sway * portable_sincos(1.3 * t + 1.0).sin, 0.0});
@@ -173,7 +173,7 @@ struct Simulation::World {
 
     [[nodiscard]] double sweep_duration() const { return std::min(1.0 / rate_hz, longest_sweep); }
 
-    /// Scan i, which is taken or begins at t [s].
+    /// Simulates scan i, which is taken (or begins) at t [s].
     Returns returns(std::size_t i, double t, const Pose& pose) {
         if (!options.sweep) {
             caster.place(placements(t));
@@ -198,7 +198,7 @@ Simulation::Simulation(const SimulationOptions& options) {
     const double rate = options.rate_hz > 0.0 ? options.rate_hz : entry.rate_hz;
     const std::size_t scans = scan_count(options, duration_of(scene, entry, options.rounds), rate);
     Crowd crowd = simulated_crowd(scene, static_cast<double>(scans) / rate);
-    // the mesh of the still parts is large: kept by the caster only
+    // The mesh of the static parts is large, so only the caster keeps it.
     world_.reset(new World{options, sensor, scene,
                            Caster(scene.still, prototypes(), all_parts(scene)), rate, scans,
                            std::move(crowd)});

@@ -14,7 +14,7 @@ using Eigen::Vector2d;
 constexpr double pair_strength = 2.5, pair_range = 0.3;  // [m/s2], [m]
 constexpr double contact_stiffness = 20.0;               // [1/s2]
 constexpr double mover_strength = 4.0, mover_range = 0.5;
-constexpr double rear_weight = 0.3;  // of what happens behind one's back
+constexpr double rear_weight = 0.3;  // weight of events behind the person
 
 }  // namespace
 
@@ -68,7 +68,7 @@ Vector2d person_force(const Vector2d& heading, const Vector2d& offset, double ga
     const double strength = weight * pair_strength * portable_exp(-gap / pair_range);
     const double contact = gap < 0.0 ? -contact_stiffness * gap : 0.0;
     Vector2d force = (strength + contact) * away;
-    if (oncoming && ahead > 0.5) {  // else two people who meet head-on would block each other
+    if (oncoming && ahead > 0.5) {  // otherwise two people who meet head-on would block each other
         force += 0.7 * strength * Vector2d(heading.y(), -heading.x());
     }
     return force;

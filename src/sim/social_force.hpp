@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// The forces between people (Helbing & Molnar 1995; contact as in Helbing, Farkas & Vicsek 2000).
+/// Forces between people (Helbing & Molnar 1995; contact as in Helbing, Farkas & Vicsek 2000).
 #pragma once
 
 #include <Eigen/Core>
@@ -9,7 +9,7 @@
 
 namespace dynamic_filter::sim {
 
-/// Something that walkers yield to: the robot, a part of a vehicle.
+/// Something to which walkers yield: the robot, or a part of a vehicle.
 struct Mover {
     Eigen::Vector2d centre = Eigen::Vector2d::Zero();
     Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
@@ -18,20 +18,21 @@ struct Mover {
 
 using Pair = std::pair<std::size_t, std::size_t>;
 
-constexpr double neighbour_range = 3.0;  ///< [m] people farther away do not matter
+constexpr double neighbour_range = 3.0;  ///< [m] people farther away have no effect
 
-/// Indices (smaller first) of points nearer than `range`, in an order that only they decide.
+/// Pairs of indices (smaller first) of points nearer than `range`. Their order depends only on the
+/// points.
 std::vector<Pair> pairs_within(const std::vector<Eigen::Vector2d>& points, double range);
 
 /// `v` as a unit vector, or `other` if it has no direction.
 Eigen::Vector2d unit_or(const Eigen::Vector2d& v, const Eigen::Vector2d& other);
 
-/// [m/s2] on somebody who looks along `heading`, from another at -`offset` with `gap` [m] between
-/// the bodies. Oncoming people step to their right.
+/// [m/s2] force on a person who looks along `heading`, from another person at -`offset`, with `gap`
+/// [m] between the bodies. Oncoming people step to their right.
 Eigen::Vector2d person_force(const Eigen::Vector2d& heading, const Eigen::Vector2d& offset,
                              double gap, bool oncoming);
 
-/// [m/s2] away from the mover and, if it comes up, out of its lane.
+/// [m/s2] force away from the mover and, if it approaches, out of its lane.
 Eigen::Vector2d mover_force(const Eigen::Vector2d& position, double radius, const Mover& mover);
 
 }  // namespace dynamic_filter::sim

@@ -10,19 +10,19 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double headway = 1.1;                   // [s] to the one ahead
-constexpr double strongest = 1.4, comfort = 2.0;  // [m/s2] pulling off and braking
-constexpr double hardest = 5.0;                   // [m/s2] braking when it must be
-constexpr double side_room = 0.25;                // [m] to what is passed
-constexpr double merge = 16.0;                    // [m] of the way that must be free to swerve
-constexpr double line_gap = 0.6;                  // [m] to a line that one halts at
+constexpr double headway = 1.1;                   // [s] to the vehicle ahead
+constexpr double strongest = 1.4, comfort = 2.0;  // [m/s2] usual acceleration and braking
+constexpr double hardest = 5.0;                   // [m/s2] emergency braking
+constexpr double side_room = 0.25;                // [m] beside vehicles that are passed
+constexpr double merge = 16.0;                    // [m] that must be free to swerve
+constexpr double line_gap = 0.6;  // [m] distance from the line at which vehicles halt
 
 struct State {
     double u = 0.0, v = 0.0, a = 0.0;
-    std::size_t halts = 0;  // done
-    double since = 0.0;     // when the present halt began
+    std::size_t halts = 0;  // number of completed halts
+    double since = 0.0;     // start of the present halt
     bool halted = false;
-    double low = 0.0, high = 0.0;  // y that the vehicle covers
+    double low = 0.0, high = 0.0;  // y range of the vehicle
 };
 
 struct Traffic {
@@ -38,7 +38,7 @@ struct Span {
     double low = std::numeric_limits<double>::max(), high = -low;
 };
 
-/// What the vehicle covers of the street's width on the way from `u0` to `u1`.
+/// Range of y that the vehicle covers on the way from `u0` to `u1`.
 Span covered(const Driver& driver, double u0, double u1) {
     const double half = half_footprint(driver.kind).y();
     Span span;
@@ -56,7 +56,7 @@ bool is_in(const Traffic& traffic, const Span& span, std::size_t j) {
     return other.low < span.high + side_room && other.high > span.low - side_room;
 }
 
-/// Nobody stands where vehicle i is about to swerve to, nor comes up from behind.
+/// True if no vehicle stands where vehicle i is about to swerve to, or approaches from behind.
 bool may_merge(const Traffic& traffic, std::size_t i) {
     const State& state = traffic.states[i];
     const double length = traffic.half(i).x();
@@ -73,7 +73,8 @@ bool may_merge(const Traffic& traffic, std::size_t i) {
     return true;
 }
 
-/// [m/s2] to follow what is `gap` ahead at speed `v`, with `rest` between them when both stand.
+/// Acceleration [m/s2] at speed `v` with `gap` to the vehicle ahead; `rest` is the gap when both
+/// stand.
 double follow(const State& state, double desired, double gap, double v, double rest) {
     const double closing = state.v * (state.v - v) / (2.0 * std::sqrt(strongest * comfort));
     const double wanted = rest + std::max(0.0, state.v * headway + closing);
@@ -81,7 +82,8 @@ double follow(const State& state, double desired, double gap, double v, double r
     return strongest * (1.0 - share * share * share * share - ratio * ratio);
 }
 
-/// Whoever is ahead will halt so near behind the line that the crossing would be stood on.
+/// True if the vehicle ahead will halt so close behind the line that this one would stand on the
+/// crossing.
 bool is_blocked(const Traffic& traffic, std::size_t i, double line) {
     const double needed = line + 2.0 * stop_line + 2.0 * traffic.half(i).x() + 2.0;
     const Span span = covered(traffic.drivers[i], line, line + 4.0);
@@ -127,7 +129,7 @@ double behind_others(const Traffic& traffic, std::size_t i) {
     return out;
 }
 
-/// Comes to its next halt, stands there, goes on.
+/// Drives to the next halt, stands there, and goes on.
 double at_halts(Traffic& traffic, std::size_t i) {
     State& state = traffic.states[i];
     const Driver& driver = traffic.drivers[i];
@@ -172,7 +174,7 @@ void advance(Traffic& traffic) {
         State& state = traffic.states[i];
         state.a = std::clamp(accelerations[i], -hardest, strongest);
         const double v = std::max(0.0, state.v + state.a * log_step);
-        // the model creeps up to its gap for ever: who nearly stands, stands
+        // In the model, vehicles creep towards their gap for ever; very slow ones are stopped.
         state.v = v < 0.04 && state.a < 0.25 ? 0.0 : v;
         state.u += state.v * log_step;
         update_width(traffic, i);
@@ -180,7 +182,7 @@ void advance(Traffic& traffic) {
     traffic.time += log_step;
 }
 
-/// The curve that a driver takes from `first` to `last`, in the plane.
+/// The curve of a driver from `first` to `last`, in the plane.
 Path course(const Driver& driver, double first, double last) {
     std::vector<double> ways = {first - 50.0, first - 1.0};
     for (const Swerve& swerve : driver.swerves) {
@@ -197,7 +199,7 @@ Path course(const Driver& driver, double first, double last) {
     return polyline(std::move(points));
 }
 
-/// Length of the path up to a place of the way.
+/// Length of the path up to a position along the street.
 double length_at(const Path& path, double way, double u) {
     const auto above =
         std::upper_bound(path.points.begin(), path.points.end(), u,

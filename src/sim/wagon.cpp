@@ -13,7 +13,7 @@ constexpr float paint = 0.6F, metal = 0.4F, cloth = 0.45F;
 
 Affine3d shift(double x, double y, double z) { return Affine3d(Eigen::Translation3d(x, y, z)); }
 
-/// A wall of a wagon along x: sill, windows, lintel; open at the doors if it has them.
+/// A wall of a wagon along x with sill, windows and lintel; with open doorways if `doors` is set.
 void add_wagon_side(Mesh& mesh, double y, bool doors) {
     const auto wall = [&](double x0, double x1, double z0, double z1) {
         add_box(mesh, Affine3d::Identity(),
@@ -44,7 +44,7 @@ Mesh wagon_mesh() {
     box({-length, -width, 2.45}, {length, width, 2.7}, paint);
     for (const double end : {-1.0, 1.0})
         box({end * length - 0.05, -width, 0.0}, {end * length + 0.05, width, 2.45}, paint);
-    for (const double x : {-6.5, 0.0, 6.5})  // bogies, and what hangs between them
+    for (const double x : {-6.5, 0.0, 6.5})  // bogies, and the equipment between them
         box({x - 1.6, -1.1, -0.95}, {x + 1.6, 1.1, -0.15}, metal);
     add_wagon_side(mesh, -width, true);
     add_wagon_side(mesh, width, false);

@@ -30,7 +30,8 @@ std::vector<std::uint32_t> own_voxels(const Points& points, float voxel_size, Vo
 }
 
 ImageGrid sphere(const BackEndConfig& config, const BeamPattern& beams) {
-    // One pixel shape for all directions: from a foreign pose the beams' raster is gone.
+    // Pixels have the same size in both directions: from another pose, the beams no longer form a
+    // regular grid.
     const float spacing = std::max(beams.azimuth_spacing, beams.elevation_spacing);
     const float step = pixel_step(config.image_step_deg, config.image_step_beams, spacing);
     constexpr float kPole = 0.5F * std::numbers::pi_v<float>;

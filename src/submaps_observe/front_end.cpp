@@ -33,7 +33,7 @@ Submap assemble(const Window& window, const std::vector<Labels>& labels, double 
     return {mean_pose(poses), thin_static(window, labels, voxel_size).take()};
 }
 
-/// Read off the first few scans that measured anything.
+/// Beam pattern measured on the first scans that have measured points.
 BeamPattern beams_of(const Window& window) {
     std::vector<Scan> few;
     for (const Scan& scan : window.scans) {
@@ -79,7 +79,8 @@ std::vector<Labels> FrontEnd::remove_and_revert(const Window& window) const {
 }
 
 FrontEndResult FrontEnd::process(const Window& window, StageTimes& times) {
-    if (!beams_ || beams_->elevation_spacing == 0.0F) {  // first window, or only empty ones so far
+    // First window, or only empty windows so far.
+    if (!beams_ || beams_->elevation_spacing == 0.0F) {
         beams_ = beams_of(window);
     }
     std::vector<Labels> labels;

@@ -15,18 +15,19 @@ namespace dynamic_filter {
 
 namespace {
 
-/// A submap's points by voxel, voxels in ascending order of their keys: along z they are
-/// neighbours.
+/// The points of a submap ordered by voxel. Voxels are in ascending order of their keys, so that
+/// neighbors along z are next to each other.
 struct VoxelTable {
     std::vector<VoxelKey> keys;
     std::vector<Moments> moments;
-    std::vector<std::uint32_t> voxel_of_point;  ///< into keys; kNoVoxel beyond the keys' reach
+    /// Index into keys; kNoVoxel: too far away for a key.
+    std::vector<std::uint32_t> voxel_of_point;
 };
 
 VoxelTable tabulate(std::span<const Point> points, float voxel_size) {
     MapPoints in_map;
     to_voxels(points, voxel_size, in_map);
-    VoxelIndex index;  // by first point, not yet in order
+    VoxelIndex index;  // in the order of the first points, not sorted
     std::vector<Moments> moments;
     std::vector<std::uint32_t> id_of_point(points.size(), kNoVoxel);
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -51,8 +52,8 @@ VoxelTable tabulate(std::span<const Point> points, float voxel_size) {
     return table;
 }
 
-/// Nine cursors, one per neighbouring column along z. While the voxels go by in order, each cursor
-/// only moves forward: neighbours without a search.
+/// Nine cursors, one per neighboring column along z. While the voxels are visited in order, each
+/// cursor only moves forward, so neighbors are found without a search.
 class NeighborColumns {
 public:
     NeighborColumns(const VoxelTable& table, VoxelKey first) : table_(table) {
@@ -61,7 +62,7 @@ public:
             cursors_[c] = std::lower_bound(table.keys.begin(), table.keys.end(), low);
         }
     }
-    /// Moments of the 27 voxels around `key`; keys must come in ascending order.
+    /// Sums over the 27 voxels around `key`; keys must come in ascending order.
     Moments around(VoxelKey key) {
         Moments sum;
         for (std::size_t c = 0; c < 9; ++c) {
@@ -76,8 +77,8 @@ public:
     }
 
 private:
-    /// Key of the voxel one below (z) in column c. Keys are offset, so sums of fields stay
-    /// positive.
+    /// Key of the voxel one step below (in z) in column c. Keys have an offset, so the sums of
+    /// their fields stay positive.
     static VoxelKey below(VoxelKey key, std::size_t c) {
         const auto dx = static_cast<std::int64_t>(c / 3) - 1,
                    dy = static_cast<std::int64_t>(c % 3) - 1;

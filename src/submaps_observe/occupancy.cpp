@@ -9,7 +9,7 @@ namespace dynamic_filter {
 
 namespace {
 
-/// One bit per submap whose boundary reaches the channel in the pixel.
+/// One bit per submap whose visibility boundary reaches the depth channel in the pixel.
 std::uint64_t reaching(std::span<const VisibilityBoundary> boundaries, std::size_t pixel,
                        float channel) {
     std::uint64_t submaps = 0;
@@ -30,7 +30,8 @@ Ownership count_owners(std::span<const BufferedSubmap* const> nearby,
     Ownership result;
     for (std::size_t j = 0; j < nearby.size(); ++j) {
         for (const std::uint32_t voxel : nearby[j]->voxels) {
-            std::uint32_t& slot = slot_of_voxel[voxel];  // 1 + place in the result
+            // 1 + index in the result; 0: not in the result yet.
+            std::uint32_t& slot = slot_of_voxel[voxel];
             if (slot == 0) {
                 result.voxels.push_back(voxel);
                 result.owners.push_back(0);

@@ -13,10 +13,10 @@ namespace {
 
 constexpr float kNone = std::numeric_limits<float>::infinity();
 
-/// The first point of every cell, and for every point of the window its cell.
+/// The first point of every cell, and the cell of every point of the window.
 struct ThinMap {
     Points points;                                     ///< map frame
-    std::vector<std::vector<std::uint32_t>> of_point;  ///< by scan and point; UINT32_MAX: none
+    std::vector<std::vector<std::uint32_t>> of_point;  ///< per scan and point; UINT32_MAX: no cell
 };
 
 ThinMap thin(const Window& window, const std::vector<Labels>& labels, Label kept,
@@ -38,7 +38,7 @@ ThinMap thin(const Window& window, const std::vector<Labels>& labels, Label kept
     return map;
 }
 
-/// The candidates that are the nearest of their pixel and that the image sees through.
+/// The candidates that are the nearest of their pixel, and through which the image sees.
 std::vector<std::uint32_t> seen_through(const Points& map, const std::vector<char>& candidate,
                                         const Pose& T_map_keyframe, const RangeImage& image,
                                         const RemovalMargin& margin) {
@@ -63,7 +63,7 @@ std::vector<std::uint32_t> seen_through(const Points& map, const std::vector<cha
     return found;
 }
 
-/// Union over all keyframes.
+/// The union of these candidates over all keyframes.
 std::vector<char> seen_through(const Window& window, const Points& map,
                                const std::vector<char>& candidate, const KeyframeImages& images,
                                const RemovalMargin& margin) {
@@ -82,7 +82,7 @@ std::vector<char> seen_through(const Window& window, const Points& map,
     return marked;
 }
 
-/// Gives every point in a cell of the map the verdict on its cell.
+/// Gives every point the verdict on its cell of the map.
 void apply(const ThinMap& map, const std::vector<char>& removed, std::vector<Labels>& labels) {
     for (std::size_t s = 0; s < labels.size(); ++s) {
         for (std::size_t i = 0; i < labels[s].size(); ++i) {

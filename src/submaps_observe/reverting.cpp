@@ -11,7 +11,7 @@ namespace dynamic_filter {
 
 namespace {
 
-/// As fits_static_map, with a buffer that lives as long as the loop.
+/// The same as fits_static_map(), with a buffer that is reused in a loop.
 bool fits(const Point& point, const NeighborGrid& static_map, const FrontEndConfig& config,
           std::vector<Neighbor>& neighbors) {
     static_map.nearest(point, static_cast<std::size_t>(config.revert_neighbors), neighbors);

@@ -25,8 +25,9 @@ SubmapsMethod::SubmapsMethod(const Config& config)
       front_end_(config_),
       back_end_(config_) {}
 
-/// Fig. 2: scan to map as soon as a window is full; the back-end takes its submap when it is free;
-/// finish() makes the local map at every submap's pose, and merges them.
+/// Judges a scan (Fig. 2). As soon as a window is full, the front-end makes a submap of it; the
+/// back-end adds the submap when it is free. finish() computes the local map at the pose of every
+/// submap, and merges these maps.
 Judged SubmapsMethod::judge(Scan scan) {
     const auto window = cutter_.push(std::move(scan));
     return window ? process(*window) : Judged{};
@@ -74,7 +75,7 @@ bool SubmapsMethod::is_forgotten(const Point& at) const {
     return kept_ && (at - kept_->center).norm() > kept_->radius;
 }
 
-/// A voxel that no static submap holds was removed by the front-end.
+/// A voxel that no static submap holds was removed by the front-end, so it is dynamic.
 std::optional<float> SubmapsMethod::decision_on(std::uint32_t voxel, const Point& at) const {
     if (voxel == kNoVoxel) return is_forgotten(at) ? std::nullopt : std::optional(0.0F);
     if (!config_.back_end.enabled) return 1.0F;
@@ -98,7 +99,7 @@ void SubmapsMethod::keep_within(const Eigen::Vector3d& center, double radius, st
     kept_ = {center.cast<float>(), static_cast<float>(reach)};
 }
 
-/// The submaps within `map.search_radius` decide, whatever radius is asked for.
+/// The submaps within `map.search_radius` decide; the given radius has no effect.
 std::vector<VoxelOccupancy> SubmapsMethod::local_map(const Pose& T_map_query,
                                                      std::optional<double>) {
     const LocalMap local = back_end_.local_map(T_map_query, back_times_);

@@ -9,7 +9,7 @@ namespace dynamic_filter {
 
 namespace {
 
-/// Marks the points that the image saw through.
+/// Marks the points through which the image sees.
 void mark_seen_through(const Projection& seen, const RangeImage& image, const RemovalMargin& margin,
                        Labels& labels) {
     for (std::size_t i = 0; i < labels.size(); ++i) {
@@ -61,7 +61,8 @@ std::vector<Labels> remove_by_visibility(const Window& window, std::span<const R
             const Scan& scan = window.scans[s];
             labels[s] = label_measured(scan.points);
             for (std::size_t k = 0; k < images.size(); ++k) {
-                if (window.keyframes[k] == s) continue;  // its own image holds it
+                // The image of the same scan holds the point itself.
+                if (window.keyframes[k] == s) continue;
                 const Pose& T_map_keyframe = window.scans[window.keyframes[k]].T_world_sensor;
                 const Pose T_keyframe_scan = T_map_keyframe.inverse() * scan.T_world_sensor;
                 project(scan.points, T_keyframe_scan.cast<float>(), images[k].grid, seen);

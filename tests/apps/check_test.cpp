@@ -208,7 +208,7 @@ TEST_F(Check, NamesScansWhoseNamesAreInNoOrderOfTime) {
         << "no clock of the world";
     const Preflight result = findings(*write_timed(turned_round, 1.5e9));
     expect_only(result, "was taken", "rename");
-    expect_only(result, "which comes first by its name", "rename");
+    expect_only(result, "whose name comes first", "rename");
 }
 
 TEST_F(Check, ListsTheScansThatARunRejects) {

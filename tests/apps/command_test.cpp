@@ -454,7 +454,7 @@ TEST_F(Command, InfoDescribesFilesAndFolders) {
     ASSERT_EQ(run("run " + recording().string() + " -o out"), 0) << said();
     for (const char* command : {"info out", "check out", "run out -o x"}) {
         EXPECT_EQ(run(command), 3) << command;
-        expect_said("is what a run left, not a recording");
+        expect_said("is the output of a run, not a recording");
     }
     ASSERT_EQ(run("convert " + recording().string() + " a.bag"), 0);
     fs::rename(folder_ / "a.bag", folder_ / "recording.data");

@@ -103,7 +103,7 @@ TEST_F(BagScansTest, FramesThatNothingLinksAreTakenForTheSameAndThatIsSaid) {
     scans(3, "lidar");
     drive("odom", "base");
     const Sequence sequence = opened();
-    EXPECT_TRUE(has_note(sequence, "nothing links"));
+    EXPECT_TRUE(has_note(sequence, "no transform links"));
     EXPECT_NEAR(read_frame(sequence, 2).T_world_sensor.translation().x(), 0.2, 1e-6);
 }
 

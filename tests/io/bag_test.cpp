@@ -252,12 +252,12 @@ TEST_F(Bags, UnknownKindsOfMessagesAreLeftOut) {
 TEST_F(Bags, WhatWasNeverAnnouncedIsNoted) {
     const ReadBack first = read("a.mcap", mcap::file(mcap::message(0, 1, "x")));
     EXPECT_TRUE(first.messages.empty());
-    EXPECT_HAS(first.notes.at(0), "1 messages of channels never announced");
+    EXPECT_HAS(first.notes.at(0), "1 messages of channels without a channel record");
     const std::string records = rosbag1::connection(0, "/a", odometry) +
                                 rosbag1::message(9, 1, "x") + rosbag1::message(0, 1, "y");
     const ReadBack second = read("a.bag", rosbag1::file(rosbag1::chunk("none", records)));
     EXPECT_EQ(all_data(second), Data{"y"});
-    EXPECT_HAS(second.notes.at(0), "1 messages of connections never announced");
+    EXPECT_HAS(second.notes.at(0), "1 messages of connections without a connection record");
 }
 
 TEST_F(Bags, NeverClosed) {

@@ -31,13 +31,13 @@ TEST_F(Mcap, UnknownRecordsAreNoDefect) {
 
 TEST_F(Mcap, AMessageBeforeItsChannelIsLeftOut) {
     EXPECT_HAS(notes(mcap::message(0, 1, "early") + announced + mcap::message(0, 1, "good")),
-               "1 messages of channels never announced");
+               "1 messages of channels without a channel record");
 }
 
 TEST_F(Mcap, AChannelWithoutASchemaHasNoType) {
     EXPECT_HAS(notes(mcap::channel(5, 0, "/b") + mcap::message(5, 1, "untyped") + announced +
                      mcap::message(0, 1, "good")),
-               "1 messages of channels never announced");
+               "1 messages of channels without a channel record");
 }
 
 TEST_F(Mcap, ChunksDoNotNest) {

@@ -84,7 +84,8 @@ TEST_F(Rosbag2, MessagesThatCannotBeHadAreNamed) {
     create();
     add(1, 1, 1, packed_without_size("plain"));
     const Bag bag(path());
-    EXPECT_HAS(bag.for_each([](const Message&) { FAIL(); }).at(0).what, "does not say to how much");
+    EXPECT_HAS(bag.for_each([](const Message&) { FAIL(); }).at(0).what,
+               "does not contain its uncompressed size");
     EXPECT_HAS(error_of([&] { (void)bag.read({0, 0, 1}); }), "(message 1): is compressed");
     EXPECT_HAS(error_of([&] { (void)bag.read({0, 0, 2}); }), "message 2");
 }

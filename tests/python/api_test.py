@@ -43,7 +43,7 @@ class Api(unittest.TestCase):
                 self.assertRegex(inspect.getdoc(thing), r"[NM] x 3|[NM] uint8|N float32|N records|4 x 4|static_map\(\)", name)
 
     def test_arguments_are_explained_with_shapes_units_and_frames(self):
-        facets = {"points": "N x 3.*\[m\] in the sensor's frame", "pose": "4 x 4, T_world_"}
+        facets = {"points": "N x 3.*\[m\] in the sensor frame", "pose": "4 x 4, T_world_"}
         for name, thing, node in functions():
             doc = " ".join(inspect.getdoc(thing).split())
             for argument in node.args.args + node.args.kwonlyargs:

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Scores per point: those of DynamicMap_Benchmark, and the moving IoU.
+/// Scores per point: the accuracies of DynamicMap_Benchmark, and the moving IoU.
 ///
 /// - Units: fractions 0..1.
 /// - Ownership: values.
 /// - Threads: plain data and pure functions.
-/// - Errors: none; what cannot be said is empty.
+/// - Errors: none; a score that is not defined is empty.
 #pragma once
 
 #include <cstddef>
@@ -16,37 +16,41 @@
 
 namespace dynamic_filter::eval {
 
-/// Fractions; empty where the ground truth holds nothing of that kind (or no labels were given).
+/// Scores per point. A score is empty if the ground truth has no point of that kind, or if no
+/// labels were given.
 struct PointScore {
-    std::optional<double> sa;   ///< 0..1: static points within 0.05 m of the clean map
-    std::optional<double> da;   ///< 0..1: dynamic points farther than that
-    std::optional<double> aa;   ///< 0..1: sqrt(sa * da)
-    std::optional<double> ha;   ///< 0..1: harmonic mean of sa and da
-    std::optional<double> iou;  ///< 0..1: of the dynamic class: TP / (TP + FP + FN)
+    /// Static accuracy, 0..1: share of static points within 0.05 m of the clean map.
+    std::optional<double> sa;
+    /// Dynamic accuracy, 0..1: share of dynamic points farther than that from it.
+    std::optional<double> da;
+    std::optional<double> aa;   ///< associated accuracy, 0..1: sqrt(sa * da)
+    std::optional<double> ha;   ///< harmonic accuracy, 0..1: harmonic mean of sa and da
+    std::optional<double> iou;  ///< moving IoU, 0..1: TP / (TP + FP + FN) of the dynamic class
 };
 
-/// Ground-truth points of each kind, and how many of them lie within the distance of the clean map.
+/// Counts the ground-truth points of each kind, and those of them that are covered: they lie within
+/// the distance (0.05 m) of the clean map.
 struct CoverCount {
-    std::size_t still = 0;            ///< points of static things
-    std::size_t dynamic = 0;          ///< points of moving things
-    std::size_t covered_still = 0;    ///< of the static ones, near the clean map
-    std::size_t covered_dynamic = 0;  ///< of the moving ones, near the clean map
-    /// One point more, whose truth is known.
+    std::size_t still = 0;            ///< static points
+    std::size_t dynamic = 0;          ///< dynamic points
+    std::size_t covered_still = 0;    ///< covered static points
+    std::size_t covered_dynamic = 0;  ///< covered dynamic points
+    /// Adds one point whose ground truth is known.
     void add(Label truth, bool covered);
 };
 
-/// The scores of such counts, without IoU.
+/// Computes the scores from the counts; the IoU stays empty.
 PointScore point_score(const CoverCount& count);
 
-/// Points of the dynamic class: said to be, and being so.
+/// Counts of the dynamic class, from which its IoU is computed.
 struct Confusion {
-    std::size_t true_positive = 0;   ///< said, and are
-    std::size_t false_positive = 0;  ///< said, and are not
-    std::size_t false_negative = 0;  ///< not said, and are
-    /// One point more. Points of unknown truth must be left out by the caller: unknown counts as
-    /// not dynamic.
+    std::size_t true_positive = 0;   ///< labelled dynamic, and dynamic
+    std::size_t false_positive = 0;  ///< labelled dynamic, but not dynamic
+    std::size_t false_negative = 0;  ///< not labelled dynamic, but dynamic
+    /// Adds one point. The caller must leave out points of unknown ground truth, because unknown
+    /// counts as not dynamic.
     void add(Label truth, Label verdict);
-    /// TP / (TP + FP + FN), 0..1; empty if nothing is or was said to be dynamic.
+    /// TP / (TP + FP + FN), 0..1; empty if no point is dynamic or labelled dynamic.
     [[nodiscard]] std::optional<double> iou() const;
 };
 

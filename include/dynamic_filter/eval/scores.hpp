@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// All scores of one result against ground truth.
+/// Computes all scores of a result against ground truth.
 ///
 /// - Units: [m]; scores are fractions 0..1.
-/// - Frames: any one for all scans and the map.
+/// - Frames: any, but the same for all scans and the map.
 /// - Shapes: arrays of one scan are parallel.
 /// - Ownership: sources and maps are borrowed for the call.
-/// - Threads: thread-safe; sources are called from several.
-/// - Errors: what a source throws.
+/// - Threads: thread-safe; sources are called from several threads.
+/// - Errors: exceptions of a source are passed on.
 #pragma once
 
 #include <cstddef>
@@ -25,47 +25,54 @@
 
 namespace dynamic_filter::eval {
 
-/// What a result is worth.
+/// All scores of one result.
 struct Scores {
-    std::map<std::string, VoxelScore> voxel;  ///< by reading of mixed voxels, see VoxelTally
-    PointScore point;                         ///< over all points
-    double dynamic_share = 0.0;               ///< 0..1: voxels with a dynamic point / voxels
+    /// Keys: how voxels with points of both kinds are counted, see VoxelTally::scores().
+    std::map<std::string, VoxelScore> voxel;
+    PointScore point;            ///< over all points
+    double dynamic_share = 0.0;  ///< 0..1: voxels with a dynamic point / all voxels
 };
 
-/// A scan with ground truth; all parallel. Points of unknown truth are left out of every score.
+/// A scan with its ground truth; all arrays are parallel. Points of unknown ground truth are left
+/// out of every score.
 struct LabelledScan {
-    Points points;   ///< any one frame for all scans, near enough to its origin for floats
-    Labels truth;    ///< one per point
-    Labels verdict;  ///< one per point, or empty when a map is scored
+    Points points;  ///< [m] in one frame for all scans; coordinates must be small enough for floats
+    Labels truth;   ///< one per point
+    Labels verdict;  ///< one per point; empty if a map is scored
 };
 
-/// Gives scan i, or nothing if it was rejected. Called more than once per scan, in parallel.
+/// Returns scan i, or nothing if the scan was rejected. It is called more than once per scan, and
+/// from several threads.
 using ScanSource = std::function<std::optional<LabelledScan>(std::size_t)>;
 
-constexpr double kVoxelSize = 0.2;       ///< [m] Sec. IV-A
-constexpr double kCoverDistance = 0.05;  ///< [m] DynamicMap_Benchmark's rule
+constexpr double kVoxelSize = 0.2;  ///< [m] edge of a voxel, Sec. IV-A
+/// [m] distance within which a point is covered, as in DynamicMap_Benchmark.
+constexpr double kCoverDistance = 0.05;
 
-/// Scores of one or more results on the same recording, scan by scan: first add() every scan, then
-/// add_near() what near_removed() says of every scan. The clean map of a result is every point not
-/// labelled dynamic. near_removed() may run in several threads; the rest has a single caller.
-/// Memory: the voxels, the removed points, and the kept ones near those.
+/// Scores one or more results on the same recording, scan by scan. First add() every scan; then
+/// call near_removed() for every scan and pass its result to add_near(). The clean map of a result
+/// consists of all points that are not labelled dynamic. near_removed() may run in several threads;
+/// all other members have a single caller. Memory: the voxels, the removed points, and the kept
+/// points near the removed ones.
 class ScanScores {
 public:
-    ScanScores(double voxel_size, std::size_t results);  ///< [m]
-    ScanScores(ScanScores&&) noexcept;                   ///< the other one can only be destroyed
+    ScanScores(double voxel_size, std::size_t results);  ///< `voxel_size` [m]; number of results
+    ScanScores(ScanScores&&) noexcept;  ///< the moved-from object can only be destroyed
     ~ScanScores();
 
-    /// `verdicts` are of the results, each one per point; the scan's own verdict is not used.
-    /// Throws Error if arrays are not parallel.
+    /// Adds a scan. `verdicts` holds the labels of each result, one per point;
+    /// LabelledScan::verdict is not used. Throws Error if arrays are not parallel.
     void add(const LabelledScan& scan, std::span<const Labels* const> verdicts);
 
-    /// By result, the kept points that may cover a removed one, once all scans are added.
+    /// For each result, the kept points that may cover a removed point. Call it after all scans are
+    /// added.
     [[nodiscard]] std::vector<Points> near_removed(const LabelledScan& scan,
                                                    std::span<const Labels* const> verdicts) const;
-    /// What near_removed() gave, in any order.
+    /// Adds a result of near_removed(); the order does not matter.
     void add_near(const std::vector<Points>& points);
 
-    /// Of one result, over all scans added; the cover of removed points counts what add_near() got.
+    /// Scores of one result over all added scans. Removed points count as covered only by points
+    /// given to add_near().
     [[nodiscard]] Scores scores(std::size_t result) const;
 
 private:
@@ -76,12 +83,12 @@ private:
     std::unique_ptr<RemovedCells> removed_;
 };
 
-/// Scores the verdicts of so many scans, on voxels of `voxel_size` [m]: the clean map is every
-/// point not labelled dynamic.
+/// Scores the verdicts on `scans` scans, with voxels of `voxel_size` [m]. The clean map consists of
+/// all points that are not labelled dynamic.
 Scores score_labels(std::size_t scans, const ScanSource& source, double voxel_size);
 
-/// Scores a clean map given as points (same frame as the scans), on voxels of `voxel_size` [m]. No
-/// IoU.
+/// Scores a clean map given as points in the frame of the scans, with voxels of `voxel_size` [m].
+/// The IoU stays empty.
 Scores score_map(std::size_t scans, const ScanSource& source, const Points& map, double voxel_size);
 
 }  // namespace dynamic_filter::eval

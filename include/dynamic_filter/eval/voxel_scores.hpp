@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Preservation rate, rejection rate and F1 of a static map, voxel by voxel (Sec. IV-A).
+/// Preservation rate (PR), rejection rate (RR) and F1 of a static map, counted over voxels (Sec.
+/// IV-A).
 ///
 /// - Units: [m]; scores are fractions 0..1.
-/// - Frames: any one for both maps.
-/// - Shapes: point by point.
+/// - Frames: any, but the same for both maps.
+/// - Shapes: maps are given point by point.
 /// - Ownership: values.
 /// - Threads: a VoxelTally has a single caller.
-/// - Errors: none; what cannot be said is empty.
+/// - Errors: none; a score that is not defined is empty.
 #pragma once
 
 #include <cstdint>
@@ -26,54 +27,59 @@ class VoxelIndex;
 
 namespace dynamic_filter::eval {
 
-/// Fractions; empty where the raw map holds nothing of that kind.
+/// Scores over voxels; a score is empty if the raw map has no voxel of that kind.
 struct VoxelScore {
     std::optional<double> pr;  ///< 0..1: preserved static voxels / static voxels of the raw map
     std::optional<double>
         rr;  ///< 0..1: 1 - preserved dynamic voxels / dynamic voxels of the raw map
-    std::optional<double> f1;  ///< 0..1: harmonic mean of the two
+    std::optional<double> f1;  ///< 0..1: harmonic mean of pr and rr
 };
 
-/// The fractions, 0..1, of such counts of voxels.
+/// Computes the scores, 0..1, from numbers of voxels (Sec. IV-A).
 VoxelScore voxel_score(double static_total, double static_kept, double dynamic_total,
                        double dynamic_kept);
 
-/// Points of one voxel, of the raw map or of a clean one.
+/// Counts the points of one voxel, of the raw map or of a clean map.
 struct VoxelCount {
-    std::uint32_t still = 0;                        ///< points of static things
-    std::uint32_t dynamic = 0;                      ///< points of moving things
-    std::uint32_t unlabelled = 0;                   ///< points of a map given without labels
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();  ///< [m] of the labelled points' coordinates
+    std::uint32_t still = 0;       ///< static points
+    std::uint32_t dynamic = 0;     ///< dynamic points
+    std::uint32_t unlabelled = 0;  ///< points of a map without labels
+    /// [m] sum of the coordinates of the labelled points.
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
 
-    /// Whether there is any.
+    /// True if the voxel holds any point.
     [[nodiscard]] bool has_points() const { return still + dynamic + unlabelled > 0; }
 };
 
-/// Tallies the raw map and the clean maps of one or more results. Points of unknown ground truth
-/// must be left out by the caller. Single caller.
+/// Counts the voxels of the raw map and of the clean maps of one or more results. The caller must
+/// leave out points of unknown ground truth. Single caller.
 class VoxelTally {
 public:
-    explicit VoxelTally(double voxel_size, std::size_t results = 1);  ///< [m]; 1 to 32 results
-    VoxelTally(VoxelTally&&) noexcept;  ///< the other one can only be destroyed
+    /// `voxel_size` [m]; 1 to 32 results.
+    explicit VoxelTally(double voxel_size, std::size_t results = 1);
+    VoxelTally(VoxelTally&&) noexcept;  ///< the moved-from object can only be destroyed
     ~VoxelTally();
 
-    /// A point of the raw map, and which results removed it: bit r stands for result r.
+    /// A point of the raw map, and the results that removed it: bit r stands for result r.
     struct TruePoint {
         Point point;            ///< [m]
-        Label truth;            ///< not unknown
-        std::uint32_t removed;  ///< bits
+        Label truth;            ///< ground truth; must not be unknown
+        std::uint32_t removed;  ///< one bit per result
     };
-    /// Those of a scan, say: many at a time are quicker.
+    /// Adds points of the raw map. Many points per call, such as a whole scan, are faster than few.
     void add(std::span<const TruePoint> points);
-    /// One point of a clean map that was made elsewhere; it is result 0.
+    /// Adds one point of a clean map that another program made; it belongs to result 0.
     void add_map_point(const Point& point);
 
-    /// How a voxel holding points of both kinds is read. Keys of the result:
-    /// "excluded" (the default): it counts for neither kind; "static_wins": it is static;
-    /// "majority": the more frequent kind, static on a tie;
-    /// "erasor": every voxel's centroid with its majority label finds its nearest centroid of the
-    /// clean map; within half a voxel's diagonal and with the same label it is preserved. Left out
-    /// for maps without labels.
+    /// Scores of one result. The keys name four ways to count a voxel that holds points of both
+    /// kinds:
+    ///
+    /// - "excluded" (the default): it counts as neither static nor dynamic.
+    /// - "static_wins": it is static.
+    /// - "majority": it has the kind of most of its points; static on a tie.
+    /// - "erasor": the centroid of each voxel gets the label of the majority. It is preserved if
+    ///   the nearest centroid of the clean map lies within half a voxel diagonal and has the same
+    ///   label. This key is missing for maps without labels.
     [[nodiscard]] std::map<std::string, VoxelScore> scores(std::size_t result = 0) const;
 
     /// 0..1: share of voxels with at least one dynamic point.
@@ -82,7 +88,8 @@ public:
 private:
     double voxel_size_;
     std::unique_ptr<VoxelIndex> index_;
-    std::size_t stride_;  // counts of a voxel: of the raw map, and of what each result removed
+    // Counts per voxel: one for the raw map, one for the removed points of each result.
+    std::size_t stride_;
     std::vector<VoxelCount> counts_;
     bool unlabelled_ = false;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// A scan in the map: where its points lie, and in which voxels.
+/// The points of a scan in the map frame, and the voxel of each point.
 #pragma once
 
 #include <span>
@@ -12,17 +12,17 @@ namespace dynamic_filter {
 
 constexpr VoxelKey kNoKey = ~VoxelKey{0};
 
-/// Parallel to the points of a scan.
+/// All arrays are parallel to the points of a scan.
 struct MapPoints {
     Points points;               ///< map frame
-    std::vector<VoxelKey> keys;  ///< kNoKey: not measured, or beyond the reach of a key
+    std::vector<VoxelKey> keys;  ///< kNoKey: not measured, or too far away for a voxel key
 };
 
-/// Of T_map_sensor * p for every point [sensor frame]; keys as voxel_of() gives them. Bit-identical
-/// at every instruction-set level. Thread-safe; `out` is resized.
+/// Computes T_map_sensor * p for every point [sensor frame] and its voxel key, as voxel_of() gives
+/// it. The results are bit-identical at every instruction-set level. `out` is resized. Thread-safe.
 void to_voxels(std::span<const Point> points, const Pose& T_map_sensor, float voxel_size,
                MapPoints& out);
-/// The same of points in the map frame, where (0, 0, 0) is a point as any other.
+/// The same for points that are already in the map frame. Here (0, 0, 0) is a valid point.
 void to_voxels(std::span<const Point> map_points, float voxel_size, MapPoints& out);
 
 }  // namespace dynamic_filter

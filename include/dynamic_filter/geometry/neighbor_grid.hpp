@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Neighbours within a fixed radius, by a hash grid whose cells are as wide as the radius.
+/// Search for neighbors within a fixed radius, with a hash grid whose cells are as wide as the
+/// radius.
 #pragma once
 
 #include <tsl/robin_map.h>
@@ -15,7 +16,7 @@ namespace dynamic_filter {
 
 struct Neighbor {
     float distance_sq = 0.0F;  ///< [m^2]
-    std::uint32_t index = 0;   ///< into the points the grid was built from
+    std::uint32_t index = 0;   ///< index into the points from which the grid was built
 };
 
 /// Immutable after construction; queries are thread-safe. Points that are not finite are left out.
@@ -24,10 +25,12 @@ public:
     /// Copies `points`. `radius` [m] is the largest radius queries may use.
     NeighborGrid(std::span<const Point> points, float radius);
 
-    /// The (at most) k nearest points within the radius, nearest first; equal distances by index.
+    /// Returns the k nearest points (or fewer) within the radius, nearest first. Points at equal
+    /// distance are ordered by index.
     void nearest(const Point& query, std::size_t k, std::vector<Neighbor>& out) const;
 
-    /// True if some point lies within `distance` <= radius / 2 of the query.
+    /// True if at least one point lies within `distance` of the query. `distance` must be at most
+    /// radius / 2.
     [[nodiscard]] bool any_within(const Point& query, float distance) const;
 
     [[nodiscard]] const Point& point(std::uint32_t index) const { return points_[index]; }
@@ -45,7 +48,7 @@ private:
     };
     float radius_, inverse_cell_;
     std::vector<Point> points_;
-    std::vector<Entry> sorted_;  // by cell, then by index
+    std::vector<Entry> sorted_;  // sorted by cell, then by index
     tsl::robin_map<VoxelKey, Slice, VoxelHash> cells_;
 };
 

@@ -7,12 +7,14 @@
 
 namespace dynamic_filter {
 
-/// Mean translation and chordal mean of the rotations: the rotation nearest to their sum
-/// (Sec. III-B2, "averaged over the entire sequence"). Needs at least one pose.
+/// Mean of poses: the mean translation, and the chordal mean of the rotations, which is the
+/// rotation nearest to their sum (Sec. III-B2, "averaged over the entire sequence"). Needs at least
+/// one pose.
 Pose mean_pose(std::span<const Pose> poses);
 
-/// A shift near `pose` from which floats are precise. It is a whole multiple of `step`, so that
-/// voxels keep their borders.
+/// Returns an origin near `pose` [m, world frame], so that coordinates relative to it are small
+/// enough for float precision. It is a whole multiple of `step` [m], so that voxel borders stay
+/// where they are.
 Eigen::Vector3d nearby_origin(const Pose& pose, double step);
 
 }  // namespace dynamic_filter

@@ -9,8 +9,8 @@
 
 namespace dynamic_filter {
 
-/// Sums from which the covariance follows; adding a point costs a few additions.
-/// Offsets are taken from `origin`, so large coordinates lose nothing.
+/// Sums from which the covariance of points is computed. To add a point takes a few additions.
+/// Offsets are taken from `origin`, so that large coordinates lose no precision.
 struct Moments {
     Point origin = Point::Zero();
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -18,12 +18,12 @@ struct Moments {
     int count = 0;
 
     void add(const Point& p);
-    Moments& operator+=(const Moments& other);  ///< needs the same origin
+    Moments& operator+=(const Moments& other);  ///< both must have the same origin
 };
 
-/// Unit eigenvector of the smallest eigenvalue: the normal of the best plane. Its sign is
-/// arbitrary. Empty for fewer than three points, or when they do not span a plane (one spot, one
-/// line).
+/// Unit eigenvector of the smallest eigenvalue, which is the normal of the best-fitting plane. Its
+/// sign is arbitrary. Empty for fewer than three points, or if the points coincide or lie on one
+/// line.
 std::optional<Eigen::Vector3d> smallest_axis(const Moments& moments);
 
 }  // namespace dynamic_filter

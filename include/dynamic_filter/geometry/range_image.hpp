@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Spherical range images (Sec. III-B1): azimuth wraps, elevation covers what the data covers.
+/// Spherical range images (Sec. III-B1). Columns cover the whole circle of azimuth; rows cover the
+/// elevations of the data.
 ///
 /// - Units: [m], [rad].
-/// - Frames: the image's own: x ahead, z up, azimuth from x to y; points come in it or with a
-///   transform into it.
-/// - Shapes: a value per pixel, row by row; arrays of points are parallel.
-/// - Ownership: points are borrowed for the call, results are the caller's.
+/// - Frames: the frame of the image: x ahead, z up, azimuth from x to y. Points are given in this
+///   frame, or together with a transform into it.
+/// - Shapes: one value per pixel, row by row; arrays of points are parallel.
+/// - Ownership: points are borrowed for the call; results belong to the caller.
 /// - Threads: pure functions; thread-safe.
-/// - Errors: none; what is no measurement falls outside.
+/// - Errors: none; points that are not measured count as outside the image.
 #pragma once
 
 #include <cstdint>
@@ -19,63 +20,65 @@
 
 namespace dynamic_filter {
 
-/// Layout of an image: pixel = row * columns + column; row 0 is the lowest elevation.
+/// Layout of an image: pixel = row * columns + column. Row 0 has the lowest elevation.
 struct ImageGrid {
     float azimuth_step = 0.0F;    ///< [rad]; columns * azimuth_step = 2 pi
     float elevation_step = 0.0F;  ///< [rad]
     float elevation_min = 0.0F;   ///< [rad] lower edge of row 0
-    int columns = 0;              ///< around the circle
-    int rows = 0;                 ///< from below to above
+    int columns = 0;              ///< covers the whole circle
+    int rows = 0;                 ///< from the lowest to the highest elevation
 
-    /// How many pixels it has.
+    /// Number of pixels.
     [[nodiscard]] std::size_t size() const {
         return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
     }
 };
 
-/// A grid that covers [elevation_min, elevation_max] with steps of at least the ones asked for
-/// [rad], which are greater than 0; the azimuth step is rounded up so that whole columns fill the
-/// circle.
+/// Makes a grid that covers [elevation_min, elevation_max] with steps of at least the given size
+/// [rad], which must be greater than 0. The azimuth step is rounded up so that a whole number of
+/// columns fills the circle.
 ImageGrid make_grid(float azimuth_step, float elevation_step, float elevation_min,
                     float elevation_max);
 
-/// Where points fall. Parallel to the points projected.
+/// The pixel and the range of each projected point; both arrays are parallel to the points.
 struct Projection {
     std::vector<std::int32_t> pixel;  ///< -1: outside the grid, not finite, or at the origin
     std::vector<float> range;         ///< [m]
 };
 
-/// Projects T_image_points * p for every point. Bit-identical at every instruction-set level.
-/// Thread-safe; `out` is resized.
+/// Projects T_image_points * p for every point (Sec. III-B1). The results are bit-identical at
+/// every instruction-set level. `out` is resized. Thread-safe.
 void project(std::span<const Point> points, const Eigen::Isometry3f& T_image_points,
              const ImageGrid& grid, Projection& out);
 
-/// Range per pixel [m]; infinity where nothing returned.
+/// One range per pixel [m]; infinity where no beam returned.
 struct RangeImage {
-    ImageGrid grid;            ///< where the pixels look
-    std::vector<float> range;  ///< [m] grid.size() of them
+    ImageGrid grid;            ///< directions of the pixels
+    std::vector<float> range;  ///< [m], grid.size() values
 };
 
-/// The nearest range per pixel of points given in the image's own frame.
+/// Makes an image of the nearest range per pixel. `points` are in the frame of the image.
 RangeImage nearest_range_image(std::span<const Point> points, const ImageGrid& grid);
 
-/// The image with rows halved, each half holding the nearer range of its row and of the row it
-/// borders: what lies between two beams counts as seen through only if both passed it. Ground at
-/// grazing angles, where the next ring is metres away, is kept by that. A bordering row that
-/// returned nothing does not count; an empty pixel stays empty.
+/// Splits each row into two halves. Each half holds the smaller of two ranges: that of its own row
+/// and that of the row next to this half. So the space between two beams counts as seen through
+/// only if both beams passed it. This keeps ground at large incidence angles, where the next ring
+/// of returns is metres away. A neighboring row without a return is ignored; an empty pixel stays
+/// empty.
 RangeImage halve_rows(const RangeImage& image);
 
-/// How densely the sensor looks, read off its scans rather than off its name.
+/// Angles between the beams of the sensor, measured on its scans, so that no sensor profile is
+/// needed.
 struct BeamPattern {
-    float azimuth_spacing = 0.0F;    ///< [rad] typical angle between neighbouring beams
-    float elevation_spacing = 0.0F;  ///< [rad] the same between its rows
+    float azimuth_spacing = 0.0F;    ///< [rad] typical angle between neighboring beams of a row
+    float elevation_spacing = 0.0F;  ///< [rad] typical angle between neighboring rows
 };
 
-/// Median angular gap between neighbouring returns, along azimuth and along elevation.
-/// Scans without two measured points leave 0. Costs one sort of the points.
+/// Median angle between neighboring returns, along azimuth and along elevation. It is 0 if no scan
+/// has two measured points. Cost: one sort of the points.
 BeamPattern estimate_beam_pattern(std::span<const Scan> scans);
 
-/// What a sensor looks at, upwards.
+/// Elevations that a sensor covers.
 struct ElevationRange {
     float min = 0.0F;  ///< [rad]
     float max = 0.0F;  ///< [rad]

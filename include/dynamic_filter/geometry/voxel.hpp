@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Voxels as 64-bit keys: 21 bits per axis. Points reach voxels by way of half cells, so +-105 km
-/// at voxels of 0.2 m, from the map frame's origin.
+/// Voxels as 64-bit keys with 21 bits per axis. Keys are computed from cells of half a voxel, so
+/// the reach is +-105 km from the origin of the map frame for voxels of 0.2 m.
 #pragma once
 
 #include <cmath>
@@ -13,10 +13,11 @@ namespace dynamic_filter {
 
 using VoxelKey = std::uint64_t;
 
-/// In place of a voxel's number: there is none.
+/// Stands for "no voxel" in place of the number of a voxel.
 constexpr std::uint32_t kNoVoxel = UINT32_MAX;
 
-/// Integer cell of a point; cells are half-open and use floor, so negative coordinates are fine.
+/// Integer coordinates of the cell of a point. Cells are half-open intervals; coordinates are
+/// rounded down, so negative coordinates are correct, too.
 using Cell = Eigen::Vector3i;
 
 constexpr int kCellLimit = 1 << 20;
@@ -25,10 +26,11 @@ inline bool fits(const Cell& c) {
     return (c.array() >= -kCellLimit && c.array() < kCellLimit).all();
 }
 
-/// Empty for points that are not finite or too far for a key.
+/// Empty if the point is not finite or too far away for a key.
 inline std::optional<Cell> cell_of(const Point& p, float inverse_size) {
     const Eigen::Array3f scaled = (p * inverse_size).array().floor();
-    if (!(scaled.abs() < static_cast<float>(kCellLimit)).all()) return std::nullopt;  // also NaN
+    if (!(scaled.abs() < static_cast<float>(kCellLimit)).all())
+        return std::nullopt;  // also false for NaN
     return scaled.cast<int>().matrix();
 }
 
@@ -48,7 +50,7 @@ inline Point center(VoxelKey key, float size) {
     return (unpack(key).cast<float>().array() + 0.5F).matrix() * size;
 }
 
-/// Murmur's finaliser: neighbouring keys spread over the whole table.
+/// Final mixing step of MurmurHash3: it spreads neighboring keys over the whole table.
 struct VoxelHash {
     std::size_t operator()(VoxelKey k) const {
         k ^= k >> 33;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Numbers for voxels.
+/// Assigns consecutive numbers to voxels.
 #pragma once
 
 #include <array>
@@ -13,36 +13,37 @@
 
 namespace dynamic_filter {
 
-/// The voxel of each point of a scan; kNoVoxel: none.
+/// The voxel of each point of a scan, parallel to the points; kNoVoxel: no voxel.
 using PointVoxels = std::vector<std::uint32_t>;
 
-/// The keys of points, as far as they have one.
+/// Voxel keys of points. Points without a key are left out.
 struct KeyedPoints {
     std::vector<VoxelKey> keys;
-    std::vector<std::uint32_t> points;  ///< which point each key is of
+    std::vector<std::uint32_t> points;  ///< parallel to the keys: the index of the point
 };
-/// `inverse_size` [1/m] of the voxels.
+/// `inverse_size` [1/m] is 1 / edge of a voxel.
 KeyedPoints keys_of(std::span<const Point> points, float inverse_size);
 
-/// Finds the number of a block by its first cell: open addressing, at most half full.
+/// Hash table from the first cell of a block to the number of the block. It uses open addressing
+/// and is at most half full.
 class BlockTable {
 public:
-    /// Prefetches what find() or insert() will read.
+    /// Prefetches the memory that find() or insert() will read.
     void prefetch(VoxelKey corner) const { __builtin_prefetch(&slots_[slot_of(corner)]); }
-    /// kNoVoxel: not there.
+    /// Returns kNoVoxel if the block is not in the table.
     [[nodiscard]] std::uint32_t find(VoxelKey corner) const { return slots_[at(corner)].number; }
-    /// The number of the block, which is `next` if it was not there.
+    /// Returns the number of the block. A new block gets the number `next`.
     std::uint32_t insert(VoxelKey corner, std::uint32_t next);
 
 private:
     struct Slot {
         VoxelKey corner = 0;
-        std::uint32_t number = kNoVoxel;  // kNoVoxel: empty
+        std::uint32_t number = kNoVoxel;  // kNoVoxel: the slot is empty
     };
     [[nodiscard]] std::size_t slot_of(VoxelKey corner) const {
         return VoxelHash{}(corner) & (slots_.size() - 1);
     }
-    /// Where the block is, or the empty slot where it would be.
+    /// Returns the slot of the block, or the empty slot into which it would go.
     [[nodiscard]] std::size_t at(VoxelKey corner) const {
         std::size_t slot = slot_of(corner);
         while (slots_[slot].number != kNoVoxel && slots_[slot].corner != corner) {
@@ -56,18 +57,20 @@ private:
     std::size_t filled_ = 0;
 };
 
-/// Numbers voxels in the order in which they are first met: dense ids for plain arrays. Inside,
-/// voxels live in blocks of 4 x 4 x 4: what is near is near in memory, and one look into the hash
-/// table serves a whole block. Const members may run in several threads.
+/// Numbers voxels in the order in which they are first inserted, so that callers can keep data of
+/// voxels in plain arrays. Voxels are stored in blocks of 4 x 4 x 4: neighbors in space are
+/// neighbors in memory, and one lookup in the hash table finds all voxels of a block. Const members
+/// may run in several threads.
 class VoxelIndex {
 public:
     std::uint32_t insert(VoxelKey key);
-    /// The same for many, in their order: `ids` is parallel to `keys`. Quicker than one by one,
-    /// because it prefetches.
+    /// Inserts many voxels in their order; `ids` is parallel to `keys`. This is faster than single
+    /// insertions because it prefetches.
     void insert(std::span<const VoxelKey> keys, std::span<std::uint32_t> ids);
 
-    /// Renumbers the voxels from `first` on so that those of a block follow each other: near in
-    /// the arrays of the caller, too. Returns the new number of each, in the order of the old.
+    /// Renumbers the voxels from `first` on so that the voxels of a block have consecutive numbers.
+    /// Returns the new number of each, in the order of the old numbers; the caller must reorder its
+    /// arrays.
     std::vector<std::uint32_t> group_by_block(std::uint32_t first);
 
     [[nodiscard]] std::optional<std::uint32_t> find(VoxelKey key) const {
@@ -75,32 +78,33 @@ public:
         const std::uint32_t id = block == kNoVoxel ? kNoVoxel : id_in(blocks_[block], key);
         return id == kNoVoxel ? std::nullopt : std::optional(id);
     }
-    /// The same for many: `ids` is parallel to `keys`; kNoVoxel: not there.
+    /// Finds many voxels: `ids` is parallel to `keys`; kNoVoxel: the voxel is not in the index.
     void find(std::span<const VoxelKey> keys, std::span<std::uint32_t> ids) const;
-    /// Prefetches what each_in_block() will read.
+    /// Prefetches the memory that each_in_block() will read.
     void prefetch_block(std::uint32_t block) const {
-        constexpr std::size_t kLine = 64;  // bytes of the cache
+        constexpr std::size_t kLine = 64;  // bytes of a cache line
         const char* const begin = reinterpret_cast<const char*>(&blocks_[block]);
         for (std::size_t at = 0; at < sizeof(Block); at += kLine) __builtin_prefetch(begin + at);
     }
-    /// Prefetches what find() of this key will read first.
+    /// Prefetches the first memory that find() of this key will read.
     void prefetch(VoxelKey key) const { table_.prefetch(block_of(key)); }
     [[nodiscard]] VoxelKey key(std::uint32_t id) const { return keys_[id]; }
     [[nodiscard]] std::size_t size() const { return keys_.size(); }
 
-    /// Blocks are numbered in the order in which they are first met, too.
+    /// Number of blocks. Blocks, too, are numbered in the order in which they are first inserted.
     [[nodiscard]] std::size_t blocks() const { return blocks_.size(); }
     [[nodiscard]] std::uint32_t block_of_voxel(std::uint32_t id) const {
         return block_of_voxel_[id];
     }
-    /// The first of its 4 x 4 x 4 cells.
+    /// The first of the 4 x 4 x 4 cells of the block.
     [[nodiscard]] Cell corner(std::uint32_t block) const { return unpack(corners_[block]); }
     /// Calls use(id) for every voxel of the block.
     template <class Use>
     void each_in_block(std::uint32_t block, const Use& use) const {
         each_in_block(block, ~std::uint64_t{0}, [&](std::uint32_t id, int) { use(id); });
     }
-    /// Calls use(id, place) for those whose place, 16 x + 4 y + z from the corner, is `wanted`.
+    /// Calls use(id, place) for those voxels of the block whose place is a set bit of `wanted`. The
+    /// place is 16 x + 4 y + z, counted from the corner of the block.
     template <class Use>
     void each_in_block(std::uint32_t block, std::uint64_t wanted, const Use& use) const {
         const Block& b = blocks_[block];
@@ -109,7 +113,7 @@ public:
             use(b.ids[static_cast<std::size_t>(place)], place);
         }
     }
-    /// The number of the block with this first cell.
+    /// The number of the block whose first cell is `corner`; empty if there is none.
     [[nodiscard]] std::optional<std::uint32_t> find_block(VoxelKey corner) const {
         const std::uint32_t block = table_.find(corner);
         return block == kNoVoxel ? std::nullopt : std::optional(block);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// The voxels around a voxel.
+/// Finds the voxels around a voxel.
 #pragma once
 
 #include <algorithm>
@@ -12,17 +12,17 @@
 
 namespace dynamic_filter {
 
-/// Which blocks of an index touch which, so that one finds the voxels around a voxel without the
-/// hash table. Belongs to one index; update() it after voxels were inserted. Const members may run
-/// in several threads.
+/// Stores which blocks of an index are adjacent, so that the voxels around a voxel are found
+/// without the hash table. An object belongs to one index; call update() after voxels were
+/// inserted. Const members may run in several threads.
 class VoxelNeighbors {
 public:
-    /// Takes in the blocks that the index has met since. Cost: the new blocks.
+    /// Adds the blocks that are new in the index. Cost: the number of new blocks.
     void update(const VoxelIndex& index);
 
-    /// Calls use(id, distance) for every voxel in the cube of so many cells, at most four, around a
-    /// voxel, itself too, in an order that does not depend on the ids. Distance in cells, that of
-    /// the farthest axis.
+    /// Calls use(id, distance) for every voxel in a cube around a voxel, including the voxel
+    /// itself. The cube reaches so many cells to each side, at most four. The order does not depend
+    /// on the ids. The distance is the largest of the three coordinate differences, in cells.
     template <class Use>
     void each_within(const VoxelIndex& index, int cells, std::uint32_t voxel,
                      const Use& use) const {
@@ -33,17 +33,18 @@ public:
                         use(id, (cell - center).cwiseAbs().maxCoeff());
                     });
     }
-    /// Calls use(id, cell) for every voxel of a block and of the cells, at most four, around it, in
-    /// an order that does not depend on the ids; cells are counted from the block's first one.
+    /// Calls use(id, cell) for every voxel of a block and of the cells around it, up to four cells
+    /// to each side. The order does not depend on the ids. Cells are counted from the first cell of
+    /// the block.
     template <class Use>
     void each_around(const VoxelIndex& index, int cells, std::uint32_t block,
                      const Use& use) const {
         each_in_box(index, block, Cell::Constant(-cells), Cell::Constant(3 + cells), use);
     }
 
-    /// Prefetches what prefetch() of this block will read.
+    /// Prefetches the memory that prefetch() of this block will read.
     void prefetch_row(std::uint32_t block) const { __builtin_prefetch(&around_[block]); }
-    /// Prefetches what each_around() of this block will read.
+    /// Prefetches the memory that each_around() of this block will read.
     void prefetch(const VoxelIndex& index, std::uint32_t block) const {
         for (const std::uint32_t other : around_[block]) {
             if (other != kNoBlock) index.prefetch_block(other);
@@ -52,14 +53,15 @@ public:
 
 private:
     static constexpr std::uint32_t kNoBlock = UINT32_MAX;
-    /// [9 x + 3 y + z], each 0: one block lower, 1: the same, 2: one higher.
+    /// Index 9 x + 3 y + z; each coordinate is 0 (one block lower), 1 (the same) or 2 (one block
+    /// higher).
     using Around = std::array<std::uint32_t, 27>;
 
-    /// Places of a block whose coordinate on the axis lies in [low, high]; bits of axis 0 are 16
-    /// apart, of axis 1 four, of axis 2 one.
+    /// Bits of the places of a block whose coordinate on the axis lies in [low, high]. Neighbors on
+    /// axis 0 are 16 bits apart, on axis 1 four bits, on axis 2 one bit.
     static std::uint64_t slab(int axis, int low, int high);
-    /// Cells are counted from the block's first one; the box lies within the block and those around
-    /// it.
+    /// Cells are counted from the first cell of the block. The box must lie within the block and
+    /// its adjacent blocks.
     template <class Use>
     void each_in_box(const VoxelIndex& index, std::uint32_t block, const Cell& low,
                      const Cell& high, const Use& use) const;
@@ -81,7 +83,7 @@ inline std::uint64_t VoxelNeighbors::slab(int axis, int low, int high) {
 template <class Use>
 void VoxelNeighbors::each_in_box(const VoxelIndex& index, std::uint32_t block, const Cell& low,
                                  const Cell& high, const Use& use) const {
-    // Places along an axis in the block below, the block itself and the one above.
+    // Ranges along one axis in the block below, in the block itself and in the block above.
     const auto parts = [&](int axis) {
         const auto of = [&](int first) {
             return slab(axis, low[axis] - first, high[axis] - first);

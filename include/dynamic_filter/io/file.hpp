@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Files that appear whole or not at all.
+/// Reads whole files, and writes files that appear complete or not at all.
 ///
 /// - Units: [bytes].
-/// - Shapes: bytes as they are.
-/// - Ownership: an AtomicFile owns its descriptor; what it writes is borrowed for the call.
+/// - Shapes: uninterpreted bytes.
+/// - Ownership: an AtomicFile owns its file descriptor; the bytes to write are borrowed for the
+///   call.
 /// - Threads: single caller per file.
-/// - Errors: InputError of a reader, OutputError of a writer, both with the system's reason.
+/// - Errors: InputError of readers, OutputError of writers; both contain the reason of the system.
 #pragma once
 
 #include <cstddef>
@@ -17,36 +18,39 @@
 
 namespace dynamic_filter::io {
 
-/// Reads a whole regular file. Throws InputError (missing, a folder, a device, unreadable).
+/// Reads a whole regular file. Throws InputError if it is missing, a folder, a device, or
+/// unreadable.
 std::string read_file(const std::filesystem::path& file);
 
-/// What outlasts a power cut once a file is committed.
+/// What survives a power failure after a file is committed.
 enum class Durable {
-    contents,  ///< what stands under its name is whole, but the name may be missing or lead to what
-               ///< it led to before: until sync_folder()
-    name       ///< the name, too
+    /// The contents are complete. Until sync_folder() is called, the name may be missing, or may
+    /// still refer to an older file.
+    contents,
+    name  ///< the contents and the name
 };
 
-/// Makes the names of all files in a folder durable. Throws OutputError where the disk fails.
+/// Makes the names of all files in a folder durable. Throws OutputError if the disk fails.
 void sync_folder(const std::filesystem::path& folder);
 
-/// A file that is written beside its final path and renamed into place by commit(); without
-/// commit() (an exception, say) nothing is left. Throws OutputError with the system's reason.
-/// Single caller; movable.
+/// Writes to a temporary file beside the final path; commit() renames it into place. Without
+/// commit(), for example after an exception, no file is left. Throws OutputError with the reason of
+/// the system. Single caller; movable.
 class AtomicFile {
 public:
-    /// Makes the temporary file, in the folder of `path`.
+    /// Creates the temporary file in the folder of `path`.
     explicit AtomicFile(std::filesystem::path path);
-    AtomicFile(AtomicFile&& other) noexcept;  ///< the other one can only be destroyed
+    AtomicFile(AtomicFile&& other) noexcept;  ///< the moved-from object can only be destroyed
     AtomicFile& operator=(AtomicFile&&) = delete;
     ~AtomicFile();
 
-    void write(std::span<const std::byte> bytes);             ///< appends, buffered
-    void write(std::string_view text);                        ///< as above
-    void rewrite(std::size_t offset, std::string_view text);  ///< overwrites bytes already written
-    /// Flushes, fsyncs, renames.
+    void write(std::span<const std::byte> bytes);  ///< appends bytes, buffered
+    void write(std::string_view text);             ///< appends text, buffered
+    /// Overwrites bytes that were already written.
+    void rewrite(std::size_t offset, std::string_view text);
+    /// Flushes the buffer, calls fsync, and renames the file.
     void commit(Durable durable = Durable::name);
-    /// What it is called until then, for libraries that write by name.
+    /// Path of the temporary file, for libraries that write to a named file.
     [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
 
 private:
@@ -56,6 +60,7 @@ private:
     int descriptor_ = -1;
 };
 
-void write_file(const std::filesystem::path& path, std::string_view text);  ///< atomic
+/// Writes a whole file atomically.
+void write_file(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace dynamic_filter::io

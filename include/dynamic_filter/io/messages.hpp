@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// ROS messages as bytes, for BagWriter. Covariances and velocities are zero.
+/// Makes serialized ROS messages for BagWriter. Covariances and velocities are zero.
 ///
 /// - Units: [m]; stamps [s], rounded to nanoseconds.
-/// - Frames: named by the caller.
-/// - Shapes: bytes of one message.
+/// - Frames: the caller names them.
+/// - Shapes: the bytes of one message.
 /// - Ownership: values.
 /// - Threads: pure functions; thread-safe.
-/// - Errors: Error, where a stamp or a text does not fit the message.
+/// - Errors: Error if a stamp or a text does not fit into the message.
 #pragma once
 
 #include <cstddef>
@@ -21,12 +21,12 @@
 
 namespace dynamic_filter::io {
 
-/// [ns] of a stamp [s], rounded; exact where the double is. Throws Error if not in [0, 2^31 s),
-/// which is all that both generations of ROS can say.
+/// Converts a stamp [s] to [ns], rounded; exact if the double is. Throws Error if the stamp is not
+/// in [0, 2^31 s), the range of both ROS 1 and ROS 2.
 std::int64_t to_nanoseconds(double stamp);
 
-/// sensor_msgs/PointCloud2 with the cloud's fields in their order, at `stamp` [s]. It knows no
-/// 64-bit integers: those become float64. Throws Error if x, y or z is missing.
+/// sensor_msgs/PointCloud2 with the fields of the cloud in their order, at `stamp` [s]. The message
+/// type has no 64-bit integers; they become float64. Throws Error if x, y or z is missing.
 std::vector<std::byte> cloud_message(const Cloud& cloud, double stamp, const std::string& frame,
                                      MessageEncoding encoding);
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What users get wrong about poses, and how it is put right.
+/// Common mistakes in poses, and their corrections.
 ///
-/// - Frames: what each fix says.
-/// - Units: [m] but for millimetres.
+/// - Frames: see each correction.
+/// - Units: [m], except PoseFix::millimetres.
 /// - Shapes: one pose at a time.
 /// - Ownership: values.
 /// - Threads: pure functions; thread-safe.
@@ -17,23 +17,23 @@
 
 namespace dynamic_filter::io {
 
-/// What the poses of a recording were taken for, wrongly.
+/// Corrections of poses: what the poses of the file really are.
 enum class PoseFix {
-    none,         ///< they are T_world_sensor [m]
+    none,         ///< they are T_world_sensor [m], so nothing is corrected
     inverse,      ///< they are T_sensor_world
-    camera,       ///< they are poses of a camera that looks ahead: x right, y down, z forward
-    lidar,        ///< they were taken for a camera's, but are the LiDAR's
+    camera,       ///< they are poses of a camera (x right, y down, z forward), not of the LiDAR
+    lidar,        ///< they are poses of the LiDAR, but were read as those of a camera
     wxyz,         ///< quaternions are w x y z, but were read as x y z w
-    xyzw,         ///< the other way round
+    xyzw,         ///< quaternions are x y z w, but were read as w x y z
     millimetres,  ///< translations are in millimetres
 };
 
-/// All but none, by the names that --pose-fix takes.
+/// All corrections except `none`, in the order in which --pose-fix lists them.
 const std::vector<PoseFix>& pose_fixes();
-/// By that name.
+/// Name of a correction, as --pose-fix takes it.
 std::string to_string(PoseFix fix);
 
-/// T_world_sensor of a pose that was read without the fix.
+/// Corrects a pose that was read without the correction; returns T_world_sensor.
 Pose fixed(PoseFix fix, const Pose& pose);
 
 }  // namespace dynamic_filter::io

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Whether the scans of a recording fit together by their poses, and what is wrong if they do not.
+/// Checks whether the scans of a recording fit together at its poses, and finds the likely mistake
+/// if they do not.
 ///
 /// - Units: shares 0..1.
-/// - Shapes: lists; findings on stamps come first, then on points, then on poses.
+/// - Shapes: lists. Findings about stamps come first, then those about points, then about poses.
 /// - Ownership: values; the sequence is borrowed.
 /// - Threads: thread-safe; uses parallel_for.
-/// - Errors: none of its own; scans that cannot be read are in `unusable`.
+/// - Errors: none of its own; scans that cannot be read are listed in `unusable`.
 #pragma once
 
 #include <cstddef>
@@ -17,34 +18,39 @@
 
 namespace dynamic_filter::io {
 
-/// A likely mistake.
+/// A likely mistake in the recording or in the options.
 struct Finding {
-    std::string what;    ///< one sentence, with the figures that say so
-    std::string advice;  ///< what to do: an option ("--...") to try, or a sentence
+    std::string what;    ///< one sentence with the measured values
+    std::string advice;  ///< what to do: an option to try ("--..."), or a sentence
 };
 
-/// How well scans overlay if poses and points are taken in some way: the share of what stands
-/// upright that falls on what stands in the other scan, 0..1, over pairs of scans 1 to 20 apart.
+/// How well scans overlay if poses and points are interpreted in a certain way. It is the share,
+/// 0..1, of upright structures that fall on upright structures of another scan, over pairs of scans
+/// that are 1 to 20 scans apart.
 struct Overlay {
-    std::string reading;  ///< "as given", a PoseFix, "points in world" or "points in sensor"
-    double share = 0.0;   ///< 0..1
+    /// The interpretation: "as given", a PoseFix, "points in world" or "points in sensor".
+    std::string reading;
+    double share = 0.0;  ///< 0..1
 };
 
-/// What was found.
+/// Result of the check.
 struct Preflight {
-    std::vector<Finding> findings;  ///< empty: nothing suspicious
-    std::vector<Overlay> overlays;  ///< "as given" first; empty if no two scans could be compared
-    std::size_t scans = 0;          ///< that were read
-    std::vector<std::string> unusable;  ///< scans that a run would reject, and why: of all, what
-                                        ///< shows without reading, and of those looked at, the rest
+    std::vector<Finding> findings;  ///< empty if nothing is suspicious
+    /// "as given" is first; empty if no two scans could be compared.
+    std::vector<Overlay> overlays;
+    std::size_t scans = 0;  ///< number of scans that were read
+    /// Scans that a run would reject, with the reason. Faults that show without reading the points
+    /// are listed for all scans, other faults only for the scans that were read.
+    std::vector<std::string> unusable;
 };
 
-/// Quick: about 15 scans; finds what makes the scans overlay badly as a whole. Thorough: 60, and
-/// looks whether moving them about makes them fit better.
+/// How much is checked. `quick` reads about 15 scans, and finds what makes scans overlay badly as a
+/// whole. `thorough` reads about 60 scans, and also tests whether small displacements of the scans
+/// improve the overlay.
 enum class Depth { quick, thorough };
 
-/// Looks at a few scans at each of some places of the recording. Thorough takes a second or two for
-/// 64 beams, quick a tenth of one.
+/// Checks some scans at each of several places of the recording. With 64 beams, `thorough` takes
+/// one to two seconds, and `quick` about a tenth of a second.
 Preflight check_recording(const Sequence& sequence, Depth depth);
 
 }  // namespace dynamic_filter::io

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What the scans of a recording say about how the sensor moved, beside what its poses say.
+/// Estimates the motion of the sensor from the scans of a recording, and compares it with the
+/// recorded poses.
 ///
 /// - Units: [m], [rad], [s].
 /// - Frames: poses T_world_sensor; displacements in the sensor frame.
-/// - Shapes: lists, an entry a scan where they say so.
+/// - Shapes: lists, with one entry per scan where a function says so.
 /// - Ownership: values; the sequence is borrowed.
 /// - Threads: thread-safe.
-/// - Errors: none of their own; scans that cannot be read are passed over.
+/// - Errors: none of their own; scans that cannot be read are skipped.
 #pragma once
 
 #include <functional>
@@ -21,56 +22,59 @@
 
 namespace dynamic_filter::io {
 
-/// Poses of all scans by odometry alone; empty for those that cannot be read. `after` is called
-/// after each scan, and stops the work by returning false.
+/// Poses of all scans by odometry alone, one entry per scan; empty for a scan that cannot be read.
+/// `after` is called after each scan; if it returns false, the work stops.
 std::vector<std::optional<Tracked>> track_scans(const Sequence& sequence,
                                                 const OdometryConfig& config,
                                                 const std::function<bool()>& after = {});
 
-/// How a turning sensor turns, if scans overlay clearly better when each point is taken for
-/// measured at the time that follows from its azimuth; empty if not: the motion during the scans is
-/// undone already, there was none, or the sensor does not turn. Reads a few scans in a row at some
-/// places of the recording.
+/// Finds out how a rotating sensor turns. The result is set if scans overlay clearly better when
+/// the time of each point is computed from its azimuth. It is empty if motion compensation was
+/// already done, if the sensor did not move, or if it does not rotate. Reads a few consecutive
+/// scans at several places of the recording.
 std::optional<Sweep> find_sweep(const Sequence& sequence, const OdometryConfig& config);
 
-/// How far the poses of scans so far apart are off what the scans show: medians.
+/// Difference between the recorded poses and the motion that the scans show, for pairs of scans
+/// with a given separation. All values are medians.
 struct PoseError {
-    std::size_t apart = 0;  ///< scans
-    double way = 0.0;       ///< [m] between them
-    double shift = 0.0;     ///< [m]
-    double turn = 0.0;      ///< [rad]
+    std::size_t apart = 0;  ///< separation in scans
+    double way = 0.0;       ///< [m] distance between the two scans
+    double shift = 0.0;     ///< [m] error of the translation
+    double turn = 0.0;      ///< [rad] error of the rotation
 };
 
-/// How much scans blur: overlay_blur() of scans in a row [m]; 0: not known.
+/// Blur of overlaid consecutive scans, from overlay_blur() [m]; 0: not known.
 struct Blur {
-    double as_measured = 0.0;  ///< [m] points as they are in the scans
-    double undone = 0.0;       ///< [m] the motion during scans undone by the times of the points
+    double as_measured = 0.0;  ///< [m] with the points as they are in the scans
+    double undone = 0.0;       ///< [m] after motion compensation with the times of the points
 
-    [[nodiscard]] double least() const;  ///< [m] of those that are known
-    /// Whether scans overlay clearly better with their motion undone.
+    [[nodiscard]] double least() const;  ///< [m] the smaller of the known values
+    /// True if scans overlay clearly better after motion compensation.
     [[nodiscard]] bool is_distorted() const;
 };
 
-/// How well the poses of a recording fit its scans, as far as it has poses.
+/// How well the poses of a recording fit its scans, if it has poses.
 struct MotionQuality {
-    std::vector<PoseError> errors;  ///< of scans 1, 5, 10 and 20 apart, as far as there are
-    Blur given;                     ///< at the recording's poses
-    Blur found;                     ///< at those that the odometry finds
-    /// Whether over 20 scans the given poses err by little, everywhere: less than a metre or a
-    /// third of the way, and a tenth of a radian. Poses of another frame, format or recording do
-    /// not.
+    /// For scans 1, 5, 10 and 20 apart, as far as the recording is long enough.
+    std::vector<PoseError> errors;
+    Blur given;  ///< blur at the poses of the recording
+    Blur found;  ///< blur at the poses of the odometry
+    /// True if the errors of the given poses over 20 scans are small everywhere: less than 1 m or a
+    /// third of the distance, and less than 0.1 rad. Poses of a wrong frame, format or recording
+    /// have larger errors.
     bool nearly_right = false;
 
-    /// Whether scans overlay clearly better at other poses than those that are given.
+    /// True if scans overlay clearly better at other poses than the given ones.
     [[nodiscard]] bool has_bad_poses() const;
 };
 
-/// Reads 21 scans in a row at each of some places of the recording, with the times of their points
-/// if the sequence wants_times.
+/// Measures the pose errors and the blur. Reads 21 consecutive scans at each of several places of
+/// the recording, with the times of their points if Sequence::wants_times is set.
 MotionQuality measure_motion(const Sequence& sequence, const OdometryConfig& config);
 
-/// What is wrong with the poses, if scans overlay clearly better at others, or if they are another
-/// frame's or late: one sentence, with figures; empty if nothing is. Reads up to 180 scans.
+/// Describes the mistake in the poses, if scans overlay clearly better at other poses, or if the
+/// poses belong to another frame or are delayed. Returns one sentence with the measured values;
+/// empty if there is no mistake. Reads up to 180 scans.
 std::string find_pose_mistake(const Sequence& sequence, const OdometryConfig& config);
 
 }  // namespace dynamic_filter::io

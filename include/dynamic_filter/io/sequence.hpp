@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// A recording: scans in order, a pose and a stamp for each, ground truth where there is any.
+/// A recording: scans in order, a pose and a stamp for each scan, and ground truth if there is any.
 ///
 /// - Units: [m]; stamps [s].
-/// - Frames: points in the sensor's, poses T_world_sensor; what comes otherwise is converted.
-/// - Shapes: arrays of a Sequence have an entry a scan, those of a Frame one a point.
-/// - Ownership: values; a Sequence shares its open bag with its copies.
-/// - Threads: a Sequence is not changed once open; functions that take one are thread-safe.
-/// - Errors: InputError (which file, where in it) and ConfigError.
+/// - Frames: points in the sensor frame, poses T_world_sensor; other conventions are converted.
+/// - Shapes: arrays of a Sequence have one entry per scan, those of a Frame one per point.
+/// - Ownership: values; copies of a Sequence share its open bag.
+/// - Threads: a Sequence is not changed after it is open; functions that take one are thread-safe.
+/// - Errors: InputError (with the file and the place in it) and ConfigError.
 #pragma once
 
 #include <cstddef>
@@ -26,110 +26,123 @@
 
 namespace dynamic_filter::io {
 
-/// The layouts that are told apart; docs/formats.md.
+/// The layouts of recordings; see docs/formats.md.
 enum class Format { kitti, benchmark, folder, bag };
 
-std::string to_string(Format format);  ///< "kitti", "benchmark", "folder", "bag"
+std::string to_string(Format format);  ///< "kitti", "benchmark", "folder" or "bag"
 
 struct BagScans;
 
-/// How to read a recording, where looking at it does not say.
+/// How to read a recording, where its files do not tell.
 struct OpenOptions {
-    std::optional<Format> format;                ///< empty: recognised by looking at the folder
-    std::optional<std::filesystem::path> poses;  ///< empty: the format's usual place
-    bool without_poses = false;                  ///< leave the recording's poses alone
-    std::size_t first = 0;                       ///< index of the first scan used
-    std::optional<std::size_t> last;             ///< index of the last scan used; empty: the end
-    std::size_t stride = 1;                      ///< every so many scans
-    std::string topic;                           ///< of a bag's scans; empty: the only one
-    std::string pose_topic;  ///< of a bag's poses, or "/tf"; empty: chosen, and a note says how
-    bool deskew = false;     ///< undo the sensor's motion during each scan
-    PoseFix pose_fix = PoseFix::none;  ///< what is put right of the poses
-    bool points_in_world = false;      ///< scans are in the poses' frame, not in the sensor's
-    double time_unit = 1.0;            ///< [s] of the stamps of scans and poses
+    std::optional<Format> format;  ///< empty: recognized by the contents of the folder
+    /// Pose file; empty: the usual place of the format.
+    std::optional<std::filesystem::path> poses;
+    bool without_poses = false;  ///< true: the poses of the recording are not read
+    std::size_t first = 0;       ///< index of the first scan to use
+    /// Index of the last scan to use; empty: the last one of the recording.
+    std::optional<std::size_t> last;
+    std::size_t stride = 1;  ///< use every scan (1), every second scan (2), and so on
+    std::string topic;       ///< topic of the scans of a bag; empty: the only one
+    /// Topic of the poses of a bag, or "/tf"; empty: chosen, and a note says how.
+    std::string pose_topic;
+    bool deskew = false;               ///< do motion compensation of each scan
+    PoseFix pose_fix = PoseFix::none;  ///< correction of the poses
+    /// True: points are in the frame of the poses, not in the sensor frame.
+    bool points_in_world = false;
+    double time_unit = 1.0;  ///< [s] per unit of the stamps of scans and poses
 };
 
-/// What is known without reading the scans. Immutable after open_sequence; thread-safe.
+/// What is known of a recording without reading the scans. Not changed after open_sequence();
+/// thread-safe.
 struct Sequence {
-    Format format = Format::folder;                  ///< as recognised or forced
-    std::filesystem::path root;                      ///< what was opened
-    std::vector<std::filesystem::path> scan_files;   ///< in natural order of their names; of a bag
-                                                     ///< not files, but numbers below its path
-    std::vector<std::filesystem::path> label_files;  ///< parallel to scan_files (empty path: none),
-                                                     ///< or empty
-    std::vector<Pose> T_world_sensor;  ///< parallel; empty for `benchmark` (poses are in the files)
-    std::filesystem::path pose_source;  ///< what they were read from; empty: the scans' own files,
-                                        ///< the bag, or nothing
-    bool has_poses = true;              ///< false: nobody knows them, and T_world_sensor is empty
-    bool wants_times = false;           ///< frames get the times of their points
-    std::optional<Sweep> sweep;         ///< from which those times follow if scans do not hold them
-    /// Parallel, or empty: how the sensor moved. If the sequence wants_times, the motion during
-    /// each scan is undone with it, and frames have no times any more.
+    Format format = Format::folder;  ///< as recognized, or as OpenOptions says
+    std::filesystem::path root;      ///< path that was opened
+    /// In the natural order of their names. For a bag, these are no files, but numbers below its
+    /// path.
+    std::vector<std::filesystem::path> scan_files;
+    /// Parallel to scan_files, an empty path if a scan has none; or empty.
+    std::vector<std::filesystem::path> label_files;
+    /// Parallel to scan_files; empty for `benchmark`, whose scan files hold the poses.
+    std::vector<Pose> T_world_sensor;
+    /// File of the poses; empty: the files of the scans, the bag, or none.
+    std::filesystem::path pose_source;
+    bool has_poses = true;       ///< false: poses are not known, and T_world_sensor is empty
+    bool wants_times = false;    ///< true: read_frame() returns the times of the points
+    std::optional<Sweep> sweep;  ///< used to compute these times if the scans do not hold them
+    /// Velocities of the sensor, parallel to scan_files, or empty. If wants_times is set, motion
+    /// compensation is done with them, and frames then have no times.
     std::vector<Twist> velocities;
-    std::vector<double> stamps;    ///< parallel [s]; made up at 10 Hz where not measured
-    bool measured_stamps = false;  ///< they come from the recording
-    Trajectory trajectory;  ///< poses as dense in time as the recording has them; may be empty
-    bool deskew = false;    ///< as asked for
-    bool points_in_world = false;         ///< as asked for
-    PoseFix pose_fix = PoseFix::none;     ///< of the poses in the scans' files; all others have it
-    std::shared_ptr<const BagScans> bag;  ///< of format `bag`
-    std::vector<std::size_t> bag_scans;   ///< parallel to scan_files: places in it
+    std::vector<double> stamps;    ///< parallel to scan_files [s]; assumed at 10 Hz if not measured
+    bool measured_stamps = false;  ///< true: the stamps come from the recording
+    /// All poses of the recording, as dense in time as they are; may be empty.
+    Trajectory trajectory;
+    bool deskew = false;           ///< as in OpenOptions
+    bool points_in_world = false;  ///< as in OpenOptions
+    /// For poses in the files of the scans; all other poses are already corrected.
+    PoseFix pose_fix = PoseFix::none;
+    std::shared_ptr<const BagScans> bag;  ///< only for format `bag`
+    std::vector<std::size_t> bag_scans;   ///< parallel to scan_files: positions in the bag
     bool intensity_is_truth = false;      ///< `benchmark` with ground truth in the intensity
-    std::vector<std::string> notes;       ///< for the user: what was assumed
-    std::vector<std::string> losses;      ///< what of a bag cannot be read: scans are missing
-    std::vector<double> pose_stamps;      ///< [s] of poses matched by order, where both have stamps
+    std::vector<std::string> notes;       ///< assumptions that were made, as sentences for the user
+    /// Parts of a bag that cannot be read, so that scans are missing.
+    std::vector<std::string> losses;
+    /// [s] Stamps of poses that were matched to scans by their order, if both have stamps.
+    std::vector<double> pose_stamps;
 
-    /// How many scans there are.
+    /// Number of scans.
     [[nodiscard]] std::size_t size() const { return scan_files.size(); }
-    /// Whether there is ground truth of any.
+    /// True if any scan has ground truth.
     [[nodiscard]] bool has_truth() const { return intensity_is_truth || !label_files.empty(); }
 };
 
-/// One scan as read: the record's own fields, and the points in the sensor frame.
+/// One scan as read: all fields of the file, and the points in the sensor frame.
 struct Frame {
     Cloud cloud;    ///< as in the file (`benchmark`: x y z in the world frame)
-    Points points;  ///< sensor frame, same order, their motion undone if that was asked for
+    Points points;  ///< sensor frame, same order; after motion compensation if that was asked for
     Pose T_world_sensor = Pose::Identity();  ///< at `stamp`
-    bool has_pose = true;                    ///< false: T_world_sensor means nothing
+    bool has_pose = true;                    ///< false: T_world_sensor has no meaning
     double stamp = 0.0;                      ///< [s]
-    std::vector<float> times;  ///< [s] of the points from `stamp`; empty: unknown, or not wanted
-    Labels truth;              ///< empty without ground truth; otherwise one per point
-    std::string truth_fault;   ///< why this scan's truth cannot be used; the scan itself can
+    /// [s] of the points relative to `stamp`; empty: unknown, or not asked for.
+    std::vector<float> times;
+    Labels truth;  ///< one per point; empty without ground truth
+    /// Why the ground truth of this scan cannot be used; the scan itself can.
+    std::string truth_fault;
 };
 
-/// Recognises the layout, checks that scans, poses and stamps agree in number. Where no poses are
-/// found, a note says what was looked for.
-/// Throws InputError (nothing there, counts that differ, bad rotation) and
-/// ConfigError (topics to choose from).
+/// Recognizes the layout, and checks that the numbers of scans, poses and stamps agree. If no poses
+/// are found, a note says which files were looked for. Throws InputError (nothing found, different
+/// numbers, invalid rotation) and ConfigError (several topics to choose from).
 Sequence open_sequence(const std::filesystem::path& data, const OpenOptions& options = {});
 
-/// From now on, the motion during each scan is undone by the recording's poses and the times of the
-/// points. A note says why if that cannot be done.
+/// Switches on motion compensation of each scan with the poses of the recording and the times of
+/// the points. If that is not possible, a note says why.
 void prepare_deskew(Sequence& sequence);
 
-/// Gives the recording poses that were found or refined, a scan each; empty: not known. The scans'
-/// motion is undone accordingly from now on.
+/// Gives the recording the poses that were estimated or refined, one entry per scan; empty: not
+/// known. From then on, motion compensation uses them.
 void use_poses(Sequence& sequence, const std::vector<std::optional<Tracked>>& tracked);
 
-/// Reads scan i. Throws InputError if the scan cannot be used (truncated, no points, a non-finite
-/// pose): the caller may count it as rejected and go on. Thread-safe.
+/// Reads scan i. Throws InputError if the scan cannot be used (truncated, without points, with a
+/// non-finite pose); the caller may then count the scan as rejected and continue. Thread-safe.
 Frame read_frame(const Sequence& sequence, std::size_t i);
 
-/// Why a scan is rejected whose fields are not those of the scans before it.
+/// Reason for rejecting a scan whose fields differ from those of the previous scans.
 inline constexpr const char* kOtherFields =
     "its fields are not those of the first scan; one map cannot hold both";
 
-/// Throws what read_frame would, as far as that shows without reading the points. Thread-safe.
+/// Throws the exception that read_frame() would throw, as far as the fault shows without reading
+/// the points. Thread-safe.
 void refuse_unusable(const Sequence& sequence, std::size_t i);
 
-/// "000123" for velodyne/000123.bin.
+/// Name of a scan without folder and extension: "000123" for velodyne/000123.bin.
 std::string stem(const Sequence& sequence, std::size_t i);
 
-/// Ground-truth labels as SemanticKITTI writes them: low 16 bits; 251-259 dynamic, 0 and 1 unknown,
-/// everything else static. Throws InputError.
+/// Reads ground-truth labels in the format of SemanticKITTI. The low 16 bits count: 251-259 are
+/// dynamic, 0 and 1 unknown, all others static. Throws InputError.
 Labels read_labels(const std::filesystem::path& file);
 
-/// "a2" before "a10".
+/// Natural order of names: "a2" is before "a10".
 bool natural_less(const std::string& a, const std::string& b);
 
 }  // namespace dynamic_filter::io

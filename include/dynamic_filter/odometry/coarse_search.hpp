@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Where a scan may have been taken, if the motion since the last one is hardly known.
+/// Finds candidate poses of a scan when the motion since the previous scan is hardly known.
 #pragma once
 
 #include <vector>
@@ -10,15 +10,15 @@ namespace dynamic_filter {
 
 /// How far to search around the expected pose.
 struct SearchWindow {
-    double distance = 0.0;  ///< [m] to all sides
-    double turn = 0.0;      ///< [rad] to both sides
+    double distance = 0.0;  ///< [m] in each horizontal direction
+    double turn = 0.0;      ///< [rad] to each side
 };
 
-/// Correlative matching, seen from above (Olson 2009): the displacements from the expected pose for
-/// which what stands upright in the scan covers what stands upright in the map best; best first, at
-/// most `count`, apart from each other. `map` and `scan` in the expected sensor frame, whose z axis
-/// is taken for up. The ground is left out: its rings look the same from everywhere. Empty if
-/// hardly anything stands upright.
+/// Correlative matching, seen from above (Olson 2009). Returns displacements from the expected pose
+/// for which the upright structures of the scan cover those of the map best: at most `count`, best
+/// first, and well apart from each other. `map` and `scan` are in the expected sensor frame, whose
+/// z axis is taken as the vertical. The ground is left out, because its rings look the same from
+/// everywhere. Empty if the scan has hardly any upright structure.
 std::vector<Pose> search_displacements(const Points& map, const Points& scan,
                                        const SearchWindow& window, std::size_t count);
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// The settings of the odometry: for scans without poses, and for poses that are refined.
+/// Settings of the odometry, which estimates poses for scans without poses and refines given poses.
 ///
-/// - Units: what visit_odometry() says of each field.
-/// - Ownership: texts of a Setting live for ever.
+/// - Units: visit_odometry() names the unit of each field.
+/// - Ownership: texts of a Setting are string literals and stay valid for the whole program.
 /// - Threads: plain data and pure functions; thread-safe.
 /// - Errors: none.
 #pragma once
@@ -12,7 +12,7 @@
 
 namespace dynamic_filter {
 
-/// What visit_odometry() explains.
+/// Settings of the odometry. visit_odometry() explains each of them.
 struct OdometryConfig {
     bool refine = false;
     double voxel = 0.5;
@@ -36,36 +36,41 @@ void visit_odometry(C& o, F&& f) {
         f(Setting{key, unit, "", help, min, max}, member);
     };
     field("odometry.refine", "",
-          "poses that are given are taken as a first guess, and each scan is registered to the map",
+          "whether given poses are refined: each is then the first guess for a registration of its "
+          "scan to the map",
           0, 0, o.refine);
     field("odometry.voxel", "m",
-          "edge of the smallest voxels of the map that scans are registered to; it has voxels of "
-          "2, 4 and 8 times this, too",
+          "edge length of the smallest voxels of the map to which scans are registered; the map "
+          "also has voxels of 2, 4 and 8 times this size",
           0.05, 10, o.voxel);
-    field("odometry.spacing", "m", "points of a scan that are registered lie so far apart", 0.05,
-          10, o.spacing);
-    field("odometry.points", "1", "most points of a scan that are registered", 100, 1e6, o.points);
-    field("odometry.nearest", "m", "what is nearer to the sensor may be the vehicle itself", 0, 50,
-          o.nearest);
-    field("odometry.farthest", "m", "what is farther from the sensor is left out", 5, 1000,
+    field("odometry.spacing", "m", "distance between the points of a scan that are registered",
+          0.05, 10, o.spacing);
+    field("odometry.points", "1", "largest number of points of a scan that are registered", 100,
+          1e6, o.points);
+    field("odometry.nearest", "m",
+          "points nearer to the sensor are not used, because they may lie on its own vehicle", 0,
+          50, o.nearest);
+    field("odometry.farthest", "m", "points farther from the sensor are not used", 5, 1000,
           o.farthest);
-    field("odometry.speed", "m/s", "at the start, the sensor moves no faster", 0.1, 300, o.speed);
+    field("odometry.speed", "m/s",
+          "largest speed of the sensor; used until its velocity is known, and to limit a search in "
+          "a wide area",
+          0.1, 300, o.speed);
     field("odometry.acceleration", "m/s^2",
-          "how much the sensor's velocity may change: where scans do not show how far it went, "
-          "this says how far it went on",
+          "typical change of the velocity of the sensor; it limits the motion in directions in "
+          "which the scans do not show it",
           0.1, 1000, o.acceleration);
-    field("odometry.angular_acceleration", "deg/s^2", "the same for its turning", 1, 1e5,
-          o.angular_acceleration);
+    field("odometry.angular_acceleration", "deg/s^2",
+          "typical change of the angular velocity of the sensor", 1, 1e5, o.angular_acceleration);
     field("odometry.lost_below", "1",
-          "if a smaller share of the scan's points lies on the map, the scan is lost", 0, 1,
-          o.lost_below);
+          "a scan is lost if a smaller share of its points lies on the map", 0, 1, o.lost_below);
     field("odometry.usual_share", "1",
-          "if the share is below this part of what it was in the scans before, the pose is sought "
-          "in a wide area",
+          "if the share of points on the map falls below this part of its value in the previous "
+          "scans, the pose is searched for in a wide area",
           0, 1, o.usual_share);
     field("odometry.return_over", "m",
-          "refined poses return to the given ones over such a way: given ones are better in the "
-          "long run",
+          "refined poses return to the given poses over this distance, because given poses are "
+          "more accurate over long distances",
           1, 1e6, o.return_over);
 }
 

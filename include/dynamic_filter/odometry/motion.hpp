@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Rigid motion at a constant rate, and what it does to the points of a sweep.
+/// Rigid motion at a constant rate, and motion compensation (deskewing) of the points of a sweep.
 ///
-/// - Units: [m], [rad], [s]; a Twist is a velocity if it is per second, a displacement if not.
+/// - Units: [m], [rad], [s]. A Twist is a velocity if it is per second, otherwise a displacement.
 /// - Frames: a twist is given in the moving frame.
 /// - Shapes: times are parallel to points.
 /// - Ownership: values; times are borrowed for the call.
@@ -16,20 +16,20 @@
 
 namespace dynamic_filter {
 
-/// Translation [m] or [m/s] first, then the rotation vector [rad] or [rad/s].
+/// Translation [m] or [m/s] first, then rotation vector [rad] or [rad/s].
 using Twist = Eigen::Matrix<double, 6, 1>;
 
-/// The displacement after moving at a constant twist: the exponential map of SE(3).
+/// The displacement that results from a constant twist: the exponential map of SE(3).
 Pose exp(const Twist& twist);
 /// The inverse of exp(), for rotations of less than pi.
 Twist log(const Pose& displacement);
 
-/// The points in another frame.
+/// Transforms points into another frame.
 Points moved(const Points& points, const Pose& T_to_from);
 
-/// The points of a sweep as if all had been measured at one moment: each was measured `times` [s]
-/// after it, by a sensor that moved at `velocity` in its own frame. Points without a finite time
-/// stay where they are.
+/// Motion compensation: returns the points as if all had been measured at one moment. Each point
+/// was measured `times` [s] after this moment by a sensor that moved at `velocity` in its own
+/// frame. Points without a finite time are not moved.
 Points undo_motion(const Points& points, std::span<const float> times, const Twist& velocity);
 
 }  // namespace dynamic_filter

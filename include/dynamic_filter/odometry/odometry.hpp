@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Where the sensor is, from its scans alone: each is registered to the map of those before.
+/// LiDAR odometry: estimates the pose of the sensor from its scans alone. Each scan is registered
+/// to the map of the previous scans.
 ///
 /// - Units: [m], [rad], [s].
-/// - Frames: world: that of the first scan's sensor.
+/// - Frames: the world frame is the sensor frame of the first scan.
 /// - Shapes: times and labels are parallel to the points of their scan.
-/// - Ownership: the points of the newest scan are kept until it is learned.
+/// - Ownership: the points of the newest scan are kept until learn() is called.
 /// - Threads: single caller.
 /// - Errors: none; see Tracked::status.
 #pragma once
@@ -20,40 +21,43 @@
 
 namespace dynamic_filter {
 
-/// How far a pose can be relied on.
+/// How reliable a pose is.
 enum class TrackStatus {
     good,
-    weak,  ///< in some direction, only the motion before says where the sensor is
-    lost   ///< too little of the scan lies on the map: the pose goes on with the motion before
+    /// The scan leaves one direction undetermined; there, the previous motion is extrapolated.
+    weak,
+    lost  ///< too few points lie on the map; the pose extrapolates the previous motion
 };
 
-/// Where the sensor was, as far as the scans so far tell.
+/// Estimated pose and motion of the sensor at one scan.
 struct Tracked {
-    Pose T_world_sensor = Pose::Identity();  ///< at the stamp
+    Pose T_world_sensor = Pose::Identity();  ///< at the stamp of the scan
     Twist velocity = Twist::Zero();          ///< during the scan, in the sensor frame, per second
-    TrackStatus status = TrackStatus::good;  ///< how far the pose can be relied on
-    /// Of a displacement in the sensor frame since the scan before, [m] and [rad].
+    TrackStatus status = TrackStatus::good;  ///< how reliable the pose is
+    /// Covariance of the displacement since the previous scan, in the sensor frame, [m] and [rad].
     Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
-    double inliers = 1.0;      ///< 0..1: share of the points that lie on the map
-    bool begins_anew = false;  ///< many scans were lost: a new map begins with this scan, and how
-                               ///< it lies to the one before is not known
+    double inliers = 1.0;  ///< 0..1: share of the points that lie on the map
+    /// True if many scans were lost: a new map begins with this scan, and its pose relative to the
+    /// previous map is not known.
+    bool begins_anew = false;
 };
 
-/// track() and learn() take turns, scan by scan. Same scans, same bits.
+/// Call track() and learn() in turn for each scan. The same scans give bit-identical results.
 class Odometry {
 public:
-    explicit Odometry(const OdometryConfig& config);  ///< without a map
-    Odometry(Odometry&&) noexcept;                    ///< the other one can only be destroyed
-    Odometry& operator=(Odometry&&) noexcept;         ///< the other one can only be destroyed
+    explicit Odometry(const OdometryConfig& config);  ///< starts without a map
+    Odometry(Odometry&&) noexcept;             ///< the moved-from object can only be destroyed
+    Odometry& operator=(Odometry&&) noexcept;  ///< the moved-from object can only be destroyed
     ~Odometry();
 
-    /// Finds where the scan was taken. `times`, if not empty: when each point was measured, [s]
-    /// from `stamp`; then the sensor's motion during the scan is undone. `guess`: the motion since
-    /// the scan before, where something else measured it.
+    /// Estimates the pose at which the scan was taken. `times`, if not empty: the time at which
+    /// each point was measured, [s] relative to `stamp`; motion compensation is then done. `guess`:
+    /// the motion since the previous scan, if another source measured it.
     Tracked track(const Points& points, std::span<const float> times, double stamp,
                   const std::optional<Pose>& guess = {});
 
-    /// Adds the scan to the map, but for points labelled dynamic. Empty labels: all of it.
+    /// Adds the scan to the map, without the points that are labelled dynamic. With empty labels,
+    /// all points are added.
     void learn(const Labels& labels);
 
 private:

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// How well scans overlay if they were taken at given poses.
+/// Measures how well scans overlay at given poses.
 ///
 /// - Units: [m].
-/// - Frames: poses T_world_sensor, points in the sensor's.
+/// - Frames: poses T_world_sensor, points in the sensor frame.
 /// - Shapes: poses are parallel to scans.
 /// - Threads: pure functions; thread-safe.
 /// - Errors: none.
@@ -16,10 +16,11 @@
 
 namespace dynamic_filter {
 
-/// [m] How far points lie off the surfaces of the map that the scans before make, and how rough
-/// those are: the geometric mean of both together. The motion during scans is undone where the
-/// times of their points are known. The scans' own poses are not looked at. 0 for fewer than two
-/// scans.
+/// Blur [m] of the overlaid scans. Each point is compared with the surface at its place in the map
+/// that the previous scans make; its value is the root of d^2 + v, with its distance d from the
+/// surface and the variance v of the surface (its roughness). The blur is the geometric mean over
+/// all points. If the times of the points are known, motion compensation is done. Poses inside the
+/// scans are not used. Returns 0 for fewer than two scans.
 double overlay_blur(std::span<const Scan> scans, std::span<const Pose> T_world_sensor,
                     const OdometryConfig& config);
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// A scan onto the map: point-to-plane registration by iteratively reweighted least squares.
+/// Point-to-plane registration of a scan to the map by iteratively reweighted least squares.
 ///
 /// - Units: [m], [rad].
-/// - Frames: points in the sensor's, poses T_map_sensor.
-/// - Shapes: any number of points; 6 x 6 matrices are ordered as a Twist.
+/// - Frames: points in the sensor frame, poses T_map_sensor.
+/// - Shapes: any number of points; rows of 6 x 6 matrices are ordered as a Twist.
 /// - Threads: pure functions; thread-safe.
 /// - Errors: none; a scan that cannot be registered has no inliers.
 #pragma once
@@ -17,30 +17,31 @@ namespace dynamic_filter {
 
 using Information = Eigen::Matrix<double, 6, 6>;
 
-/// What is known before looking at the points.
+/// Knowledge about the pose from other sources than the points.
 struct PosePrior {
     Pose T_map_sensor = Pose::Identity();
     Information information = Information::Zero();  ///< of a displacement in the sensor frame
 };
 
-/// How a scan was registered.
+/// Result of a registration.
 struct Registration {
     Pose T_map_sensor = Pose::Identity();
-    /// What the points say of a displacement in the sensor frame, without the prior.
+    /// Information of the points about a displacement in the sensor frame, without the prior.
     Information information = Information::Zero();
     double inliers = 0.0;  ///< 0..1: share of the points that lie on a surface of the map
-    double mapped = 0.0;   ///< 0..1: share of the points where the map has a surface
+    double mapped = 0.0;   ///< 0..1: share of the points in places where the map has a surface
 };
 
-/// Moves the points from `start` until they lie on the surfaces of the map, as far as the prior
-/// lets them. At first, points up to `reach` [m] off a surface count; the reach shrinks from
-/// iteration to iteration, down to what the surfaces' own roughness explains (graduated
-/// non-convexity with the kernel of Geman and McClure).
+/// Moves the points from `start` until they lie on the surfaces of the map, balanced against the
+/// prior. In the first iteration, points up to `reach` [m] away from a surface count. The reach
+/// then shrinks in each iteration down to a value that follows from the roughness of the surfaces.
+/// (This is graduated non-convexity with the Geman-McClure kernel.)
 Registration register_points(const SurfaceMap& map, const Points& points, const Pose& start,
                              const PosePrior& prior, double reach);
 
-/// [m] How far the points lie off the surfaces of the map, and how rough those are: the geometric
-/// mean of both together.
+/// Blur [m] of the points on the map: the geometric mean over all points of the root of d^2 + v,
+/// with the distance d of the point from the surface and the variance v of the surface (its
+/// roughness). A point counts at most 0.5 m, also where the map has no surface.
 double blur_on_map(const SurfaceMap& map, const Points& points, const Pose& T_map_sensor);
 
 }  // namespace dynamic_filter

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// When a turning sensor measured each point, where only the points' directions tell.
+/// Computes when a rotating sensor measured each point, from the directions of the points. It is
+/// used where a recording has no times of points.
 ///
 /// - Units: [rad], [s].
-/// - Frames: points in the sensor's, which turns about its z axis.
+/// - Frames: points in the frame of the sensor, which rotates about its z axis.
 /// - Shapes: times are parallel to the points.
 /// - Ownership: values.
 /// - Threads: pure functions; thread-safe.
@@ -16,15 +17,15 @@
 
 namespace dynamic_filter {
 
-/// How a sensor turns, seen from above.
+/// The rotation of a sensor, seen from above.
 struct Sweep {
-    bool clockwise = false;  ///< which way it turns
+    bool clockwise = false;  ///< direction of rotation
     double seam = 0.0;       ///< [rad] azimuth at which a scan begins and ends
-    double duration = 0.1;   ///< [s] of a turn
+    double duration = 0.1;   ///< [s] of one rotation
 };
 
-/// [s] from the middle of the sweep, so from -duration/2 to duration/2. What is not measured has
-/// time 0.
+/// Times [s] relative to the middle of the sweep, from -duration/2 to duration/2. Points that are
+/// not measured have time 0.
 std::vector<float> sweep_times(const Points& points, const Sweep& sweep);
 
 }  // namespace dynamic_filter

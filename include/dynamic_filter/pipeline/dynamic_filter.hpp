@@ -3,14 +3,15 @@
 /// The whole pipeline, scan by scan (Fig. 2).
 ///
 /// - Units: [m], [s], probabilities 0..1.
-/// - Frames: points in the sensor's, poses T_world_sensor, maps in the world's.
+/// - Frames: points in the sensor frame, poses T_world_sensor, maps in the world frame.
 /// - Shapes: verdicts are parallel to the points of their scan.
-/// - Ownership: scans are moved in, and not kept (where submaps observe: until their window is
-///   processed); results are the caller's.
-/// - Threads: single caller; const members may run in several threads while no other runs.
+/// - Ownership: scans are moved in and not kept (method "submaps": kept until their window is
+///   processed); results belong to the caller.
+/// - Threads: single caller; const members may run in several threads while no other member runs.
 /// - Errors: ConfigError from the constructor; Error from push() after finish(); std::bad_alloc,
-///   after which the filter can only be destroyed or assigned to. Poses are taken as they come: see
-///   OnlineFilter, which checks them. Before finish(), verdict() and static_map() know nothing.
+///   after which the filter can only be destroyed or assigned to. Poses are not checked here;
+///   OnlineFilter checks them. Before finish(), verdict() returns all unknown and static_map() is
+///   empty.
 #pragma once
 
 #include <cstddef>
@@ -28,68 +29,75 @@
 
 namespace dynamic_filter {
 
-/// Usage: push() every scan, finish(), then verdict() of any scan. Single caller, but see judge();
-/// const members may run in several threads while no other runs. Same scans and config give the
-/// same bits for any number of threads. Scans are not kept. Memory: scans observe: about 92 bytes a
-/// voxel, 28 more after finish(), and six a pixel of the newest `scans.max_keyframes` keyframes;
-/// submaps observe: one window of scans and the thinned submaps.
+/// Removes moving objects from a recording. Usage: push() every scan, call finish(), then call
+/// verdict() for any scan. Single caller, but see judge(); const members may run in several threads
+/// while no other member runs. The same scans and settings give bit-identical results for any
+/// number of threads.
+///
+/// Scans are not kept. Memory with the method "scans": about 92 bytes per voxel, 28 more after
+/// finish(), and six bytes per pixel of each of the newest `scans.max_keyframes` keyframes. Memory
+/// with the method "submaps": one window of scans, and the thinned submaps.
 class DynamicFilter {
 public:
-    /// Throws ConfigError.
+    /// Throws ConfigError if a setting is wrong.
     explicit DynamicFilter(const Config& config);
-    /// The other one can only be destroyed or assigned to.
+    /// The moved-from filter can only be destroyed or assigned to.
     DynamicFilter(DynamicFilter&&) noexcept;
-    DynamicFilter& operator=(DynamicFilter&&) noexcept;  ///< as above
+    DynamicFilter& operator=(DynamicFilter&&) noexcept;  ///< see the move constructor
     ~DynamicFilter();
 
-    /// Takes a scan, points in the sensor frame, stamps in order. Scans observe: returns its
-    /// instant verdict. Submaps observe: when the scan opens a new window, the one before is
-    /// processed and its scans' instant verdicts are returned; otherwise nothing.
+    /// Takes a scan with points in the sensor frame. Stamps must not decrease. Method "scans":
+    /// returns the instant verdict on this scan. Method "submaps": if the scan opens a new window,
+    /// the previous window is processed and the instant verdicts on its scans are returned;
+    /// otherwise nothing is returned.
     std::vector<Verdict> push(Scan scan);
 
-    /// push() in two steps: the verdicts, and what can wait until they are delivered. What each
-    /// judge() leaves must be integrated, in order. Where judges_each_scan(), that must be done
-    /// before the next scan is judged; otherwise one thread may judge while another integrates.
+    /// Does the work of push() in two steps: it returns the verdicts, and a function for the work
+    /// that can wait until the verdicts are delivered. Every such function must be called, in
+    /// order. If judges_each_scan() is true, call it before the next scan is judged; otherwise one
+    /// thread may judge while another one integrates.
     Judged judge(Scan scan);
-    /// True where scans observe: every scan is judged at once, and settled() knows something.
+    /// True for the method "scans": every scan is judged at once, and settled() gives verdicts.
     [[nodiscard]] bool judges_each_scan() const;
 
-    /// Decides every voxel. Submaps observe: processes the last window (its verdicts are returned)
-    /// and merges the local maps of all submap poses. Again: does nothing.
+    /// Decides every voxel. Method "submaps": processes the last window, returns its verdicts, and
+    /// merges the local maps of all submap poses (Sec. III-D). A second call does nothing.
     std::vector<Verdict> finish();
 
-    /// The final verdict on a scan that was pushed, after finish(). Unknown where nothing can be
-    /// said: not measured, or beyond the reach of a voxel's key.
+    /// The final verdict on a scan that was pushed, after finish(). Points that are not measured,
+    /// or that are too far away for a voxel key, are unknown.
     [[nodiscard]] Verdict verdict(const Scan& scan) const;
 
-    /// The verdict on a scan from the evidence so far; what stands on a static surface is told from
-    /// it by the final verdict only. Where submaps observe, all is unknown.
+    /// The verdict on a scan from the evidence so far. Only the final verdict separates points that
+    /// stand on a static surface from that surface. With the method "submaps", all points are
+    /// unknown.
     [[nodiscard]] Verdict settled(const Scan& scan) const;
 
-    /// The voxel of each point of a scan; UINT32_MAX: none.
+    /// The voxel of each point of a scan; UINT32_MAX: no voxel.
     [[nodiscard]] std::vector<std::uint32_t> voxels_of(const Scan& scan) const;
-    /// After finish(): of each of the voxels. Costs as much as it cost to observe those of them
-    /// that were ever seen through.
+    /// The history of each of the voxels, after finish(). Voxels that were seen through at least
+    /// once cost as much time as it took to observe them.
     [[nodiscard]] std::vector<VoxelHistory> histories(std::span<const std::uint32_t> voxels) const;
 
-    /// Forgets the map beyond `radius` [m] of a pose, and the farthest of it until its size() is
-    /// about `most`: voxels go in blocks of 4 x 4 x 4, submaps as a whole, of which `most` spares
-    /// one. What is forgotten is unknown.
+    /// Removes the map beyond `radius` [m] of a pose. Then removes its farthest parts until size()
+    /// is about `most`. Voxels are removed in blocks of 4 x 4 x 4. Submaps are removed as a whole;
+    /// the limit `most` always leaves one submap. Removed places are unknown.
     void keep_within(const Pose& T_world_center, double radius, std::size_t most);
-    /// Voxels of the map, or points of its submaps.
+    /// Number of voxels of the map, or of points of its submaps.
     [[nodiscard]] std::size_t size() const;
 
-    /// The static local map at any pose (Sec. III-C), from the scans or the closed submaps so far:
-    /// the static voxels within `map.search_radius`, or of the submaps within it. Where scans
-    /// observe, `radius` [m] may take its place.
+    /// The static local map at any pose (Sec. III-C), from the scans or the closed submaps so far.
+    /// Method "scans": the static voxels within `radius` [m] of the pose; the default is
+    /// `map.search_radius`. Method "submaps": the static voxels of the submaps within
+    /// `map.search_radius`; `radius` has no effect.
     std::vector<StaticVoxel> local_static_map(const Pose& T_world_query,
                                               std::optional<double> radius = {});
 
-    /// The merged map, after finish() (Sec. III-D): every static voxel.
+    /// The merged map, after finish() (Sec. III-D): all static voxels.
     [[nodiscard]] std::vector<StaticVoxel> static_map() const;
 
-    [[nodiscard]] StageTimes times() const;      ///< [s] of each stage so far
-    [[nodiscard]] MapContents contents() const;  ///< what there is
+    [[nodiscard]] StageTimes times() const;      ///< [s] time of each stage so far
+    [[nodiscard]] MapContents contents() const;  ///< sizes and counts so far
 
 private:
     struct Impl;

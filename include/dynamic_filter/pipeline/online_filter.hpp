@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// The pipeline beside a running sensor: scans in at any time, verdicts out, never more behind than
-/// a short queue.
+/// The pipeline for use beside a running sensor. Scans can come at any time; verdicts are never
+/// delayed by more than a short queue of scans.
 ///
 /// - Units: [m], [s], [bytes].
-/// - Frames: points in the sensor's, poses T_world_sensor, maps in the world's.
+/// - Frames: points in the sensor frame, poses T_world_sensor, maps in the world frame.
 /// - Shapes: verdicts are parallel to the points of their scan.
-/// - Ownership: scans are moved in, and kept while they wait, and until they are settled; callbacks
-///   are copied, and what they are given is valid for the call.
-/// - Threads: any may call, see OnlineFilter.
-/// - Errors: ConfigError from the constructor (std::system_error if no thread can be started); what
-///   a stage or a callback throws comes out of every later push(), ask(), flush() and finish(); the
-///   filter judges no more then. Error from push() and ask() after finish().
+/// - Ownership: scans are moved in. The filter keeps them while they wait, and until they are
+///   settled. Callbacks are copied; their arguments are valid only during the call.
+/// - Threads: any thread may call; OnlineFilter says which functions may run at the same time.
+/// - Errors: ConfigError from the constructor (std::system_error if no thread can be started);
+///   Error from push() and ask() after finish(). If a stage or a callback throws, the filter stops
+///   judging, and every later push(), ask(), flush() and finish() rethrows that exception.
 #pragma once
 
 #include <cstdint>
@@ -26,138 +26,160 @@
 
 namespace dynamic_filter {
 
-/// What happens to a scan that comes while `OnlineOptions::queue` others wait.
+/// What the filter does with a new scan while `OnlineOptions::queue` scans already wait.
 enum class Overload {
-    drop_oldest,  ///< the scan with the oldest stamp is dropped: what comes out is never old
-    wait          ///< the caller waits: nothing is lost
+    drop_oldest,  ///< drops the waiting scan with the oldest stamp, so that verdicts are recent
+    wait          ///< makes the caller of push() wait, so that no scan is lost
 };
 
-/// How an OnlineFilter keeps up, and how much it keeps.
+/// Limits on the delay and on the memory of an OnlineFilter.
 struct OnlineOptions {
-    std::size_t queue = 2;  ///< scans that may wait, besides the one being judged; at least 1
-    Overload overload = Overload::drop_oldest;  ///< what a full queue does
-    double horizon = 200.0;                     ///< [m] the map is forgotten beyond it; 0: no bound
-    /// [bytes] Where the map's voxels (submaps: their points) need more, at 160 bytes each, the
-    /// farthest are forgotten until they need three quarters of it. To forget, the map is copied,
-    /// so for a moment there is more. 0: no bound.
+    /// Number of scans that may wait besides the one being judged; at least 1.
+    std::size_t queue = 2;
+    Overload overload = Overload::drop_oldest;  ///< what happens when the queue is full
+    double horizon = 200.0;  ///< [m] the map farther away than this is removed; 0: no limit
+    /// [bytes] Limit on the memory of the map, counted as 160 bytes per voxel (method "submaps":
+    /// per point of the submaps). Above it, the farthest parts are removed until three quarters of
+    /// the limit are used. The map is copied to do so, which needs more memory for a moment. 0: no
+    /// limit.
     std::size_t max_bytes = std::size_t{2} << 30;
-    /// A scan is settled when so many came after it, or at a break of the trajectory or finish(),
-    /// where scans observe. It is kept until then. 0: never.
+    /// Method "scans": a scan is settled after this number of later scans, or earlier at a break of
+    /// the trajectory or at finish(). The filter keeps the scan until then. 0: scans are not
+    /// settled.
     std::size_t settle_after = 0;
-    int threads = 0;  ///< for the work inside; 0: all cores
+    int threads = 0;  ///< threads for the computations; 0: all cores
 };
 
-/// Something that a robot's log should hold. All but `jump` and `restart` cost the scan.
+/// Kind of an event that the log of a robot should record. With every kind except `jump` and
+/// `restart`, the scan gets no verdict.
 enum class NoticeKind {
-    dropped,    ///< overload
-    late,       ///< its stamp is before that of a scan already judged
-    duplicate,  ///< stamp and pose of the scan before, or of one that waits
-    invalid,    ///< stamp or pose is not finite, the pose is not rigid (to 1e-3), it is missing
-              ///< though other scans have one (or the other way round), or times do not fit points
-    jump,    ///< the pose jumped, or the odometry lost its way: a new map begins, which knows
-             ///< nothing of the one before
-    restart  ///< stamps went back by more than a second: a new map begins
+    dropped,    ///< the queue was full
+    late,       ///< the stamp is older than that of a scan already judged
+    duplicate,  ///< stamp and pose are those of the previous scan, or of a waiting one
+    /// The stamp or the pose is not finite, the pose is not rigid (to 1e-3), only some of the scans
+    /// have a pose, or the number of times is not that of the points.
+    invalid,
+    /// The pose jumped, or the odometry lost its way. A new map begins, which does not use the
+    /// evidence of the previous one.
+    jump,
+    restart  ///< the stamps went back by more than 1 s: a new map begins
 };
 
-/// What the log should say of a scan.
+/// A message about a scan for the log.
 struct Notice {
     NoticeKind kind = NoticeKind::dropped;  ///< what happened
     std::size_t index = 0;                  ///< Scan::index
     std::string text;                       ///< one sentence
 };
 
-/// Verdicts come from the filter's threads (the last ones from the caller of finish()), notices
-/// also from the caller of push(); one call of each kind at a time. They should be quick, because
-/// the next scan waits for them, and must call nothing of the filter but counters();
-/// what would wait for the filter (flush(), ask(), finish()) throws Error. What they
-/// throw stops the filter; but what `notice` throws on a scan that is dropped or refused comes out
-/// of the push() that told it, and the filter goes on.
+/// Callbacks of an OnlineFilter. Verdicts come from threads of the filter (the last ones from the
+/// caller of finish()); notices may also come from the caller of push(). Calls of the same callback
+/// never overlap.
+///
+/// Callbacks should return quickly, because the next scan waits for them. A callback may call
+/// counters(), but no other member of the filter: members that would wait for the filter (flush(),
+/// ask(), finish()) throw Error. If a callback throws, the filter stops. There is one exception: if
+/// `notice` throws because of a scan that is dropped or refused, the exception comes out of the
+/// push() that reported it, and the filter goes on.
 struct OnlineCallbacks {
-    std::function<void(const Verdict&)> instant;  ///< of every scan judged, in order
-    std::function<void(const Verdict&)> settled;  ///< corrections, see `settle_after`
-    std::function<void(const Notice&)> notice;    ///< for the robot's log
+    /// Instant verdict on every judged scan, in order.
+    std::function<void(const Verdict&)> instant;
+    /// Settled verdicts, see OnlineOptions::settle_after.
+    std::function<void(const Verdict&)> settled;
+    std::function<void(const Notice&)> notice;  ///< messages for the log
 };
 
-/// in = processed + dropped + rejected + queued, whenever asked. Until its verdict is delivered, a
-/// scan is queued. One that could not be judged because a stage failed counts as rejected.
+/// Numbers of scans. At any time, in = processed + dropped + rejected + queued. A scan counts as
+/// queued until its verdict is delivered. A scan that could not be judged because a stage failed
+/// counts as rejected.
 struct Counters {
-    std::uint64_t in = 0;         ///< pushed
-    std::uint64_t processed = 0;  ///< judged; its integration may still be under way, see flush()
-    std::uint64_t dropped = 0;    ///< by overload
-    std::uint64_t rejected = 0;   ///< late, duplicate or invalid
-    std::uint64_t queued = 0;     ///< waiting, or being judged
+    std::uint64_t in = 0;  ///< pushed
+    /// Judged; the integration into the map may still run, see flush().
+    std::uint64_t processed = 0;
+    std::uint64_t dropped = 0;   ///< because the queue was full
+    std::uint64_t rejected = 0;  ///< late, duplicate or invalid
+    std::uint64_t queued = 0;    ///< waiting, or being judged
 };
 
-/// Two threads of its own, and those of the work inside: the first judges scan after scan, the
-/// second integrates beside the caller, and beside the first where submaps observe. Scans
-/// that wait are put in the order of their stamps. One filter serves one vehicle; indices of scans
-/// must grow. push(), ask(), flush(), finish(), counters(), settled() and local_static_map() may
-/// be called from any thread at any time; the others while nothing is pushed, after flush() or, if
-/// they say so, after finish(). The destructor drops what waits, lets what was judged be
-/// integrated, and does not finish().
+/// Runs the pipeline in two threads of its own, in addition to the threads of parallel_for. The
+/// first thread judges scan after scan. The second one integrates scans into the map beside the
+/// caller; with the method "submaps" it also runs beside the first one. Waiting scans are ordered
+/// by their stamps. One filter serves one sensor trajectory; indices of scans must increase.
 ///
-/// A break of the trajectory (jump, restart) begins a new map. With a horizon, the maps before it
-/// are forgotten as a whole: of their scans all is unknown, also after finish(). With a horizon of
-/// 0 they are kept.
+/// Threads: push(), ask(), flush(), finish(), counters(), settled() and local_static_map() may be
+/// called from any thread at any time. All other members may be called after flush() (or after
+/// finish(), where they say so) while no scan is pushed. The destructor drops waiting scans and
+/// integrates the judged ones, but it does not call finish().
 ///
-/// Where stamps are in order, the trajectory has no break, and nothing is dropped or forgotten,
-/// verdicts are those of DynamicFilter on the same scans, to the byte. Points more than 105 km (at
-/// voxels of 0.2 m) from where a map began end as unknown: make another filter in time.
+/// A break of the trajectory (NoticeKind::jump or restart) begins a new map. With a horizon, the
+/// previous maps are then removed: all points of their scans are unknown, also after finish(). With
+/// a horizon of 0, the previous maps are kept.
+///
+/// The verdicts are byte-identical to those of DynamicFilter on the same scans if stamps are in
+/// order, the trajectory has no break, and nothing is dropped or removed. Points farther than 105
+/// km from the start of a map (with voxels of 0.2 m) are unknown: create a new filter before that
+/// distance.
 class OnlineFilter {
 public:
-    /// Throws ConfigError.
+    /// Throws ConfigError if a setting or an option is wrong.
     explicit OnlineFilter(const Config& config, OnlineOptions options = {},
                           OnlineCallbacks callbacks = {});
     ~OnlineFilter();
     OnlineFilter(const OnlineFilter&) = delete;
     OnlineFilter& operator=(const OnlineFilter&) = delete;
 
-    /// Hands over a scan and returns, at once or, with `Overload::wait`, when there is room.
+    /// Adds a scan to the queue. Returns at once; with `Overload::wait`, returns as soon as the
+    /// queue has room.
     void push(Scan scan);
 
-    /// push(), and waits for the scan's instant verdict. Empty: dropped or rejected, or submaps
-    /// observe: a window's verdicts come to the callback when it closes.
+    /// Does push(), then waits for the instant verdict on the scan. Empty if the scan is dropped or
+    /// rejected, and always with the method "submaps", whose verdicts come to the callback when a
+    /// window closes.
     std::optional<Verdict> ask(Scan scan);
 
-    /// Waits until all that was pushed is judged and integrated, by this thread or another.
+    /// Waits until all pushed scans, of any thread, are judged and integrated.
     void flush();
 
-    /// flush(), settles what is not, and decides every voxel. Nothing can be pushed after it.
+    /// Does flush(), settles the remaining scans, and decides every voxel. No scan can be pushed
+    /// after it.
     void finish();
 
-    /// After finish(): the final verdict on a scan that was pushed, with the index it had. Where
-    /// the horizon or a break of the trajectory made forget what it saw: unknown.
+    /// After finish(): the final verdict on a scan that was pushed; its index must be the same as
+    /// then. All points are unknown if the part of the map that the scan saw was removed because of
+    /// the horizon or of a break of the trajectory.
     [[nodiscard]] Verdict verdict(const Scan& scan) const;
 
-    /// The verdict on a scan that was pushed from the evidence so far. Only where scans observe.
-    /// Waits for the stage in work, and the next one waits for it.
+    /// The verdict on a pushed scan from the evidence so far, for the method "scans" only. Waits
+    /// until the running stage has ended; the next stage waits for this call.
     [[nodiscard]] Verdict settled(const Scan& scan) const;
     /// See DynamicFilter::judges_each_scan().
     [[nodiscard]] bool judges_each_scan() const;
 
-    /// After finish(), to explain verdicts: a number for the voxel of each point of a scan that was
-    /// pushed (kNoPlace: none), and what DynamicFilter knows of such voxels.
+    /// After finish(), to explain verdicts: for each point of a pushed scan, an identifier of its
+    /// voxel (kNoPlace: no voxel). histories() takes these identifiers.
     [[nodiscard]] std::vector<std::uint64_t> places_of(const Scan& scan) const;
     static constexpr std::uint64_t kNoPlace = UINT64_MAX;  ///< see places_of()
-    /// Parallel to `places`; see DynamicFilter::histories().
+    /// Histories of voxels, parallel to `places`; see DynamicFilter::histories().
     [[nodiscard]] std::vector<VoxelHistory> histories(std::span<const std::uint64_t> places) const;
 
-    [[nodiscard]] Counters counters() const;  ///< consistent, whenever asked
-    /// The static voxels of the newest map within `radius` [m] of a pose
-    /// (DynamicFilter::local_static_map), as of now. Waits for the stage in work, and the next one
-    /// waits for it.
+    [[nodiscard]] Counters counters() const;  ///< a consistent snapshot, at any time
+    /// The static voxels of the newest map within `radius` [m] of a pose, from the evidence so far;
+    /// see DynamicFilter::local_static_map(). Waits until the running stage has ended; the next
+    /// stage waits for this call.
     [[nodiscard]] std::vector<StaticVoxel> local_static_map(const Pose& T_world_query,
                                                             std::optional<double> radius = {});
 
-    /// The merged map, after finish() (Sec. III-D): the static voxels of all maps that are kept;
-    /// where maps overlap, a place comes once from each.
+    /// After finish(): the merged map (Sec. III-D), that is the static voxels of all maps that are
+    /// kept. Where maps overlap, a place appears once per map.
     [[nodiscard]] std::vector<StaticVoxel> static_map() const;
 
-    /// How the stages did, once flush() has returned; `latency`: from push() to the end of judging.
+    /// Times of the stages, after flush(). The entry `latency` is the time from push() to the end
+    /// of judging.
     [[nodiscard]] StageTimes times() const;
-    /// How many maps are kept: one, and one per break of the trajectory. Once flush() has returned.
+    /// Number of maps that are kept: one, plus one per break of the trajectory. Call it after
+    /// flush().
     [[nodiscard]] std::size_t maps() const;
-    /// What there is in all maps, once flush() has returned.
+    /// Contents of all maps together. Call it after flush().
     [[nodiscard]] MapContents contents() const;
 
 private:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Whether a trajectory breaks: a loop was closed, or a localisation was lost and found.
+/// Detects breaks of a trajectory, such as a correction after a loop closure, or a localization
+/// that was lost and found again.
 #pragma once
 
 #include <optional>
@@ -8,15 +9,17 @@
 
 namespace dynamic_filter {
 
-/// Where the sensor was when.
+/// A pose and the time at which the sensor had it.
 struct StampedPose {
     Pose T_world_sensor = Pose::Identity();
     double stamp = 0.0;  ///< [s]
 };
 
-/// Metres that `now` is off from the last pose and from where the last two led, if that is more
-/// than a vehicle can do: 2 m, and what 50 m/s^2 add up to. Before there are two poses, and where
-/// stamps do not grow, nothing is known. Empty: no jump.
+/// Returns how far [m] `now` is from the expected position, if that is more than a vehicle can
+/// move; empty if there is no jump. The distance is measured from the last pose and from the
+/// position extrapolated from the last two poses; the smaller one counts. The limit is 2 m plus the
+/// distance that an acceleration of 50 m/s^2 makes possible. The result is also empty before there
+/// are two poses, and if the stamps do not increase.
 std::optional<double> pose_jump(const std::optional<StampedPose>& before_last,
                                 const std::optional<StampedPose>& last, const StampedPose& now);
 

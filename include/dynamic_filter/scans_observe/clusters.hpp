@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// The things in one scan that stand apart from each other.
+/// Clusters of a scan: groups of points that stand on the ground and are separate from each other.
 #pragma once
 
 #include <cstdint>
@@ -11,19 +11,20 @@
 
 namespace dynamic_filter {
 
-/// Which points belong to the same thing.
+/// The cluster of each point.
 struct Clusters {
-    std::vector<std::uint32_t> of_points;  ///< parallel to the points; kNoCluster: none
+    std::vector<std::uint32_t> of_points;  ///< parallel to the points; kNoCluster: no cluster
     std::uint32_t count = 0;
 };
 constexpr std::uint32_t kNoCluster = ~std::uint32_t{0};
 
-/// Clusters of points that stand on the ground, seen from above: the sensor's z axis is taken for
-/// up, the ground is the lowest point nearby, points less than `ground` or more than `top` above it
-/// are left out, and cells of the raster that touch each other are one cluster. What is longer than
-/// `largest` is part of no cluster: walls, hedges, dense crowds. Where the sensor is tilted, or
-/// where there is no ground, few clusters are found. Points in the sensor frame; those of no voxel
-/// are left out. Thread-safe. Cost: points, and cells of the raster.
+/// Finds clusters of points that stand on the ground. The points are seen from above, in a raster;
+/// cells with points that touch each other form one cluster. The z axis of the sensor is taken as
+/// the vertical, and the lowest point nearby as the ground. Points less than `ground` or more than
+/// `top` above it are left out. A group longer than `largest` is no cluster (walls, hedges, dense
+/// crowds). If the sensor is tilted, or if it sees no ground, few clusters are found. Points are in
+/// the sensor frame; points without a voxel are left out. Thread-safe. Cost: linear in the points
+/// and in the cells of the raster.
 Clusters find_clusters(const Points& points, const PointVoxels& voxels,
                        const ScansConfig::Instances& config);
 

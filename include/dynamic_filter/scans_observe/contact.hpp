@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-/// Where a foot or a wheel stands on the ground, one voxel holds both: there points are judged by
-/// the static surface instead.
+/// Separates moving objects from the static surface on which they stand. Where a foot or a wheel
+/// touches the ground, one voxel holds points of both; there each point is judged by its height
+/// above the surface.
 #pragma once
 
 #include <optional>
@@ -12,23 +13,25 @@
 
 namespace dynamic_filter {
 
-/// A plane `normal . p = offset` whose normal points to the side where things moved.
+/// A plane `normal . p = offset`. The normal points to the side of the moving objects.
 struct Surface {
     Point normal = Point::Zero();
-    float offset = 0.0F;     ///< [m]
-    float roughness = 0.0F;  ///< [m] of what lies on it, root mean square
+    float offset = 0.0F;  ///< [m]
+    /// [m] root mean square distance of the static centroids from the plane.
+    float roughness = 0.0F;
     [[nodiscard]] float height(const Point& p) const { return normal.dot(p) - offset; }
 };
 
-/// A voxel within two cells of the one in question, or that one itself.
+/// The verdict on a voxel near the one in question (up to two cells away), or on that voxel itself.
 struct VoxelVerdict {
     Point centroid = Point::Zero();
     Label label = Label::unknown;
-    int distance = 0;  ///< in cells, along the farthest axis
+    int distance = 0;  ///< in cells: the largest of the three coordinate differences
 };
 
-/// The surface in a static voxel that touches a dynamic one: the plane of the static centroids
-/// among `around`. Empty if nothing dynamic touches the voxel, or they are no plane.
+/// Fits the static surface in a static voxel that touches a dynamic one: a plane through the static
+/// centroids among `around`. Empty if no dynamic voxel touches the voxel, or if the centroids do
+/// not lie on a plane. See docs/how-it-works.md, "Feet on the ground".
 std::optional<Surface> contact_surface(std::span<const VoxelVerdict> around,
                                        const ScansConfig::Contact& config);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// What the keyframes said about a voxel, and how that makes it look (Sec. III-C1).
+/// What the keyframes observed of a voxel, and the score that follows from it (Sec. III-C1).
 #pragma once
 
 #include <cstdint>
@@ -10,77 +10,88 @@
 
 namespace dynamic_filter {
 
-/// What a weak sight counts: an eighth of a sure one.
+/// Weight of a weak and of a sure observation: a weak one counts an eighth.
 inline constexpr unsigned kWeak = 1, kSure = 8;
 
-/// Counters of one voxel. Before one overflows, all are halved.
+/// Counters of one voxel. All counters are halved before one of them overflows.
 struct Evidence {
-    std::uint16_t n_own = 0;      ///< scans with a point in it
-    std::uint16_t n_occ = 0;      ///< keyframes that saw it occupied
-    std::uint16_t n_free = 0;     ///< keyframes that saw through it
-    std::uint16_t n_switch = 0;   ///< changes between the two, in the order of the keyframes
-    std::uint16_t occupied = 0;   ///< as n_occ, but weighed, and of each run its beginning
-    std::uint16_t free = 0;       ///< as n_free, but weighed
-    std::uint16_t hits = 0;       ///< as n_occ, but of each run its beginning, and with a point
-    std::uint16_t passes = 0;     ///< as n_free, but with a beam through the voxel itself
-    std::uint16_t n_flicker = 0;  ///< changes between such keyframes and hits
-    std::uint16_t moved = 0;      ///< scans in which its points were part of what moves
-    std::uint8_t run = 0;         ///< keyframes of the present run, as far as they count
-    Sight last = Sight::unknown;  ///< what the newest keyframe saw: occupied or free
-    Sight last_near = Sight::unknown;  ///< of the newest hit (occupied) or pass (free)
-    bool seen_empty = false;           ///< surely free since the last point in it
-    std::uint32_t since = 0;           ///< the first scan with a point in it since then
-    std::uint32_t first_owner = 0;     ///< the first scan with a point in it, by their order ...
-    std::uint32_t last_owner = 0;      ///< ... and the last
+    std::uint16_t n_own = 0;   ///< scans with a point in the voxel
+    std::uint16_t n_occ = 0;   ///< keyframes that saw it occupied
+    std::uint16_t n_free = 0;  ///< keyframes that saw through it
+    /// Changes between occupied and free, in the order of the keyframes.
+    std::uint16_t n_switch = 0;
+    /// As n_occ, but weighted, and only the first keyframes of each occupied run.
+    std::uint16_t occupied = 0;
+    std::uint16_t free = 0;  ///< as n_free, but weighted
+    /// As n_occ, but only keyframes of `occupied` with a point in the voxel.
+    std::uint16_t hits = 0;
+    /// As n_free, but only keyframes with a beam through the voxel itself.
+    std::uint16_t passes = 0;
+    std::uint16_t n_flicker = 0;       ///< changes between hits and passes
+    std::uint16_t moved = 0;           ///< scans in which its points belonged to a moving object
+    std::uint8_t run = 0;              ///< counted keyframes of the present occupied run
+    Sight last = Sight::unknown;       ///< latest observation: occupied or free
+    Sight last_near = Sight::unknown;  ///< latest hit (occupied) or pass (free)
+    bool seen_empty = false;           ///< true if it was surely free since its latest point
+    std::uint32_t since = 0;           ///< first scan with a point in it after it was seen empty
+    std::uint32_t first_owner = 0;     ///< first scan with a point in it, in the order of the scans
+    std::uint32_t last_owner = 0;      ///< last scan with a point in it, in the order of the scans
 };
 
-/// What a keyframe saw of a voxel, as if `weight` keyframes like it had seen it. `hit`: its own
-/// scan has a point in the voxel.
+/// What a keyframe observed of a voxel. It counts as if `weight` similar keyframes had observed the
+/// same. `hit`: the scan of the keyframe has a point in the voxel.
 struct Observation {
     Sight sight = Sight::unknown;
     unsigned weight = 1;
     bool hit = false;
 };
 
-/// Takes in what the next keyframe saw. An occupied run lasts from when a voxel is first seen
-/// occupied until it is seen free: of each, only the first `longest_run` keyframes (up to 255) tell
-/// anything new about whether the voxel is static. False if the score is the same as before.
+/// Adds the observation of the next keyframe. An *occupied run* lasts from the first keyframe that
+/// sees the voxel occupied until one sees it free. Only the first `longest_run` keyframes of a run
+/// (at most 255) are counted, because a longer rest does not tell whether the object is static.
+/// Returns false if the score cannot have changed.
 bool record(Evidence& evidence, const Observation& observation, unsigned longest_run);
 
-/// Notes that this scan, by the order of the scans, has a point in the voxel: once a scan.
+/// Records that a scan has a point in the voxel; `scan` counts in the order of the scans. Call it
+/// once per scan.
 void record_owner(Evidence& evidence, std::uint32_t scan);
 
-/// Notes that in so many scans the points in the voxel were part of something that moves.
+/// Records that in `scans` scans the points in the voxel belonged to a moving object.
 void record_moved(Evidence& evidence, unsigned scans);
 
-/// True while none saw through it and fewer than two saw it: one of those is the scan that found
-/// it.
+/// True if no keyframe saw through the voxel and at most one saw it occupied: that one may be the
+/// scan that found the voxel.
 inline bool is_unknown(const Evidence& e) { return e.n_occ < 2 && e.n_free == 0; }
 
-/// Whether the voxel was empty most of the time and only crossed by something, -static_limit..1;
-/// below 0: no. A porous surface, an edge or a leaf is seen through now and then, between returns;
-/// where something came or went, the voxel is free in few long runs. So how often it was seen free
-/// is compared with what the number of runs and of returns lead one to expect of a static voxel:
+/// Score of a voxel, from -static_limit to 1. Above 0, the voxel was mostly empty and something
+/// crossed it; below 0, it is static. A porous surface, an edge or a leaf is sometimes seen
+/// through, between two returns; where something came or went, the voxel is free in few long runs.
+/// So the number of free observations is compared with the number that is expected of a static
+/// voxel with the same number of runs and returns:
+///
 ///     expected = flicker (1 + n_switch)^switch_power occupied^occupied_power hits^hit_power
 ///     gain * log((free + offset) / (expected + offset))
-/// Something thin, as a bar or an awning seen from below, lies between the beams of most scans, and
-/// is static all the same. So the same is asked of those keyframes alone that had a beam through
-/// the voxel itself, and the smaller score counts:
+///
+/// Thin objects, such as a bar or an awning seen from below, lie between the beams of most scans.
+/// They look free to these scans although they are static. So a second score uses only the
+/// keyframes that had a beam through the voxel itself, and the smaller of both scores counts:
+///
 ///     thin = thin_flicker (1 + n_flicker)^switch_power hits^(occupied_power + hit_power)
 ///     gain * (log((passes + thin_offset) / (thin + thin_offset)) + thin_benefit)
-/// Where observations are more than `enough`, all counters are scaled down to so many first: the
-/// sum of the exponents is more than one, so without that every busy place would become static once
-/// a recording is long enough. Thread-safe.
+///
+/// If there are more than `enough` observations, all counters are first scaled down to that number.
+/// The exponents add up to more than one, so without this scaling every busy place would become
+/// static in a long recording. Source: docs/how-it-works.md, "Evidence of a voxel". Thread-safe.
 class DynamicScore {
 public:
     explicit DynamicScore(const ScansConfig::Evidence& config);
     float operator()(const Evidence& evidence) const;
-    /// How often a static voxel with these counters would be seen free.
+    /// Number of free observations that is expected of a static voxel with these counters.
     [[nodiscard]] float expected_free(const Evidence& evidence) const;
 
 private:
-    /// (n + shift)^exponent, from a table in steps of 1/16: pow() would be most of what a
-    /// look costs.
+    /// (n + shift)^exponent from a table in steps of 1/16. Calls of pow() would take most of the
+    /// time of a score.
     class Power {
     public:
         Power(int shift, float exponent);
@@ -95,21 +106,24 @@ private:
         float shift_, exponent_;
         std::vector<float> values_;
     };
-    /// By how much counters are scaled down, with so many observations.
+    /// Factor by which counters are scaled down if there are so many observations.
     [[nodiscard]] float scale_of(float observations) const;
-    /// How often a static voxel is seen free, by counters that are scaled down already.
+    /// Expected number of free observations of a static voxel; the counters are already scaled
+    /// down.
     [[nodiscard]] float expected(float flicker, float switches, float occupied, float hits) const;
     /// The same for the evidence of all keyframes.
     [[nodiscard]] float expected(const Evidence& evidence, float scale) const;
-    /// Logarithms of the ratio: of all keyframes, and of those with a beam through the voxel.
+    /// Logarithms of the ratio between observed and expected: for all keyframes, and for those with
+    /// a beam through the voxel.
     [[nodiscard]] float seen(const Evidence& evidence) const;
     [[nodiscard]] float passed(const Evidence& evidence) const;
     Power by_switches_, by_occupied_, by_hits_;
     float flicker_, offset_, thin_flicker_, thin_offset_, thin_benefit_, gain_, enough_, lowest_;
 };
 
-/// How much of their time two voxels were there together: the overlap of the spans between their
-/// first and last owner, over their union, 0..1. Voxels of one thing come and go together.
+/// Share of time, 0..1, in which two voxels had points together: the overlap of their spans between
+/// first and last owner, divided by the union of the spans. Voxels of one object appear and
+/// disappear together.
 float co_presence(const Evidence& a, const Evidence& b);
 
 }  // namespace dynamic_filter

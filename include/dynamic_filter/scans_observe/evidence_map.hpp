@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// The map of the method in which scans observe: voxels, keyframes, and what these say of those.
+/// The map of the method "scans": its voxels, its keyframes, and what the keyframes observed of the
+/// voxels.
 #pragma once
 
 #include <optional>
@@ -15,39 +16,41 @@
 
 namespace dynamic_filter {
 
-/// Every voxel is checked once by every keyframe: a new keyframe checks the voxels known so far, a
-/// new voxel asks the keyframes kept so far: the newest all, of the older ones a selection that
-/// stands for them. So nothing is computed twice, and the result is nearly (with few keyframes:
-/// exactly) that of asking all keyframes about all voxels in their reach.
+/// Each keyframe observes each voxel once. A new keyframe observes all voxels known so far. A new
+/// voxel is observed by the earlier keyframes: by all of the newest ones, and by a selection that
+/// stands for the older ones. So nothing is computed twice. The result is nearly that of letting
+/// all keyframes observe all voxels in their reach; with few keyframes it is exactly that.
 ///
 /// Single caller; const members may run in several threads. Poses and points are in the map frame.
 class EvidenceMap {
 public:
     explicit EvidenceMap(const Config& config);
 
-    /// Takes a scan whose `T_world_sensor` is relative to the map, as far as the voxels around its
-    /// own points are concerned; returns the voxel of each point. Cost: points, plus new voxels
-    /// times keyframes asked.
+    /// Adds a scan whose `T_world_sensor` is relative to the map. Only the voxels around its own
+    /// points are observed here. Returns the voxel of each point. Cost: the points, plus new voxels
+    /// times keyframes that observe them.
     PointVoxels insert(const Scan& scan, StageTimes& times);
 
-    /// Lets that scan, if it is a keyframe, check the rest of the map, where it has no points. Call
-    /// it once after each insert(). Cost: blocks of voxels, plus the voxels of those within sight.
+    /// If the scan of the last insert() is a keyframe: lets it observe the rest of the map, where
+    /// it has no points. Call it once after each insert(). Cost: the blocks of voxels, plus the
+    /// voxels of the blocks in view.
     void observe_elsewhere(StageTimes& times);
 
-    /// See EvidenceGrid.
+    /// See EvidenceGrid::keep_within().
     std::vector<std::uint32_t> keep_within(const Point& center, float radius,
                                            std::size_t most_voxels) {
         return grid_.keep_within(center, radius, most_voxels);
     }
 
-    /// For each of the voxels, keyframes (their Scan::index, ascending) that see through it: of all
-    /// that are kept, or of every second, third ... where they are more than 64. A voxel asked
-    /// others at the time, and may have counted one for several. In parallel; cost: blocks of those
-    /// voxels times keyframes asked.
+    /// For each of the voxels, keyframes that see through it (their Scan::index, ascending). If
+    /// more than 64 keyframes are kept, only every second, third and so on is checked. The list may
+    /// differ from the keyframes that counted, because a new voxel is observed by a selection, in
+    /// which one keyframe may stand for several. Runs in parallel. Cost: blocks of these voxels
+    /// times checked keyframes.
     [[nodiscard]] std::vector<std::vector<std::size_t>> free_keyframes(
         std::span<const std::uint32_t> voxels) const;
 
-    /// Scan::index of an owner (Evidence::first_owner, last_owner).
+    /// Scan::index of an owner (Evidence::first_owner or last_owner).
     [[nodiscard]] std::size_t index_of_owner(std::uint32_t owner) const { return indices_[owner]; }
     [[nodiscard]] const EvidenceGrid& grid() const { return grid_; }
     [[nodiscard]] EvidenceGrid& grid() { return grid_; }
@@ -68,9 +71,9 @@ private:
     SightMargins margins_;
     EvidenceGrid grid_;
     Observers observers_;
-    std::vector<std::size_t> indices_;  // Scan::index by order of the scans
-    std::uint32_t known_ = 0;           // voxels before the newest scan
-    bool is_due_ = false;               // observe_elsewhere()
+    std::vector<std::size_t> indices_;  // Scan::index in the order of the scans
+    std::uint32_t known_ = 0;           // number of voxels before the newest scan
+    bool is_due_ = false;               // true if observe_elsewhere() is due
 };
 
 }  // namespace dynamic_filter

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// The final verdicts: what every voxel is, and which points of a static one move all the same.
+/// Final verdicts: the decision on every voxel, and the moving points within static voxels.
 #pragma once
 
 #include <optional>
@@ -12,25 +12,25 @@
 
 namespace dynamic_filter {
 
-/// What was decided of a voxel.
+/// The decision on a voxel.
 struct VoxelDecision {
-    std::optional<float> probability;  ///< of being occupied; empty: unknown
-    std::optional<Surface> contact;    ///< of a static voxel that touches a dynamic one
+    std::optional<float> probability;  ///< probability of being occupied; empty: unknown
+    std::optional<Surface> contact;    ///< static surface, if a static voxel touches a dynamic one
 };
 
-/// Decides every voxel of the grid. In parallel.
+/// Decides every voxel of the grid. Runs in parallel.
 std::vector<VoxelDecision> decide_voxels(const EvidenceGrid& grid, const Config& config);
 
-/// By dynamic voxel: the first scan, by their order, from which on it is occupied until the end,
-/// for as many keyframes as count of one run (see record()), with points in as many scans; empty:
-/// it is not.
+/// For each dynamic voxel: the scan (in the order of the scans) from which on the voxel is occupied
+/// until the end of the recording. It is empty unless that last run has as many keyframes as are
+/// counted per run (see record()), and points in as many scans. Used for `map.time` = latest.
 std::vector<std::optional<std::uint32_t>> occupied_since(const std::vector<VoxelDecision>& decided,
                                                          const EvidenceGrid& grid,
                                                          const Config& config);
 
-/// Fills in the labels and probabilities of a scan's points. A point of a static voxel is dynamic
-/// if it lies above the static surface of its voxel while, in this very scan, something dynamic
-/// touches the voxel. Thread-safe.
+/// Writes the labels and probabilities of the points of a scan. A point of a static voxel is
+/// dynamic if it lies above the static surface of the voxel, and if a dynamic voxel nearby has
+/// points in the same scan. Thread-safe.
 void decide_points(const LocatedScan& scan, const std::vector<VoxelDecision>& decided,
                    const EvidenceGrid& grid, const Config& config, Verdict& verdict);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// What moves as one is judged as one: clusters of scans, tied together over time.
+/// Instances: clusters of scans are tracked over time, so that a moving object is judged as a
+/// whole.
 #pragma once
 
 #include <cstdint>
@@ -15,50 +16,52 @@
 
 namespace dynamic_filter {
 
-/// A person who stops at a kerb, or a car at its place in a queue, is at rest where no beam passes
-/// before the recording ends or the sensor is gone; but it was seen to come. So clusters of scans
-/// are tied to tracks, by overlap. A track moves once its clusters were dynamic in several scans
-/// and have gone some way. From then on, and back to where it began, its points are those of
-/// something that moves: every voxel counts in how many scans that was so (Evidence::moved), and
-/// occupancy_of() takes it from there.
+/// Tracks clusters over scans. A person who stops at a kerb, or a car that waits in a queue, may
+/// stand there until the recording ends; no beam then shows that the place is free. But earlier
+/// scans saw the object move there. So clusters are linked to tracks by overlap. A track moves once
+/// its clusters were dynamic in several scans and it has gone some distance. All its points, from
+/// the first scan of the track on, are then points of a moving object. Each voxel counts the scans
+/// in which it held such points (Evidence::moved); occupancy_of() uses this count.
 ///
-/// What was there before the track came is not part of it: the bench beside a person, the parked
-/// car beside one that passes. A voxel counts only if it was seen empty, or not at all, before.
+/// Static objects that touch a track must stay static: the bench beside a person, the parked car
+/// beside a car that passes. So a voxel counts only if it was seen empty, or was not seen at all,
+/// before the track came.
 ///
-/// Single caller. Memory: 8 bytes for each voxel of the tracks in sight.
+/// Source: docs/how-it-works.md, "Instances". Single caller. Memory: 8 bytes for each voxel of the
+/// tracks in sight.
 class Instances {
 public:
     explicit Instances(const ScansConfig::Instances& config) : config_(config) {}
 
-    /// Takes in the scan that the grid took in last; `labels` are the instant verdicts on it, and
-    /// points of what moves become dynamic. Scans that follow sooner than `every` are passed
-    /// over.
+    /// Uses the scan that was last added to the grid. `labels` are its instant verdicts; points of
+    /// moving objects become dynamic there. Scans that follow sooner than `every` are skipped.
     void update(const Scan& scan, const PointVoxels& voxels, EvidenceGrid& grid, Labels& labels);
 
-    /// Voxels got new numbers: those of the old numbers `kept` are left, in that order.
+    /// Renumbers the voxels: only those with the old numbers `kept` remain, in that order.
     void keep(std::span<const std::uint32_t> kept);
 
 private:
     using Id = std::uint32_t;
-    /// What a track was when seen last.
+    /// State of a track when it was last seen.
     struct Seen {
         double stamp = 0.0;  // [s]
         Point center = Point::Zero();
         std::size_t voxels = 0;
     };
     struct Track {
-        std::uint32_t start = 0;             // order of its first scan
-        Point first_center = Point::Zero();  // there
+        std::uint32_t start = 0;             // number of its first scan
+        Point first_center = Point::Zero();  // center in its first scan
         Point velocity = Point::Zero();      // [m/s]
         Seen seen;
         int dynamic_scans = 0;
         bool moves = false;
-        tsl::robin_map<std::uint32_t, std::uint32_t> history{};  // scans, by voxel; until it moves
+        // Per voxel: number of scans; kept until the track moves.
+        tsl::robin_map<std::uint32_t, std::uint32_t> history{};
     };
     struct Cluster {
         std::vector<std::uint32_t> voxels;  // ascending
         Point center = Point::Zero();
-        std::size_t dynamic = 0;  // voxels
+        std::size_t dynamic = 0;  // number of voxels
         std::optional<Id> track{};
     };
     [[nodiscard]] std::vector<Cluster> describe(const Clusters& clusters, const PointVoxels& voxels,
@@ -76,7 +79,7 @@ private:
         Id track;
         double stamp;
     };
-    tsl::robin_map<VoxelKey, Place, VoxelHash> last_there_;  // by block of voxels
+    tsl::robin_map<VoxelKey, Place, VoxelHash> last_there_;  // per block of voxels
     std::optional<double> last_stamp_;
     std::uint32_t last_scan_ = 0;
 };

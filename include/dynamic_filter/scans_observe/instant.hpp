@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Instant verdicts, from the evidence so far.
+/// Instant verdicts: verdicts from the evidence up to the newest scan.
 #pragma once
 
 #include <span>
@@ -11,22 +11,23 @@
 
 namespace dynamic_filter {
 
-/// What was said of each voxel last. A voxel is judged anew when its own score has changed; most
-/// say what they said. Single caller.
+/// Stores the latest verdict of each voxel. A voxel is judged again only when its own score has
+/// changed enough; most voxels keep their verdict. Single caller.
 class InstantVerdicts {
 public:
     explicit InstantVerdicts(const Config& config)
         : config_(config.scans), threshold_(config.map.occupancy_threshold) {}
 
-    /// The verdict on the scan that the grid took in last; `voxels`: of its points.
+    /// The verdict on the scan that was last added to the grid; `voxels` are those of its points.
     Verdict judge(std::size_t index, const PointVoxels& voxels, const EvidenceGrid& grid);
 
-    /// Voxels got new numbers: those of the old numbers `kept` are left, in that order.
+    /// Renumbers the voxels: only those with the old numbers `kept` remain, in that order.
     void keep(std::span<const std::uint32_t> kept);
 
 private:
     struct Said {
-        float score = 2.0F;  // when it was judged last; none is as large
+        // Score at the latest verdict; 2 is above all scores, so it means "never judged".
+        float score = 2.0F;
         Label label = Label::unknown;
     };
     [[nodiscard]] bool is_due(const Said& said, const EvidenceGrid::State& state) const;

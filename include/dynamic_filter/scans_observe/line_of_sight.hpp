@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-/// What one scan says about one place: the visibility check with scans as observers. Nothing is
-/// re-projected: a beam that ended somewhere was free before, seen from its own pose.
+/// The visibility check of the method "scans": whether one scan sees a place occupied, free, or not
+/// at all. The scan is used from its own pose, so no point is projected again: along each beam, the
+/// space up to its return was free.
 #pragma once
 
 #include <vector>
@@ -11,9 +12,9 @@
 
 namespace dynamic_filter {
 
-/// The constants of the check, as ScansConfig::Sight explains them, for voxels of a certain size:
-/// lengths [m] bound what poses and ranges may be wrong by, and what a voxel blurs; what depends on
-/// the sensor comes from the image.
+/// The constants of the check for voxels of a given size; ScansConfig::Sight explains them. Lengths
+/// [m] allow for errors of poses and ranges and for the size of a voxel. All that depends on the
+/// sensor comes from the image.
 struct SightMargins {
     float beside, beyond, touch, surface, per_metre, nearest, farthest;
     float own_pixels, close_pixels, close_beside, same_spot;
@@ -21,26 +22,32 @@ struct SightMargins {
 };
 SightMargins margins_of(const ScansConfig::Sight& config, double voxel_size);
 
-/// Judges each of the places, in the image's frame; `sights` goes parallel to them. Thread-safe.
+/// Checks each of the places, given in the frame of the image; `sights` is parallel to them.
+/// Thread-safe. Source: docs/how-it-works.md, "Line of sight". The answers are:
 ///
-/// occupied: a return lies at the place (within `touch`, and across the beam within `beside` or
-/// half a pixel). weak_occupied: the line between the beams below and above it, at different
-/// ranges, runs through it (ground at grazing angles). free or weak_free: of the nearest beams
-/// around the place, at most one in each quadrant and at least two, one went beyond it; above and
-/// below the image, or a hole in it, such a beam all but meets the place; the lines between them,
-/// up-down and left-right, run behind it by the surface margin, so a surface seen at any incidence
-/// is not free; none beside it ended before it. free: and there is one in each of the four
-/// quadrants, all going on by `clear` or more, or all that there are go on by `clear_unseen`;
-/// weak_free: the rest, as at the upper border of the image, where a ceiling at a grazing angle
-/// looks much the same. unknown: all else; where no beam returned, nothing is known.
+/// - occupied: a return lies at the place. It is within `touch` along the beam, and within `beside`
+///   or half a pixel across the beam.
+/// - weak_occupied: the line between the returns of the beams below and above the place, at
+///   different ranges, runs through it (ground at a large incidence angle).
+/// - free or weak_free: all of these conditions hold. In each quadrant around the place, the
+///   nearest beam is used; there are at least two such beams. At least one of them went beyond the
+///   place. The lines between their returns, vertical and horizontal, run behind the place by the
+///   surface margin, so a surface is not taken for free at any incidence angle. No beam beside the
+///   place ended in front of it. At the upper or lower border of the image and at holes in it, one
+///   beam must pass very close to the place.
+/// - free: in addition, there is a beam in each of the four quadrants and all of them go on by
+///   `clear` or more, or all existing beams go on by `clear_unseen`.
+/// - weak_free: the other cases, for example at the upper border of the image, where a ceiling at a
+///   large incidence angle looks similar to free space.
+/// - unknown: everything else. Beams without a return tell nothing.
 ///
-/// line_of_sight_scalar.hpp says the same for one place, one pixel at a time.
+/// line_of_sight_scalar.hpp does the same for one place, one pixel at a time.
 void check_lines_of_sight(const BeamImage& image, const Directions& places,
                           const SightMargins& margins, std::vector<Sight>& sights);
 
-/// False if check_lines_of_sight() finds nothing at any place within `radius` [m] of `center`,
-/// because it is too far or too near, out of view, or all beams around it end before it. Cautious
-/// and quick: one question saves many.
+/// False if check_lines_of_sight() would give unknown for every place within `radius` [m] of
+/// `center`, because the places are too far, too near, out of view, or behind all returns around
+/// them. The answer is conservative: true may be wrong. This quick test saves many checks.
 bool may_see(const BeamImage& image, const Beam& center, float radius, const SightMargins& margins);
 
 }  // namespace dynamic_filter

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// The keyframes that observe: which scans become one, how far each looks, and which of them a new
-/// voxel asks.
+/// The keyframes as observers: which scans become keyframes, how far each keyframe looks, and which
+/// of them observe a new voxel.
 #pragma once
 
 #include <deque>
@@ -14,15 +14,15 @@
 
 namespace dynamic_filter {
 
-/// A scan that observes.
+/// A keyframe and its image.
 struct Observer {
     BeamImage image;
     Eigen::Isometry3f T_sensor_map = Eigen::Isometry3f::Identity();
-    float reach = 0.0F;     ///< [m] how far it looks
+    float reach = 0.0F;     ///< [m] how far the keyframe looks
     std::size_t index = 0;  ///< Scan::index
 };
 
-/// The newest keyframes. Single caller.
+/// Stores the newest keyframes. Single caller.
 class Observers {
 public:
     explicit Observers(const Config& config)
@@ -31,12 +31,13 @@ public:
           farthest_(static_cast<float>(config.scans.sight.farthest)),
           most_(static_cast<std::size_t>(config.scans.max_keyframes)) {}
 
-    /// Adds the scan if it is a keyframe; true if it is. Its pose is relative to the map.
+    /// Adds the scan if it is a keyframe, and returns whether it is one. Its pose is relative to
+    /// the map.
     bool add(const Scan& scan);
 
-    /// Whom a new voxel asks, oldest first, and for how many keyframes each stands. Keyframes close
-    /// in time see much the same, so it asks the newest one by one, and of those that are twice as
-    /// old every second, and so on.
+    /// The keyframes that observe a new voxel, oldest first, and the number of keyframes for which
+    /// each one stands. Keyframes close in time see nearly the same. So all of the newest keyframes
+    /// are used; of those twice as old every second one, and so on.
     struct Asked {
         const Observer* observer;
         unsigned weight;
@@ -44,8 +45,10 @@ public:
     [[nodiscard]] std::vector<Asked> asked_by_new() const;
 
     [[nodiscard]] const std::deque<Observer>& kept() const { return kept_; }  ///< oldest first
-    [[nodiscard]] std::size_t total() const { return total_; }  ///< with those no longer kept
-    /// Read off the first scan that has enough points; empty before it.
+    [[nodiscard]] std::size_t total() const {
+        return total_;
+    }  ///< including those that are no longer kept
+    /// Measured on the first scan that has enough points; empty before that scan.
     [[nodiscard]] const std::optional<BeamPattern>& beams() const { return beams_; }
 
 private:
@@ -56,7 +59,7 @@ private:
     float farthest_;  // [m]
     std::size_t most_;
     std::optional<BeamPattern> beams_;
-    std::optional<Scan> last_keyframe_;  // pose and stamp only
+    std::optional<Scan> last_keyframe_;  // only its pose and stamp
     double last_far_look_ = 0.0;         // [s]
     std::deque<Observer> kept_;
     std::size_t total_ = 0;

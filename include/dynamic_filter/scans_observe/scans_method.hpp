@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// The default method: every keyframe says of every voxel in its sight whether it is occupied or
-/// free, and the voxels' counters decide.
+/// The method "scans" (default): every keyframe observes the voxels in its view as occupied or
+/// free, and the counters of each voxel decide.
 #pragma once
 
 #include "dynamic_filter/method.hpp"
@@ -11,8 +11,8 @@
 
 namespace dynamic_filter {
 
-/// Memory: about 92 bytes a voxel, 28 more after finish(), and six a pixel of the newest
-/// `scans.max_keyframes` keyframes.
+/// Memory: about 92 bytes per voxel, 28 more after finish(), and six bytes per pixel of each of the
+/// newest `scans.max_keyframes` keyframes.
 class ScansMethod final : public FilterMethod {
 public:
     explicit ScansMethod(const Config& config)
@@ -44,8 +44,8 @@ private:
     EvidenceMap evidence_;
     InstantVerdicts instant_;
     Instances instances_;
-    std::vector<VoxelDecision> decided_;  // by voxel, after finish()
-    /// By voxel, with `map.time` = latest: see occupied_since().
+    std::vector<VoxelDecision> decided_;  // per voxel, after finish()
+    /// Per voxel, only with `map.time` = latest: see occupied_since().
     std::vector<std::optional<std::uint32_t>> occupied_since_;
     StageTimes times_;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What a simulated point lies on: errors are tabulated by it. Plain data.
+/// The kind of object on which a simulated point lies; errors are tabulated by kind. Plain data.
 #pragma once
 
 #include <array>
@@ -9,22 +9,22 @@
 
 namespace dynamic_filter::sim {
 
-/// Walking and standing are people, by what they do at that moment.
+/// Kinds of objects. People are `walking` or `standing`, depending on what they do at that moment.
 enum class Kind : std::uint8_t {
     ground,      ///< floor, pavement, kerbs, tops of steps and ramps
     structure,   ///< buildings, blocks, furniture, parked cars
     thin,        ///< less than about 0.3 m across: poles, signs, railings, trunks
     vegetation,  ///< leaves
-    walking,     ///< people on foot who move at that moment ...
-    standing,    ///< ... and who do not
-    vehicle      ///< those that move or halt on their way; cyclists too
+    walking,     ///< people on foot who move at that moment
+    standing,    ///< people on foot who stand still at that moment
+    vehicle      ///< vehicles and cyclists that move, or that halt on their way
 };
 
-/// By their values.
+/// Names of the kinds, indexed by the value of Kind.
 constexpr std::array<std::string_view, 7> kind_names = {
     "ground", "structure", "thin", "vegetation", "walking", "standing", "vehicle"};
 
-/// Points of these kinds are labelled dynamic, the others still.
+/// True for the kinds whose points are labelled dynamic; all other points are labelled static.
 constexpr bool is_dynamic(Kind kind) { return kind >= Kind::walking; }
 
 }  // namespace dynamic_filter::sim

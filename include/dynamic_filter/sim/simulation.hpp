@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Scenes with exact labels: a crowd (Sec. IV-A), a street, a square, a hall, a jam, a platform;
-/// rays cast by Embree.
+/// Simulated scenes with exact labels: a crowd (Sec. IV-A), a street, a square, a hall, a traffic
+/// jam and a platform. Embree casts the rays.
 ///
 /// - Units: [m], [s], [deg].
-/// - Frames: points in the sensor's, poses T_world_sensor; world: z up.
+/// - Frames: points in the sensor frame, poses T_world_sensor; the z axis of the world points up.
 /// - Shapes: arrays of a scan are parallel.
 /// - Ownership: values.
 /// - Threads: a Simulation has a single caller (it uses parallel_for inside).
@@ -23,49 +23,58 @@
 
 namespace dynamic_filter::sim {
 
-/// What to simulate.
+/// Options of a simulation.
 struct SimulationOptions {
-    std::string scene = "crowd";        ///< one of scene_names()
-    std::string sensor = "vlp16";       ///< one of sensor_names()
-    int pedestrians = -1;               ///< -1: the scene's own number (crowd: 100)
-    std::uint64_t seed = 1;             ///< same seed, same bytes
-    std::optional<std::size_t> frames;  ///< empty: the scene's full length (crowd: two rounds)
-    double rate_hz = 0.0;               ///< [Hz] scans per second; 0: the scene's own
-    double pose_noise_m = 0.0;          ///< [m] standard deviation of each axis of the written pose
-    double pose_noise_deg = 0.0;        ///< [deg] standard deviation of each rotation axis
-    /// Points are measured one after the other, in the time between two scans (0.2 s at most),
-    /// while the sensor and all else move on: as a real sensor measures. Otherwise all at once.
+    std::string scene = "crowd";   ///< one of scene_names()
+    std::string sensor = "vlp16";  ///< one of sensor_names()
+    int pedestrians = -1;          ///< -1: the default of the scene (crowd: 100)
+    std::uint64_t seed = 1;        ///< the same seed gives the same bytes
+    /// Number of scans; empty: the whole scene (crowd: two rounds).
+    std::optional<std::size_t> frames;
+    double rate_hz = 0.0;  ///< [Hz] scans per second; 0: the default of the scene
+    /// [m] standard deviation of the noise of each axis of the written positions.
+    double pose_noise_m = 0.0;
+    /// [deg] standard deviation of the noise about each rotation axis.
+    double pose_noise_deg = 0.0;
+    /// True: points are measured one after the other during the time between two scans (0.2 s at
+    /// most), while the sensor and the objects move, as with a real rotating sensor. False: all
+    /// points of a scan are measured at once.
     bool sweep = false;
-    int rounds = 0;  ///< of the robot, where it goes in rounds; 0: the scene's own
+    /// Of the robot, in scenes where it goes in rounds; 0: the default of the scene.
+    int rounds = 0;
 };
 
-/// One sweep, with all that is known of it.
+/// One simulated sweep with its ground truth.
 struct SimulatedScan {
-    Points points;                 ///< [m] sensor frame (of a sweep: where the sensor was when
-                                   ///< it measured the point), returns only
-    std::vector<float> intensity;  ///< 0..1, parallel
-    Labels labels;                 ///< exact, parallel: still or dynamic
+    /// [m] Returns in the sensor frame. With SimulationOptions::sweep, each point is in the frame
+    /// that the sensor had when it measured the point.
+    Points points;
+    std::vector<float> intensity;  ///< 0..1, parallel to the points
+    Labels labels;                 ///< exact ground truth, parallel: static or dynamic
     std::vector<Kind> kinds;       ///< parallel
-    std::vector<std::uint16_t> instances;  ///< parallel: the person or vehicle, from 1; 0: neither
-    Pose T_world_sensor;       ///< as a SLAM would report it (with pose noise, if asked)
-    double stamp = 0.0;        ///< [s] since the scene began; a sweep begins then
-    std::vector<float> times;  ///< of a sweep: [s] from the stamp, parallel; else empty
+    /// Parallel: number of the person or vehicle, from 1; 0: neither.
+    std::vector<std::uint16_t> instances;
+    Pose T_world_sensor;  ///< as a SLAM system would report it (with pose noise, if asked for)
+    double stamp = 0.0;   ///< [s] since the scene began; the sweep begins at this time
+    /// With `sweep`: [s] relative to the stamp, parallel; otherwise empty.
+    std::vector<float> times;
 };
 
-std::vector<std::string> scene_names();   ///< what SimulationOptions::scene may be
-std::vector<std::string> sensor_names();  ///< what SimulationOptions::sensor may be
+std::vector<std::string> scene_names();   ///< values of SimulationOptions::scene
+std::vector<std::string> sensor_names();  ///< values of SimulationOptions::sensor
 
-/// Same options, same bytes. Throws ConfigError (unknown scene or sensor, naming the choices; more
-/// frames than the scene has scans at its rate; rounds where the robot does not go in rounds).
-/// scan() may be called in any order.
+/// Simulates scans. The same options give the same bytes. The constructor throws ConfigError if the
+/// scene or sensor is unknown (the message lists the choices), if more frames are asked for than
+/// the scene has, or if rounds are given for a scene without rounds. scan() may be called in any
+/// order.
 class Simulation {
 public:
     explicit Simulation(const SimulationOptions& options);  ///< builds the scene
     ~Simulation();
-    Simulation(Simulation&&) noexcept;  ///< the other one can only be destroyed
+    Simulation(Simulation&&) noexcept;  ///< the moved-from object can only be destroyed
 
-    [[nodiscard]] std::size_t size() const;           ///< scans
-    [[nodiscard]] SimulatedScan scan(std::size_t i);  ///< scan i < size()
+    [[nodiscard]] std::size_t size() const;           ///< number of scans
+    [[nodiscard]] SimulatedScan scan(std::size_t i);  ///< returns scan i; i < size()
 
 private:
     struct World;

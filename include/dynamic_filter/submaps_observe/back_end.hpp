@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// The map-to-map back-end (Sec. III-C): static submaps in, the static local map at any pose out.
+/// The map-to-map back-end (Sec. III-C): it takes static submaps, and computes the static local map
+/// at any pose.
 #pragma once
 
 #include <vector>
@@ -22,21 +23,21 @@ public:
           voxel_size_(static_cast<float>(config.map.voxel_size)),
           search_radius_(config.map.search_radius) {}
 
-    /// Puts a submap into the buffer: numbers its voxels, computes its normals.
+    /// Adds a submap to the buffer, numbers its voxels, and computes its normals.
     void insert(Submap submap, const BeamPattern& beams, StageTimes& times);
 
-    /// The occupancy of every voxel that a submap near the query pose owns. Empty before the first
-    /// insert().
+    /// The occupancy of every voxel that belongs to a submap near the query pose. Empty before the
+    /// first insert().
     LocalMap local_map(const Pose& T_map_query, StageTimes& times);
 
-    /// The same at the pose of a submap of the buffer, which is always among those consulted.
+    /// The local map at the pose of a submap of the buffer. That submap is always among those used.
     LocalMap local_map_of(std::size_t submap, StageTimes& times);
 
-    /// Forgets the submaps whose pose lies beyond `radius` [m] of a place, and the farthest until
-    /// the rest, at least one, holds at most `most_points`. Voxels get new numbers. Returns how far
-    /// [m] nothing is forgotten.
+    /// Removes the submaps whose pose lies beyond `radius` [m] of a place, then the farthest
+    /// submaps until the rest holds at most `most_points` points; one submap always remains. Voxels
+    /// get new numbers. Returns the distance [m] within which nothing was removed.
     double keep_within(const Eigen::Vector3d& center, double radius, std::size_t most_points);
-    /// Of all submaps.
+    /// Number of points of all submaps.
     [[nodiscard]] std::size_t points() const;
 
     [[nodiscard]] const std::vector<BufferedSubmap>& buffer() const { return buffer_; }
@@ -48,10 +49,10 @@ private:
     BackEndConfig config_;
     float voxel_size_;      // [m]
     double search_radius_;  // [m]
-    ImageGrid grid_;        // of the whole sphere, for any query pose
+    ImageGrid grid_;        // covers the whole sphere, for any query pose
     std::vector<BufferedSubmap> buffer_;
     VoxelIndex voxels_;
-    std::vector<std::uint32_t> slot_of_voxel_;  // scratch of count_owners
+    std::vector<std::uint32_t> slot_of_voxel_;  // work array of count_owners()
 };
 
 }  // namespace dynamic_filter

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Every setting of the paper's method, in which submaps observe, and of Removert.
+/// All settings of the paper's method ("submaps") and of Removert ("removert").
 ///
-/// - Units: what visit_submaps() says of each field.
+/// - Units: visit_submaps() names the unit of each field.
 /// - Ownership: values.
 /// - Threads: plain data.
 /// - Errors: none.
@@ -12,15 +12,15 @@
 
 namespace dynamic_filter {
 
-/// What takes points back (Sec. III-B2).
+/// How points that were wrongly removed are reverted (Sec. III-B2).
 enum class Reverting { map, visibility, none };
 
-/// How many scans make a submap (Sec. III-B).
+/// How many keyframes make a submap (Sec. III-B).
 struct SubmapConfig {
     int keyframes = 20;
 };
 
-/// Scan to map (Sec. III-B).
+/// Scan-to-map front-end (Sec. III-B).
 struct FrontEndConfig {
     bool enabled = true;
     double image_step_deg = 0.5;
@@ -34,7 +34,7 @@ struct FrontEndConfig {
     double revert_image_scale = 2.0;
 };
 
-/// Map to map (Sec. III-C).
+/// Map-to-map back-end (Sec. III-C).
 struct BackEndConfig {
     bool enabled = true;
     int max_submaps = 20;
@@ -55,44 +55,58 @@ void visit_submaps(C& config, F&& f) {
                            const char* help, double min, double max, auto& member) {
         f(Setting{key, unit, symbol, help, min, max, methods}, member);
     };
-    field(kPaper, "submap.keyframes", "1", "n", "keyframes per submap", 1, 100000,
+    field(kPaper, "submap.keyframes", "1", "n", "number of keyframes per submap", 1, 100000,
           config.submap.keyframes);
     auto& front = config.front_end;
-    field(kPaper, "front_end.enabled", "", "Table III", "off: back-end only", 0, 0, front.enabled);
-    field(kBoth, "front_end.image_step_deg", "deg", "res", "least pixel of the scans' range images",
-          0.05, 30, front.image_step_deg);
+    field(kPaper, "front_end.enabled", "", "Table III", "false: only the back-end runs", 0, 0,
+          front.enabled);
+    field(kBoth, "front_end.image_step_deg", "deg", "res",
+          "smallest size of a pixel of the range images of scans", 0.05, 30, front.image_step_deg);
     field(kBoth, "front_end.image_step_beams", "1", "res",
-          "... and in spacings of the sensor's beams", 0, 20, front.image_step_beams);
+          "smallest pixel of these images as a multiple of the angle between beams", 0, 20,
+          front.image_step_beams);
     field(kBoth, "front_end.tau", "m", "III-B1",
-          "a point this much nearer than the scan's range is dynamic", 0, 10, front.tau);
-    field(kBoth, "front_end.tau_per_metre", "1", "III-B1", "... plus this share of its range", 0, 1,
+          "a point is dynamic if it is this much nearer than the range in the image of a keyframe",
+          0, 10, front.tau);
+    field(kBoth, "front_end.tau_per_metre", "1", "III-B1",
+          "share of the range of the point that is added to front_end.tau", 0, 1,
           front.tau_per_metre);
-    field(kPaper, "front_end.reverting", "", "III-B2", "map, visibility (Removert's) or none", 0, 0,
-          front.reverting);
+    field(kPaper, "front_end.reverting", "", "III-B2",
+          "how removed points are reverted to static: map, visibility (as Removert does) or none",
+          0, 0, front.reverting);
     field(kPaper, "front_end.revert_radius", "m", "r",
-          "reverting looks for static neighbours within", 0.05, 10, front.revert_radius);
-    field(kPaper, "front_end.revert_neighbors", "1", "k", "... and takes the nearest of them", 3,
-          100, front.revert_neighbors);
+          "reverting uses static neighbors within this distance", 0.05, 10, front.revert_radius);
+    field(kPaper, "front_end.revert_neighbors", "1", "k",
+          "reverting uses at most this number of nearest static neighbors", 3, 100,
+          front.revert_neighbors);
     field(kPaper, "front_end.revert_dist_max", "1", "dist_max",
-          "largest change of the normal that reverts", 0, 2, front.revert_dist_max);
+          "a point is reverted if it changes the normal of its neighbors by less than this", 0, 2,
+          front.revert_dist_max);
     field(kBoth, "front_end.revert_image_scale", "1", "III-B2",
-          "pixel growth of visibility reverting", 1, 20, front.revert_image_scale);
+          "factor by which pixels are enlarged for visibility-based reverting", 1, 20,
+          front.revert_image_scale);
     auto& back = config.back_end;
-    field(kPaper, "back_end.enabled", "", "Table III", "off: front-end only", 0, 0, back.enabled);
+    field(kPaper, "back_end.enabled", "", "Table III", "false: only the front-end runs", 0, 0,
+          back.enabled);
     field(kPaper, "back_end.max_submaps", "1", "B",
-          "submaps consulted at a pose, at most: the nearest", 1, 64, back.max_submaps);
+          "largest number of submaps that are used at a pose; the nearest ones are used", 1, 64,
+          back.max_submaps);
     field(kPaper, "back_end.visibility_check", "", "Table III",
-          "off: every nearby submap counts as having looked", 0, 0, back.visibility_check);
-    field(kPaper, "back_end.incident_correction", "", "Table III", "off: no pseudo-occupied points",
-          0, 0, back.incident_correction);
+          "false: every nearby submap counts as an observer of every voxel", 0, 0,
+          back.visibility_check);
+    field(kPaper, "back_end.incident_correction", "", "Table III",
+          "false: no point is pseudo-occupied", 0, 0, back.incident_correction);
     field(kPaper, "back_end.incident_threshold_deg", "deg", "lambda_thres",
-          "beams more slanted than this are pseudo-occupied", 0, 90, back.incident_threshold_deg);
-    field(kPaper, "back_end.image_step_deg", "deg", "res", "least pixel of the submaps' images",
-          0.05, 30, back.image_step_deg);
+          "a point is pseudo-occupied if the incidence angle of its beam is larger than this", 0,
+          90, back.incident_threshold_deg);
+    field(kPaper, "back_end.image_step_deg", "deg", "res",
+          "smallest size of a pixel of the images of submaps", 0.05, 30, back.image_step_deg);
     field(kPaper, "back_end.image_step_beams", "1", "res",
-          "... and in spacings of the sensor's beams", 0, 20, back.image_step_beams);
+          "smallest pixel of these images as a multiple of the angle between beams", 0, 20,
+          back.image_step_beams);
     field(kPaper, "back_end.depth_channel", "m", "depth",
-          "length of a depth channel; 0 compares ranges", 0, 10, back.depth_channel);
+          "length of a depth channel; 0: ranges are compared without channels", 0, 10,
+          back.depth_channel);
 }
 
 }  // namespace dynamic_filter

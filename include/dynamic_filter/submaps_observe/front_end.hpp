@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// The scan-to-map front-end (Sec. III-B): a window of scans in, a static submap out.
+/// The scan-to-map front-end (Sec. III-B): it turns a window of scans into a static submap.
 #pragma once
 
 #include <optional>
@@ -15,29 +15,31 @@ namespace dynamic_filter {
 
 struct FrontEndResult {
     Submap submap;
-    std::vector<Labels> labels;  ///< per scan and point of the window: the instant verdicts
+    std::vector<Labels> labels;  ///< instant verdicts, per scan and point of the window
 };
 
-/// Pixel of a range image [rad]: at least `least_deg`, and `beams` spacings of the sensor.
-/// Finer images than the beams leave holes, and holes are no evidence.
+/// Size [rad] of a pixel of a range image: at least `least_deg` [deg], and at least `beams` times
+/// the angle between the beams of the sensor. An image finer than the beams has holes, and a hole
+/// is no evidence.
 float pixel_step(double least_deg, double beams, float beam_spacing);
 
-/// Single caller. Knows no threads beyond parallel_for; keeps only the sensor's beam pattern, which
-/// it reads off the first window.
+/// Single caller; uses threads only by parallel_for. Between calls it keeps only the beam pattern
+/// of the sensor, which it measures on the first window.
 class FrontEnd {
 public:
     explicit FrontEnd(const Config& config) : config_(config) {}
 
-    /// Sec. III-B: remove by visibility, revert by the map, collect the static submap.
+    /// Removes points by visibility, reverts some of them by the map, and collects the static
+    /// submap (Sec. III-B).
     FrontEndResult process(const Window& window, StageTimes& times);
 
-    /// Empty before the first window.
+    /// Beam pattern of the sensor; empty before the first window.
     [[nodiscard]] const std::optional<BeamPattern>& beams() const { return beams_; }
 
 private:
     std::vector<RangeImage> images(const Window& window, float scale) const;
     void revert(const Window& window, std::vector<Labels>& labels) const;
-    std::vector<Labels> remove_and_revert(const Window& window) const;  // Removert
+    std::vector<Labels> remove_and_revert(const Window& window) const;  // used by Removert
 
     Config config_;
     std::optional<BeamPattern> beams_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Submaps merging (Sec. III-D).
+/// Merging of local maps (Sec. III-D).
 #pragma once
 
 #include <optional>
@@ -10,14 +10,15 @@
 
 namespace dynamic_filter {
 
-/// The occupancy of every voxel, as the local map whose query pose is nearest to it sees it.
-/// Arrays go by voxel id; a probability is empty where no local map knows the voxel.
+/// The occupancy of every voxel, taken from the local map whose query pose is nearest to the voxel.
+/// Arrays are indexed by voxel id. A probability is empty if no local map knows the voxel.
 struct MergedMap {
     std::vector<std::optional<float>> probability;
-    std::vector<double> distance_sq;  ///< [m^2] from the voxel to the pose that decided
+    std::vector<double> distance_sq;  ///< [m^2] from the voxel to the pose whose local map decided
 };
 
-/// Lets `local` decide the voxels to which its pose is nearer than any before; ties: the earlier.
+/// Merges a local map: it decides the voxels to which its pose is nearer than all previous poses
+/// (Sec. III-D). On a tie, the earlier pose decides.
 void merge(MergedMap& merged, const LocalMap& local, const Pose& T_map_query,
            const VoxelIndex& index, double voxel_size);
 

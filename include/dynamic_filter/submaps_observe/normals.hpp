@@ -9,12 +9,13 @@
 namespace dynamic_filter {
 
 /// Normal of each point (Algorithm 1, computeNormal): the smallest principal axis of all points in
-/// the 3 x 3 x 3 voxels around it, so one per voxel. The sign is arbitrary; zero where the points
-/// span no plane. Points are a submap's, thinned, so no voxel holds more than eight.
+/// the 3 x 3 x 3 voxels around it; all points of a voxel share one normal. The sign is arbitrary.
+/// The normal is zero if the points do not lie on a plane. The points must be those of a thinned
+/// submap, with at most eight points per voxel.
 Points estimate_normals(std::span<const Point> points, float voxel_size);
 
-/// True if the beam from `viewpoint` meets the surface at more than the threshold from head-on:
-/// a pseudo-occupied point (Sec. III-C2). A zero normal is ordinary.
+/// True for a pseudo-occupied point (Sec. III-C2): the incidence angle of the beam from `viewpoint`
+/// is larger than the threshold, whose cosine is given. False if the normal is zero.
 inline bool is_grazing(const Point& point, const Point& normal, const Point& viewpoint,
                        float cos_threshold) {
     const Point beam = point - viewpoint;

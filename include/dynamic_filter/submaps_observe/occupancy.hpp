@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// The occupancy grid model (Sec. III-C1): n_occ / n_check per voxel.
+/// The occupancy grid model (Sec. III-C1): the occupancy of a voxel is n_occ / n_check.
 #pragma once
 
 #include <cstdint>
@@ -12,25 +12,28 @@
 
 namespace dynamic_filter {
 
-/// The local map around a query pose: what its submaps own, and how surely it is occupied.
+/// The local map around a query pose: the voxels of the nearby submaps and their occupancy.
 struct LocalMap {
-    std::vector<std::uint32_t> voxels;  ///< ids
-    std::vector<float> probability;     ///< n_occ / n_check, parallel to voxels
+    std::vector<std::uint32_t> voxels;  ///< voxel ids
+    std::vector<float> probability;     ///< n_occ / n_check, parallel to `voxels`
 };
 
-/// The voxels that the nearby submaps own, with one bit per owner (bit j: nearby[j]), so that
-/// n_occ = popcount. Voxels come in the order in which they are first met; at most 64 submaps.
+/// The voxels in which nearby submaps have points. Bit j of `owners` is set if nearby[j] has a
+/// point in the voxel, so n_occ is the number of set bits. Voxels are in the order in which they
+/// are first met. At most 64 submaps.
 struct Ownership {
     std::vector<std::uint32_t> voxels;
     std::vector<std::uint64_t> owners;
 };
 
-/// `slot_of_voxel` is scratch as long as the voxel index, all zero before and after.
+/// `slot_of_voxel` is a work array with one entry per voxel of the index; it is all zero before and
+/// after the call.
 Ownership count_owners(std::span<const BufferedSubmap* const> nearby,
                        std::vector<std::uint32_t>& slot_of_voxel);
 
-/// n_occ / n_check per owned voxel. A submap counts in n_check if its boundary reaches the voxel's
-/// depth channel in the voxel's pixel, or if it owns the voxel.
+/// Computes n_occ / n_check of each owned voxel (Sec. III-C1). A submap counts in n_check if it
+/// owns the voxel, or if its visibility boundary, in the pixel of the voxel, reaches the depth
+/// channel of the voxel.
 LocalMap occupancy(Ownership ownership, std::span<const VisibilityBoundary> boundaries,
                    const VoxelIndex& index, float voxel_size, const Pose& T_map_query,
                    const ImageGrid& grid, const BackEndConfig& config);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-/// Removert (Kim & Kim, IROS 2020), written from its description: the opponent of Tables II and
-/// III, and the visibility-based reverting of Figure 3. It looks at a thinned map, and per scan and
-/// pixel only at the map's nearest point: what stands behind that one needs another scan.
+/// Removert (Kim & Kim, IROS 2020), implemented from its description. The paper compares with it in
+/// Tables II and III, and uses its visibility-based reverting in Figure 3. Removert works on a
+/// thinned map. For each scan and pixel it tests only the nearest point of the map; points behind
+/// that one need another scan.
 #pragma once
 
 #include <span>
@@ -12,18 +13,19 @@
 
 namespace dynamic_filter {
 
-/// Images of the window's keyframes at one resolution; parallel to window.keyframes.
+/// Range images of the keyframes of a window at one resolution; parallel to window.keyframes.
 using KeyframeImages = std::vector<RangeImage>;
 
-/// Removes from the map of all measured points, once per resolution; then looks at what was removed
-/// in the coarse images and takes back what they do not mark again. Cells have half a voxel's edge.
-/// Returns dynamic, still or unknown per scan and point.
+/// Removes points from the map of all measured points, once per resolution of `fine`. Then it tests
+/// the removed points in the coarse images, and reverts the points that these do not mark again.
+/// The map is thinned to cells of half a voxel. Returns dynamic, static or unknown per scan and
+/// point.
 std::vector<Labels> removert(const Window& window, std::span<const KeyframeImages> fine,
                              const KeyframeImages& coarse, const RemovalMargin& margin,
                              float voxel_size);
 
-/// The second half of it, for points that another removal made dynamic: turns some of them to
-/// still.
+/// The second half of removert(), for points that another removal labelled dynamic: some of them
+/// become static again.
 void revert_by_visibility(const Window& window, const KeyframeImages& coarse,
                           const RemovalMargin& margin, float voxel_size,
                           std::vector<Labels>& labels);

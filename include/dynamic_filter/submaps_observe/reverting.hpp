@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Reverting of points that visibility removed although they are static (Sec. III-B2).
+/// Reverting of static points that the visibility-based removal removed by mistake (Sec. III-B2).
 #pragma once
 
 #include <vector>
@@ -10,14 +10,15 @@
 
 namespace dynamic_filter {
 
-/// True if the point fits the static surface around it: the normal of its k nearest static
-/// neighbours turns by less than dist_max (as the norm of the difference, sign-free) once the point
-/// joins them. False with fewer than three neighbours or where they span no plane.
+/// True if the point fits the static surface around it. The normal of its k nearest static
+/// neighbors is computed without and with the point. The point fits if the norm of the difference
+/// of both normals, independent of their signs, is less than dist_max. False if there are fewer
+/// than three neighbors, or if they do not lie on a plane.
 bool fits_static_map(const Point& point, const NeighborGrid& static_map,
                      const FrontEndConfig& config);
 
-/// Map-based reverting: turns dynamic points that fit the static submap back to still.
-/// `static_map` holds the points that survived removal [map frame].
+/// Map-based reverting (Sec. III-B2): dynamic points that fit the static submap become static
+/// again. `static_map` holds the points that the removal left [map frame].
 void revert_by_map(const Window& window, const NeighborGrid& static_map,
                    const FrontEndConfig& config, std::vector<Labels>& labels);
 

@@ -13,20 +13,21 @@
 namespace dynamic_filter {
 
 struct Submap {
-    Pose T_map_submap = Pose::Identity();  ///< mean pose of its scans
-    Points points;                         ///< map frame, thinned to one per half voxel
+    Pose T_map_submap = Pose::Identity();  ///< mean pose of the scans of the submap
+    Points points;                         ///< map frame, thinned to one per cell of half a voxel
 };
 
-/// Points of one scan in the map frame, as every stage computes them (to the last bit).
+/// Transforms the points of one scan into the map frame. All stages use this function, so that they
+/// get bit-identical coordinates.
 void to_map(const Points& points, const Pose& T_map_sensor, Points& out);
 inline void to_map(const Scan& scan, Points& out) { to_map(scan.points, scan.T_world_sensor, out); }
 
-/// Collects the first point of every cell of half a voxel; halves nest in voxels, so thinning never
-/// changes which voxels are owned.
+/// Thins points: it keeps the first point of every cell of half a voxel. Each voxel consists of
+/// whole cells, so thinning never changes which voxels hold points.
 class Thinner {
 public:
     explicit Thinner(float voxel_size) : inverse_cell_(2.0F / voxel_size) {}
-    /// Adds the points of a scan that are labelled `kept` [map frame].
+    /// Adds the points of a scan that have the label `kept` [map frame].
     void add(const Points& points, const Labels& labels, Label kept);
     Points take() { return std::move(points_); }
     [[nodiscard]] const Points& points() const { return points_; }
@@ -37,7 +38,7 @@ private:
     Points points_;
 };
 
-/// The voxel of a point, by way of its half cell; empty where a key cannot reach.
+/// The voxel of a point, computed from its half cell; empty if the point is too far away for a key.
 std::optional<VoxelKey> voxel_of(const Point& point, float voxel_size);
 
 }  // namespace dynamic_filter

@@ -10,16 +10,17 @@
 
 namespace dynamic_filter {
 
-/// A submap as the back-end keeps it.
+/// A submap as the back-end stores it.
 struct BufferedSubmap {
     Submap submap{};
-    Points normals{};                     ///< parallel to submap.points; zero: none
-    std::vector<std::uint32_t> voxels{};  ///< ids of the voxels it owns a point in, ascending
+    Points normals{};                     ///< parallel to submap.points; zero: no normal
+    std::vector<std::uint32_t> voxels{};  ///< ids of the voxels in which it has points, ascending
 };
 
-/// The submaps whose pose lies within `radius` [m] of `position`: at most `most`, the nearest,
-/// nearest first; at equal distance those nearest in age to the submap `anchor`, so that a sensor
-/// that stands still for long still finds the submap asked for. Indices into `buffer`.
+/// Returns the indices in `buffer` of the submaps whose pose lies within `radius` [m] of
+/// `position`: the nearest ones, at most `most`, nearest first. At equal distance, submaps with an
+/// index close to `anchor` come first, so that the submap in question is found even if the sensor
+/// stood still for a long time.
 std::vector<std::size_t> search_radius(const std::vector<BufferedSubmap>& buffer,
                                        const Eigen::Vector3d& position, double radius,
                                        std::size_t most, std::size_t anchor);

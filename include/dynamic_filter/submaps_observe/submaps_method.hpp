@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-/// The paper's method: scans are cleaned window by window and become submaps, and submaps observe
-/// (Fig. 2). Removert is a variant of it: one window over the whole sequence, and no back-end.
+/// The paper's method (Fig. 2): the front-end cleans the scans of each window and makes a submap of
+/// them; the submaps are then the observers of the back-end. Removert is run as a variant of it,
+/// with one window over the whole sequence and without back-end.
 #pragma once
 
 #include "dynamic_filter/config.hpp"
@@ -48,8 +49,9 @@ private:
         Point center;
         float radius;  // [m]
     };
-    std::optional<Kept> kept_;             // of the submaps, once some are forgotten
-    StageTimes front_times_, back_times_;  // of judge() and of the rest: they may run together
+    std::optional<Kept> kept_;  // where submaps are kept, once some were removed
+    // Times of judge() and of the rest, which may run at the same time.
+    StageTimes front_times_, back_times_;
 };
 
 }  // namespace dynamic_filter

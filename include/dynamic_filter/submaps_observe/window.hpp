@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// The temporally consecutive scans that become one submap (Sec. III-B).
+/// Windows of consecutive scans, each of which becomes one submap (Sec. III-B).
 #pragma once
 
 #include <optional>
@@ -10,27 +10,26 @@
 
 namespace dynamic_filter {
 
-/// All scans give points to the submap; its keyframes also observe. Thinning the observers, not the
-/// points, lets a window span the seconds in which people move away (n matters by the time it
-/// spans).
+/// A window of scans. All scans give points to the submap, but only the keyframes are observers.
+/// This lets a window span several seconds, in which people move away, at a limited cost.
 struct Window {
     std::vector<Scan> scans;             ///< `T_world_sensor` is relative to the map frame here
-    std::vector<std::size_t> keyframes;  ///< indices into scans, ascending; the first is 0
+    std::vector<std::size_t> keyframes;  ///< indices into `scans`, ascending; the first is 0
 };
 
-/// Cuts a stream of scans into disjoint windows of n keyframes, by stamps and poses of the data,
-/// never by the clock. Single caller.
+/// Cuts a stream of scans into disjoint windows of n keyframes. It uses the stamps and poses of the
+/// scans, never the time of day, so the windows are reproducible. Single caller.
 class WindowCutter {
 public:
-    /// `keyframes`: how many make a window.
+    /// `keyframes` is the number of keyframes per window.
     WindowCutter(const KeyframeConfig& config, int keyframes)
         : config_(config), keyframes_(static_cast<std::size_t>(keyframes)) {}
 
-    /// Adds a scan; returns the window before it if this scan starts a new one.
+    /// Adds a scan. If the scan starts a new window, returns the previous window.
     std::optional<Window> push(Scan scan);
-    /// Returns what is left, if anything.
+    /// Returns the remaining scans as a window, if there are any.
     std::optional<Window> flush();
-    /// Scans pushed so far.
+    /// Number of scans pushed so far.
     [[nodiscard]] std::size_t scans() const { return scans_; }
 
 private:

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 using Open = std::unique_ptr<BagFile> (*)(const fs::path&);
 
-/// nullptr: no bag.
+/// Returns nullptr if the extension is not that of a bag.
 Open opener_for(const fs::path& path) {
     const std::string name = to_lower(path.filename().string());
     if (name.ends_with(".mcap")) return open_mcap;
@@ -25,7 +25,7 @@ Open opener_for(const fs::path& path) {
     return nullptr;
 }
 
-/// By its first bytes, whatever it is called; nullptr: no bag.
+/// Chooses by the first bytes, for any file name; returns nullptr if the file is no bag.
 Open opener_by_content(const fs::path& file) {
     const std::string kind = kind_by_content(read_head(file, 16));
     if (kind == "an MCAP bag") return open_mcap;
@@ -39,8 +39,8 @@ bool is_compressed_bag(const fs::path& path) {
     return name.ends_with(".db3.zstd") || name.ends_with(".mcap.zstd");
 }
 
-/// In the order of their names, which carry numbers; of one kind, because a bag that was converted
-/// lies beside its copy otherwise.
+/// The bag files of a folder in the order of their names, which contain numbers. Only files of one
+/// kind are returned, because a converted bag often lies beside the original.
 std::vector<fs::path> bags_in(const fs::path& folder) {
     std::vector<fs::path> files;
     std::error_code error;

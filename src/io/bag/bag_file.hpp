@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// What the three kinds of files have in common.
+/// The common interface of the three kinds of bag files.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 namespace dynamic_filter::io {
 
-/// `chunk` and `offset` are what the kind of file makes of them.
+/// A message in a file. Each kind of file defines the meaning of `chunk` and `offset`.
 struct FoundMessage {
     const Topic& topic;
     std::int64_t recorded_ns = 0;
@@ -30,7 +30,7 @@ public:
     BagFile(const BagFile&) = delete;
     BagFile& operator=(const BagFile&) = delete;
     virtual ~BagFile() = default;
-    /// Returns what could not be read.
+    /// Calls `use` for every message. Returns what could not be read.
     virtual std::vector<Defect> for_each(const UseMessage& use) const = 0;
     [[nodiscard]] virtual std::vector<std::byte> read(std::uint64_t chunk,
                                                       std::uint64_t offset) const = 0;
@@ -40,7 +40,8 @@ std::unique_ptr<BagFile> open_mcap(const std::filesystem::path& file);
 std::unique_ptr<BagFile> open_rosbag1(const std::filesystem::path& file);
 std::unique_ptr<BagFile> open_rosbag2(const std::filesystem::path& file);
 
-/// "sensor_msgs/PointCloud2" for "sensor_msgs/msg/PointCloud2" and for the DDS name.
+/// Normalizes a type: returns "sensor_msgs/PointCloud2" for "sensor_msgs/msg/PointCloud2" and for
+/// the name of DDS.
 std::string plain_type(const std::string& type);
 
 }  // namespace dynamic_filter::io

@@ -15,7 +15,7 @@ namespace {
 
 using Create = std::unique_ptr<BagWriter> (*)(const std::filesystem::path&);
 
-/// nullptr: no bag.
+/// Returns nullptr if the extension is not that of a bag.
 Create creator_for(const std::filesystem::path& path) {
     const std::string extension = to_lower(path.extension().string());
     if (extension == ".mcap") return create_mcap;
@@ -45,9 +45,10 @@ std::pair<std::size_t, bool> TopicTable::number_of(const Topic& topic) {
                                              topic.name, found->type, topic.type));
     }
     if (topic.encoding != encoding_) {
-        throw OutputError(
-            file_, fmt::format("topic {} is packed as ROS {} does; this bag is not", topic.name,
-                               encoding_ == MessageEncoding::cdr ? 1 : 2));
+        throw OutputError(file_,
+                          fmt::format("the messages of topic {} have the encoding of ROS {}; this "
+                                      "kind of bag has the other one",
+                                      topic.name, encoding_ == MessageEncoding::cdr ? 1 : 2));
     }
     if (find_definition(topic.type) == nullptr) {
         throw OutputError(file_, fmt::format("topic {}: the definition of {} is not known",

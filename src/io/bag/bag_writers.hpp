@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// What the three kinds of written bags have in common.
+/// Code that the three bag writers share.
 #pragma once
 
 #include <cstddef>
@@ -20,13 +20,14 @@ std::unique_ptr<BagWriter> create_rosbag2(const std::filesystem::path& file);
 
 constexpr std::size_t kChunkBytes = std::size_t{1} << 20U;
 
-/// Topics in the order of their first use.
+/// Numbers the topics in the order of their first use.
 class TopicTable {
 public:
     TopicTable(std::filesystem::path file, MessageEncoding encoding)
         : file_(std::move(file)), encoding_(encoding) {}
 
-    /// Its number, and if it is new. Throws OutputError if the bag cannot have it.
+    /// Returns the number of the topic, and true if it is new. Throws OutputError if the bag cannot
+    /// hold the topic.
     std::pair<std::size_t, bool> number_of(const Topic& topic);
     [[nodiscard]] const std::vector<Topic>& all() const { return topics_; }
 
@@ -39,10 +40,10 @@ private:
 /// Throws OutputError for a time before 1970.
 void check_time(const std::filesystem::path& file, std::int64_t time_ns);
 
-/// True for the topics whose messages hold until the next one, for those who listen later.
+/// True for latched topics: late subscribers get their last message, too.
 bool is_latched(const Topic& topic);
 
-/// ROS 2's quality of service as its bags have it (YAML).
+/// The quality-of-service settings of ROS 2, in the YAML form that bags contain.
 std::string offered_qos(const Topic& topic);
 
 }  // namespace dynamic_filter::io

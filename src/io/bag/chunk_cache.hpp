@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// The chunks read last: messages are read about in the order in which they lie in them.
+/// A cache of the chunks that were read last, because messages are read roughly in the order in
+/// which they are stored.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +16,8 @@ namespace dynamic_filter::io {
 
 using Chunk = std::shared_ptr<const std::vector<std::byte>>;
 
-/// Thread-safe. Two threads may read the same chunk at once; none waits for the other.
+/// Thread-safe. Two threads may read the same chunk at the same time; they do not wait for each
+/// other.
 class ChunkCache {
 public:
     Chunk at(std::uint64_t offset, const std::function<std::vector<std::byte>()>& read) const {
@@ -35,7 +37,7 @@ public:
 private:
     static constexpr std::size_t kMost = 4;
     mutable std::mutex mutex_;
-    mutable std::vector<std::pair<std::uint64_t, Chunk>> chunks_;  // the oldest first
+    mutable std::vector<std::pair<std::uint64_t, Chunk>> chunks_;  // oldest first
 };
 
 }  // namespace dynamic_filter::io

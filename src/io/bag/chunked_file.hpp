@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Where MCAP and ROS 1 bags agree: records, some of them chunks that hold records themselves.
+/// The common part of MCAP and ROS 1 bags: both consist of records, and some records are chunks
+/// that contain records.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +17,8 @@ namespace dynamic_filter::io {
 
 constexpr std::uint64_t kNoChunk = UINT64_MAX;
 
-/// A message is found by the chunk it lies in, and its record's offset there; without a chunk, by
-/// its record's offset in the file.
+/// A message is located by its chunk and by the offset of its record in the chunk. A message
+/// outside of chunks is located by the offset of its record in the file.
 class ChunkedFile : public BagFile {
 public:
     explicit ChunkedFile(const std::filesystem::path& path) : file_(path) {}
@@ -26,12 +27,12 @@ public:
 
 protected:
     [[nodiscard]] const InputFile& file() const { return file_; }
-    // These throw Malformed.
-    /// The whole record, or as much of it as the file holds.
+    // The following functions throw Malformed.
+    /// The whole record, or the part of it that the file contains.
     [[nodiscard]] virtual std::vector<std::byte> record_at(std::uint64_t at) const = 0;
-    /// The content of the chunk whose record is at that place.
+    /// Content of the chunk whose record begins at `at`.
     [[nodiscard]] virtual std::vector<std::byte> read_chunk(std::uint64_t at) const = 0;
-    /// The data of the message whose record begins there.
+    /// Data of the message whose record begins at this place.
     [[nodiscard]] virtual std::vector<std::byte> message_in(std::span<const std::byte> bytes,
                                                             std::uint64_t offset) const = 0;
 

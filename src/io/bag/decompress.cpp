@@ -17,7 +17,7 @@
 namespace dynamic_filter::io {
 namespace {
 
-/// What one step took in and gave out; `end`: no more will come.
+/// Numbers of bytes that one step read and wrote; `end`: the stream is complete.
 struct Step {
     std::size_t taken = 0, given = 0;
     bool end = false, damaged = false;
@@ -29,7 +29,7 @@ std::uint64_t most_output(std::size_t input, std::uint64_t declared) {
     return std::min(declared, kFree + kRatio * input);
 }
 
-/// Runs the decoder until it ends, is stuck or has filled `most` bytes.
+/// Runs the decoder until it ends, makes no progress, or has written `most` bytes.
 Decompressed run(const Decoder& decode, std::span<const std::byte> in, std::uint64_t declared) {
     constexpr std::size_t kStep = std::size_t{1} << 20U;
     const std::uint64_t most = most_output(in.size(), declared);
@@ -56,7 +56,7 @@ Decompressed unzstd(std::span<const std::byte> bytes, std::uint64_t size) {
     const std::unique_ptr<ZSTD_DStream, decltype(&ZSTD_freeDStream)> stream(ZSTD_createDStream(),
                                                                             ZSTD_freeDStream);
     if (!stream) throw std::bad_alloc();
-    // What a window may take is decided before any content is seen.
+    // Limits the memory of the window before any content is read.
     ZSTD_DCtx_setParameter(stream.get(), ZSTD_d_windowLogMax, 27);
     return run(
         [&](std::span<const std::byte> in, std::span<std::byte> out) -> Step {
@@ -71,7 +71,7 @@ Decompressed unzstd(std::span<const std::byte> bytes, std::uint64_t size) {
 
 Decompressed unlz4_block(std::span<const std::byte> bytes, std::uint64_t size) {
     constexpr auto kMost = static_cast<std::uint64_t>(std::numeric_limits<int>::max());
-    constexpr std::uint64_t kRatio = 255;  // of the format: a byte repeats what was that often
+    constexpr std::uint64_t kRatio = 255;  // largest ratio of the format
     const std::uint64_t most = std::min<std::uint64_t>(size, kRatio * bytes.size());
     if (most > kMost || bytes.size() > kMost) return {};
     Decompressed out{std::vector<std::byte>(static_cast<std::size_t>(most)), false};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The format: https://mcap.dev/spec. The index at the end is not needed, so a file that was never
-// closed reads as well as any; it helps where a chunk is damaged.
+// Format: https://mcap.dev/spec. The index at the end is not needed, so files that were never
+// closed can be read. If there is an index, it helps where a chunk is damaged.
 #include <fmt/format.h>
 #include <zlib.h>
 
@@ -34,11 +34,11 @@ struct ChunkRecord {
     std::uint64_t size = 0;
     std::uint32_t crc = 0;
     std::string_view compression;
-    std::span<const std::byte> bytes;  // as many as there are
+    std::span<const std::byte> bytes;  // the bytes of the record that the file contains
 };
 ChunkRecord parse_chunk(std::span<const std::byte> content) {
     ByteReader in(content);
-    in.take(16);  // first and last time
+    in.take(16);  // skips the first and the last time
     ChunkRecord chunk;
     chunk.size = in.number<std::uint64_t>();
     chunk.crc = in.number<std::uint32_t>();
@@ -48,7 +48,7 @@ ChunkRecord parse_chunk(std::span<const std::byte> content) {
     return chunk;
 }
 
-/// Schemas and channels met so far, and the messages on the channels that can be used.
+/// Collects the schemas and channels, and the messages on usable channels.
 class Reader {
 public:
     Reader(const UseMessage& use, std::vector<Defect>& defects) : use_(use), defects_(defects) {}
@@ -66,8 +66,8 @@ public:
 
     void finish() {
         if (unannounced_ == 0) return;
-        defects_.push_back(
-            {fmt::format("{} messages of channels never announced are left out", unannounced_)});
+        defects_.push_back({fmt::format(
+            "{} messages of channels without a channel record are left out", unannounced_)});
     }
 
 private:
@@ -91,7 +91,7 @@ private:
         const auto channel = topics_.find(id);
         in.take(4);  // sequence
         const auto recorded = static_cast<std::int64_t>(in.number<std::uint64_t>());
-        in.take(8);  // published
+        in.take(8);  // time of publishing
         if (channel == topics_.end()) {
             if (!others_.contains(id)) ++unannounced_;
             return;
@@ -103,7 +103,7 @@ private:
     std::vector<Defect>& defects_;
     std::map<std::uint16_t, std::string> schemas_;
     std::map<std::uint16_t, Topic> topics_;
-    std::set<std::uint16_t> others_;  // channels of JSON, protobuf, ...
+    std::set<std::uint16_t> others_;  // channels with other encodings, such as JSON and protobuf
     std::size_t unannounced_ = 0;
 };
 
@@ -176,11 +176,13 @@ private:
         return decompress(chunk.compression, chunk.bytes, chunk.size).bytes;
     }
 
-    /// Schemas and channels are told there again: those of a damaged chunk are known all the same.
+    /// Reads schemas and channels from the summary, which repeats them; so those of damaged chunks
+    /// are known, too.
     void take_summary(Reader& reader) const {
         constexpr std::uint64_t kFooterBytes = kRecordHead + 20, kCrcBytes = 4;
         constexpr std::uint64_t kEnd = kFooterBytes + kMagic.size();
-        constexpr std::uint64_t kMost = std::uint64_t{64} << 20U;  // it is only a help
+        // Limit, because the summary is optional.
+        constexpr std::uint64_t kMost = std::uint64_t{64} << 20U;
         if (file().size() < kMagic.size() + kEnd) return;
         const std::uint64_t end = file().size() - kEnd;
         const auto footer = file().read(end, kFooterBytes);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The format: https://mcap.dev/spec, with what ROS 2's player looks for.
+// Format: https://mcap.dev/spec, with the entries that the player of ROS 2 needs.
 #include <fmt/format.h>
 #include <zlib.h>
 #include <zstd.h>
@@ -84,13 +84,14 @@ struct IndexEntry {
 struct OpenChunk {
     ByteWriter records;
     Times times;
-    std::map<std::uint16_t, std::vector<IndexEntry>> index;  // by channel
+    std::map<std::uint16_t, std::vector<IndexEntry>> index;  // per channel
 };
 
-/// Where the index of each channel of a chunk begins.
+/// File offset of the index of each channel of a chunk.
 using IndexOffsets = std::map<std::uint16_t, std::uint64_t>;
 
-/// A schema's number is that of its type's first topic, behind 0, which means none.
+/// Schemas are numbered like the first topic of their type, starting at 1, because 0 means "no
+/// schema".
 class McapWriter final : public BagWriter {
 public:
     explicit McapWriter(const std::filesystem::path& path)
@@ -118,8 +119,8 @@ public:
         out.number(static_cast<std::uint64_t>(kBeforeData + data.size()));
         out.number(channel);
         out.number(static_cast<std::uint32_t>(counts_[channel]++));
-        out.number(time);  // recorded
-        out.number(time);  // published
+        out.number(time);  // time of recording
+        out.number(time);  // time of publishing
         out.raw(data);
         if (out.bytes.size() >= kChunkBytes) put_chunk();
     }
@@ -127,7 +128,8 @@ public:
     void commit() override {
         if (!chunk_.records.bytes.empty()) put_chunk();
         ByteWriter end;
-        end.number(std::uint32_t{0});  // no checksum of it all: each chunk has its own
+        // No checksum of the whole file, because each chunk has its own.
+        end.number(std::uint32_t{0});
         put_record(kDataEnd, end.bytes);
         put_summary();
         put(as_byte_span(kMagic));
@@ -192,7 +194,7 @@ private:
         return offsets;
     }
 
-    /// For the summary; the record is written at the end.
+    /// Stores the index of a chunk for the summary; the record is written at the end.
     void put_chunk_index(std::uint64_t begin, std::uint64_t end, const IndexOffsets& offsets,
                          std::size_t packed_bytes) {
         ByteWriter list, record;
@@ -223,8 +225,8 @@ private:
         record.number(messages);
         record.number(schema_count());
         record.number(static_cast<std::uint32_t>(topics_.all().size()));
-        record.number(std::uint32_t{0});  // attachments
-        record.number(std::uint32_t{0});  // metadata
+        record.number(std::uint32_t{0});  // number of attachments
+        record.number(std::uint32_t{0});  // number of metadata records
         record.number(chunks_);
         times_.put(record);
         record.block(counts.bytes);
@@ -298,8 +300,8 @@ private:
     std::uint64_t at_ = 0;
     TopicTable topics_;
     OpenChunk chunk_;
-    std::map<std::uint16_t, std::uint64_t> counts_;  // messages, by channel
-    ByteWriter schemas_, channels_, chunk_indices_;  // records, for the summary
+    std::map<std::uint16_t, std::uint64_t> counts_;  // numbers of messages per channel
+    ByteWriter schemas_, channels_, chunk_indices_;  // records for the summary
     std::uint32_t chunks_ = 0;
     Times times_;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The format: ROS bag 2.0. Records one after the other; the index is not needed, so .bag.active and
-// truncated files are read, too.
+// Format: ROS bag 2.0, a sequence of records. The index is not needed, so .bag.active and truncated
+// files can be read.
 #include <fmt/format.h>
 
 #include <map>
@@ -17,7 +17,7 @@ enum Opcode : std::uint8_t { kMessage = 0x02, kBagHeader, kChunk = 0x05, kConnec
 
 constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
 
-/// name=value, each behind its length.
+/// Header of a record: name=value fields, each with its length before it.
 class Header {
 public:
     explicit Header(std::span<const std::byte> bytes) {
@@ -50,7 +50,7 @@ private:
 
 struct Record {
     Header header;
-    std::span<const std::byte> data;  // as many bytes as there are
+    std::span<const std::byte> data;  // the bytes of the record that the file contains
     bool whole;
 };
 Record take_record(ByteReader& in) {
@@ -72,7 +72,7 @@ public:
         if (opcode == kMessage) take_message(record, chunk, offset);
     }
 
-    /// What shows only at the end, `size` bytes behind the beginning.
+    /// Adds the defects that show only at the end of the file; `size` is its size.
     void finish(std::uint64_t size, std::vector<Defect>& defects) const {
         if (index_at_ == 0) {
             defects.push_back({"was never closed, so its end may be missing", false});
@@ -82,8 +82,9 @@ public:
                 {fmt::format("ends at byte {}, before its index at byte {}", size, index_at_)});
         }
         if (unannounced_ > 0) {
-            defects.push_back({fmt::format(
-                "{} messages of connections never announced are left out", unannounced_)});
+            defects.push_back(
+                {fmt::format("{} messages of connections without a connection record are left out",
+                             unannounced_)});
         }
     }
 
@@ -139,7 +140,7 @@ public:
                     reader.take(record, kNoChunk, at);
                 }
                 at += bytes.size();
-            } catch (const Malformed& error) {  // where the next begins is not known, then
+            } catch (const Malformed& error) {  // the start of the next record is then not known
                 defects.push_back({fmt::format("the record at byte {} {}", at, error.what())});
                 break;
             }
@@ -167,7 +168,8 @@ private:
         return file().read(at, std::min(size, there));
     }
 
-    /// Connections are told there again: those of a damaged chunk are known all the same.
+    /// Reads the connections from the index, which repeats them; so those of damaged chunks are
+    /// known, too.
     void take_index(Reader& reader) const {
         try {
             const auto head = record_at(kMagic.size());
@@ -182,7 +184,7 @@ private:
                 reader.take(record, kNoChunk, at);
                 at += bytes.size();
             }
-        } catch (const Malformed&) {  // it was only a help
+        } catch (const Malformed&) {  // ignored, because the index is optional
         }
     }
 
@@ -204,7 +206,7 @@ private:
         };
         try {
             const Decompressed content = content_of(chunk);
-            if (!content.complete) note("is damaged or cut off; what could be had of it was read");
+            if (!content.complete) note("is damaged or cut off; only its readable part was read");
             ByteReader in(content.bytes);
             while (in.left() > 0) {
                 const std::size_t offset = in.at();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The format: ROS bag 2.0. Chunks are lz4 frames as ROS's own reader takes them.
+// Format: ROS bag 2.0. Chunks are lz4 frames of the kind that ROS can read.
 #include <fmt/format.h>
 #include <lz4frame.h>
 
@@ -22,7 +22,7 @@ constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
 constexpr std::size_t kBagHeaderBytes = 4096;
 constexpr std::int64_t kSecond = 1'000'000'000;
 
-/// name=value, each behind its length.
+/// Header of a record: name=value fields, each with its length before it.
 struct Fields {
     ByteWriter out;
     Fields& text(std::string_view name, std::string_view value) {
@@ -49,7 +49,7 @@ void put_record(ByteWriter& out, const Fields& head, std::span<const std::byte> 
     out.block(data);
 }
 
-/// Seconds and nanoseconds, in 32 bits each.
+/// Seconds and nanoseconds in 32 bits each.
 std::uint64_t wire_time(std::int64_t time_ns) {
     return static_cast<std::uint64_t>(time_ns / kSecond) |
            static_cast<std::uint64_t>(time_ns % kSecond) << 32U;
@@ -62,7 +62,7 @@ struct IndexEntry {
 struct OpenChunk {
     ByteWriter records;
     std::int64_t first = std::numeric_limits<std::int64_t>::max(), last = 0;
-    std::map<std::uint32_t, std::vector<IndexEntry>> index;  // by connection
+    std::map<std::uint32_t, std::vector<IndexEntry>> index;  // per connection
 };
 
 void put_connection(ByteWriter& out, std::uint32_t number, const Topic& topic) {
@@ -79,7 +79,7 @@ void put_connection(ByteWriter& out, std::uint32_t number, const Topic& topic) {
 std::vector<std::byte> lz4_frame(std::span<const std::byte> plain,
                                  const std::filesystem::path& path) {
     LZ4F_preferences_t preferences{};
-    preferences.frameInfo.blockMode = LZ4F_blockIndependent;  // ROS reads no other
+    preferences.frameInfo.blockMode = LZ4F_blockIndependent;  // ROS reads no other mode
     preferences.frameInfo.blockSizeID = LZ4F_max1MB;
     preferences.frameInfo.contentChecksumFlag = LZ4F_contentChecksumEnabled;
     std::vector<std::byte> packed(LZ4F_compressFrameBound(plain.size(), &preferences));
@@ -133,7 +133,7 @@ public:
     }
 
 private:
-    /// 32 bits are all that the format has for sizes and seconds.
+    /// The format stores sizes and seconds in 32 bits.
     void check(std::int64_t time_ns, std::size_t size) const {
         check_time(path_, time_ns);
         constexpr std::int64_t kMostSeconds = std::numeric_limits<std::uint32_t>::max();
@@ -222,7 +222,7 @@ private:
     std::uint64_t at_ = 0;
     TopicTable topics_;
     OpenChunk chunk_;
-    ByteWriter chunk_infos_;  // records, for the end
+    ByteWriter chunk_infos_;  // records for the end of the file
     std::uint32_t chunks_ = 0;
 };
 

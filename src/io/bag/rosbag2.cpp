@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A ROS 2 bag's SQLite file: tables `topics` and `messages`.
+// Reads the SQLite file of a ROS 2 bag, with the tables `topics` and `messages`.
 #include <fmt/format.h>
 #include <sqlite3.h>
 #include <zstd.h>
@@ -18,7 +18,7 @@ constexpr std::string_view kMagic{"SQLite format 3\0", 16};
 
 using Database = std::unique_ptr<sqlite3, decltype(&sqlite3_close)>;
 
-/// Percent-encoded, so that no character of the path is taken for one of the URI.
+/// Percent-encodes the path, so that no character of it has a meaning in the URI.
 std::string uri_of(const std::filesystem::path& path, const char* mode) {
     std::string uri = "file:";
     for (const char c : path.string()) {
@@ -41,7 +41,7 @@ Database open_database(const std::filesystem::path& path) {
                             nullptr) == SQLITE_OK;
     };
     Database database = open("mode=ro");
-    // A log beside the file cannot be used in a folder that may not be written.
+    // In a folder without write permission, SQLite cannot use a write-ahead log beside the file.
     if (!usable(database)) database = open("mode=ro&immutable=1");
     if (!usable(database)) {
         throw InputError(path, "",
@@ -58,7 +58,7 @@ public:
         statement_.reset(raw);
     }
     bool next() { return statement_ && (state_ = sqlite3_step(statement_.get())) == SQLITE_ROW; }
-    /// Not the database's, which another thread's statement may have set.
+    /// Message of this statement; that of the database may belong to a statement of another thread.
     [[nodiscard]] const char* error() const { return sqlite3_errstr(state_); }
     [[nodiscard]] bool finished() const { return state_ == SQLITE_DONE; }
     void bind(std::int64_t value) { sqlite3_bind_int64(statement_.get(), 1, value); }
@@ -78,7 +78,7 @@ private:
     int state_ = SQLITE_ERROR;
 };
 
-/// rosbag2 may compress each message on its own.
+/// Decompresses a message, because rosbag2 can compress messages one by one.
 std::vector<std::byte> uncompressed(std::span<const std::byte> bytes) {
     constexpr std::uint32_t kZstd = 0xFD2FB528;
     if (bytes.size() < 4 || little_endian<std::uint32_t>(bytes.data()) != kZstd) {
@@ -86,14 +86,15 @@ std::vector<std::byte> uncompressed(std::span<const std::byte> bytes) {
     }
     const auto size = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
     if (size == ZSTD_CONTENTSIZE_ERROR || size == ZSTD_CONTENTSIZE_UNKNOWN) {
-        throw Malformed("is compressed, and does not say to how much");
+        throw Malformed("is compressed, but does not contain its uncompressed size");
     }
     Decompressed content = decompress("zstd", bytes, size);
     if (!content.complete) throw Malformed("is compressed, and damaged");
     return std::move(content.bytes);
 }
 
-/// SQLite takes a last page that is cut off for one that ends in zeros.
+/// Size from the header of the database. SQLite would read a truncated last page as if it ended in
+/// zeros.
 std::uint64_t declared_size(const std::filesystem::path& path) {
     constexpr std::size_t kHeader = 100, kPageSize = 16, kPages = 28;
     const std::string head = read_head(path, kHeader);
@@ -175,7 +176,8 @@ private:
 }  // namespace
 
 std::unique_ptr<BagFile> open_rosbag2(const std::filesystem::path& file) {
-    if (read_head(file, kMagic.size()) != kMagic) {  // SQLite would take an empty file for one
+    // Checked here, because SQLite takes an empty file for a database.
+    if (read_head(file, kMagic.size()) != kMagic) {
         throw InputError(file, "byte 0", "is no ROS 2 bag: it does not begin as SQLite files do");
     }
     return std::make_unique<Rosbag2>(file);

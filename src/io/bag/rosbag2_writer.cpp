@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A ROS 2 bag's SQLite file, as version 4 of its schema has it.
+// Writes the SQLite file of a ROS 2 bag, with version 4 of its schema.
 #include <fmt/format.h>
 #include <sqlite3.h>
 
@@ -13,7 +13,7 @@
 namespace dynamic_filter::io {
 namespace {
 
-// Nobody else sees the file before it is renamed, so SQLite's own journal has nothing to protect.
+// The file is visible to others only after it is renamed, so the journal of SQLite is not needed.
 constexpr const char* kSchema = R"(
 PRAGMA journal_mode = OFF;
 PRAGMA synchronous = OFF;
@@ -50,7 +50,7 @@ public:
                           SQLITE_TRANSIENT);
         return *this;
     }
-    Insert& bytes(std::span<const std::byte> value) {  // no data would be NULL
+    Insert& bytes(std::span<const std::byte> value) {  // a null pointer would become NULL
         const void* data = value.empty() ? "" : static_cast<const void*>(value.data());
         sqlite3_bind_blob(statement_.get(), ++column_, data, static_cast<int>(value.size()),
                           SQLITE_STATIC);
@@ -103,7 +103,7 @@ public:
 
 private:
     static sqlite3* open(const std::filesystem::path& file) {
-        sqlite3* raw = nullptr;  // what fails here fails again at the first statement
+        sqlite3* raw = nullptr;  // errors here show again at the first statement
         sqlite3_open_v2(file.c_str(), &raw, SQLITE_OPEN_READWRITE, nullptr);
         return raw;
     }
@@ -138,7 +138,8 @@ private:
     AtomicFile file_;
     TopicTable topics_;
     std::unique_ptr<sqlite3, decltype(&sqlite3_close)> database_;
-    std::unique_ptr<Insert> insert_;  // goes before the database
+    // Declared after the database, so that it is destroyed before it.
+    std::unique_ptr<Insert> insert_;
 };
 
 }  // namespace

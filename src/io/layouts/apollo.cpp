@@ -28,7 +28,7 @@ using Rows = std::map<std::size_t, Row>;
 
 bool is_comment(std::string_view line) { return line.empty() || line.front() == '#'; }
 
-/// The first row tells: nine columns, of which the first is a whole number.
+/// Decides by the first row: it has nine columns, and the first one is a whole number.
 bool has_nine_columns(const fs::path& file) {
     const std::string head = read_head(file, 4096);
     Lines lines(head, file);
@@ -81,7 +81,7 @@ std::optional<fs::path> pose_file_of(const fs::path& data, const OpenOptions& op
     return std::nullopt;
 }
 
-/// All or none: without its row, nothing says when a scan was taken.
+/// Adds the stamps of all scans, or of none: without its row, the time of a scan is not known.
 void add_stamps(Layout& layout, const Rows& rows) {
     for (const fs::path& scan : layout.scans) {
         const auto index = index_of(scan);

@@ -20,7 +20,7 @@ struct Found {
     std::size_t scans = 0;
 };
 
-/// What a run left holds clouds, but none of a sensor.
+/// True for the output folder of a run, whose clouds are no scans.
 bool is_passed_over(const fs::path& folder) {
     return folder.filename().string().starts_with('.') ||
            (present(folder / "run.log") && present(folder / "config.toml"));

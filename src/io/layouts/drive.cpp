@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Three numbers parted by `separator`.
+/// Three numbers with `separator` between them.
 std::optional<std::array<double, 3>> three(std::string_view text, char separator) {
     const auto cells = split_at(text, separator);
     if (cells.size() != 3) return std::nullopt;
@@ -30,7 +30,7 @@ std::optional<std::array<double, 3>> three(std::string_view text, char separator
     return numbers;
 }
 
-/// "2011-09-26 13:02:25.951199337" in seconds since 1970.
+/// Converts "2011-09-26 13:02:25.951199337" to seconds since 1970.
 std::optional<double> seconds_of(std::string_view line) {
     const auto tokens = split_tokens(line);
     const auto date = tokens.size() == 2 ? three(tokens[0], '-') : std::nullopt;
@@ -47,7 +47,7 @@ std::optional<double> seconds_of(std::string_view line) {
     return 86400.0 * days + 3600.0 * (*time)[0] + 60.0 * (*time)[1] + (*time)[2];
 }
 
-/// A row a line; blank ones stand for scans that are missing.
+/// One stamp per line; blank lines stand for missing scans.
 std::vector<std::optional<double>> read_timestamps(const fs::path& file) {
     const std::string text = read_file(file);
     Lines lines(text, file);

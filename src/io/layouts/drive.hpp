@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// What the raw drives of KITTI and those of KITTI-360 have in common: velodyne_points/data/*.bin
+/// Common parts of the raw drives of KITTI and of those of KITTI-360: velodyne_points/data/*.bin
 /// with velodyne_points/timestamps.txt.
 #pragma once
 
@@ -10,17 +10,19 @@
 
 namespace dynamic_filter::io {
 
-/// Whether a folder holds velodyne_points/data.
+/// True if a folder contains velodyne_points/data.
 bool is_drive(const std::filesystem::path& folder);
 
-/// The drive that `data`, its velodyne_points or the data in there belongs to, if any.
+/// The drive to which `data` belongs, if any; `data` may be its velodyne_points or the data folder
+/// in it.
 std::optional<std::filesystem::path> drive_of(const std::filesystem::path& data);
 
-/// Its scans, and their stamps if there are any. A scan's row of timestamps.txt is the one of its
-/// number, as some scans of some drives are missing. Throws InputError.
+/// The scans of a drive, and their stamps if there are any. The stamp of a scan is in the row of
+/// timestamps.txt with the number of the scan, because some drives have missing scans. Throws
+/// InputError.
 Layout scans_of_drive(const std::filesystem::path& drive);
 
-/// Poses are not looked for if they were given or are not wanted: then the layout is complete.
+/// True if poses are given by the user or not wanted; the layout is then complete.
 bool needs_no_poses(Layout& layout, const OpenOptions& options);
 
 }  // namespace dynamic_filter::io

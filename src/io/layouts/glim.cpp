@@ -20,7 +20,7 @@ constexpr std::size_t position_bytes = 3 * sizeof(float);
 
 struct Submap {
     std::optional<Pose> T_world_origin;
-    std::vector<double> stamps;  ///< [s] of its frames
+    std::vector<double> stamps;  ///< [s] stamps of its frames
 };
 
 Submap read_data(const fs::path& file) {
@@ -58,7 +58,7 @@ std::optional<Layout> find_glim(const fs::path& data) {
         const Submap submap = read_data(folder / "data.txt");
         layout.scans.push_back(folder);
         layout.T_world_sensor.push_back(*submap.T_world_origin);
-        // A submap's origin is at the frame in its middle.
+        // The origin of a submap is at its middle frame.
         if (!submap.stamps.empty())
             layout.stamps.push_back(submap.stamps[submap.stamps.size() / 2]);
     }

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* scans_name = "data_3d_raw";
 
-/// The drive that is given, or the only one below data_3d_raw.
+/// The given drive, or the only one below data_3d_raw.
 std::optional<fs::path> find_drive(const fs::path& data) {
     if (const auto drive = drive_of(data)) {
         const bool is_one = whole_path(*drive).parent_path().filename() == scans_name;
@@ -34,7 +34,7 @@ std::optional<fs::path> find_drive(const fs::path& data) {
     return whole_path(drives[0]);
 }
 
-/// The row behind `name`, or of a file without names the first one.
+/// The pose in the row that begins with `name`; in a file without names, in the first row.
 Pose read_calibration(const fs::path& file, std::string_view name) {
     const std::string text = read_file(file);
     Lines lines(text, file);
@@ -49,14 +49,14 @@ Pose read_calibration(const fs::path& file, std::string_view name) {
                      name.empty() ? "holds no matrix" : fmt::format("has no line '{}'", name));
 }
 
-/// Where the sensor is on the vehicle, by way of the left camera.
+/// Pose of the sensor on the vehicle, computed via the left camera.
 Pose read_T_pose_velo(const fs::path& calibration) {
     const Pose T_velo_cam = read_calibration(calibration / "calib_cam_to_velo.txt", "");
     const Pose T_pose_cam = read_calibration(calibration / "calib_cam_to_pose.txt", "image_00:");
     return T_pose_cam * T_velo_cam.inverse();
 }
 
-/// Over the scans' numbers in place of time: rows "number, 3x4 matrix".
+/// Poses with the number of the scan in place of the time, from rows of "number, 3x4 matrix".
 Trajectory read_trajectory(const fs::path& file) {
     const std::string text = read_file(file);
     Lines lines(text, file);
@@ -69,7 +69,7 @@ Trajectory read_trajectory(const fs::path& file) {
         if (!number) lines.fail(quote(token) + " is no number of a scan");
         const auto at = static_cast<double>(*number);
         if (!trajectory.stamps.empty() && at <= trajectory.stamps.back()) {
-            lines.fail(fmt::format("scan {} comes behind {}; expected growing numbers", at,
+            lines.fail(fmt::format("scan {} comes after scan {}; expected increasing numbers", at,
                                    trajectory.stamps.back()));
         }
         const Pose pose = read_pose_row(rest, lines);
@@ -82,7 +82,7 @@ Trajectory read_trajectory(const fs::path& file) {
 }
 
 void add_poses(Layout& layout, const fs::path& file, const Pose& T_pose_velo) {
-    constexpr double longest_gap = 10.0;  // scans: the sensor turns ten times a second
+    constexpr double longest_gap = 10.0;  // scans; the sensor turns ten times per second
     const Trajectory trajectory = read_trajectory(file);
     std::size_t found = 0;
     for (const fs::path& scan : layout.scans) {
@@ -102,13 +102,13 @@ void add_poses(Layout& layout, const fs::path& file, const Pose& T_pose_velo) {
     note_lost(layout);
 }
 
-/// Why there are no poses; empty if there are.
+/// The reason why there are no poses; empty if there are.
 std::string what_is_missing(const fs::path& poses, const fs::path& calibration) {
     if (!present(poses)) return "no poses found; looked for " + poses.string();
     for (const char* name : {"calib_cam_to_velo.txt", "calib_cam_to_pose.txt"}) {
         if (present(calibration / name)) continue;
-        return "no poses: those of " + poses.string() + " are the vehicle's, and without " +
-               (calibration / name).string() + " nothing says where the sensor is on it";
+        return "no poses: " + poses.string() + " holds poses of the vehicle, and without " +
+               (calibration / name).string() + " the place of the sensor on it is not known";
     }
     return "";
 }

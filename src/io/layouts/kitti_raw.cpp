@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where the inertial unit is: degrees, metres, radians.
+/// Pose of the inertial unit: degrees, metres, radians.
 struct Oxts {
     double latitude, longitude, altitude, roll, pitch, yaw;
 };
@@ -42,8 +42,8 @@ Oxts read_oxts(const fs::path& file) {
 
 constexpr double degree = std::numbers::pi / 180.0;
 
-/// Mercator's projection, shrunk to be true at the latitude whose cosine is `scale`: x to the east,
-/// y to the north, z up, as in the data set's development kit.
+/// Mercator projection, scaled to be correct at the latitude whose cosine is `scale`. x points
+/// east, y north, z up, as in the development kit of the data set.
 Pose T_world_imu(const Oxts& at, double scale) {
     constexpr double earth = 6378137.0;  // [m] radius at the equator
     Pose pose = Pose::Identity();
@@ -81,7 +81,7 @@ Pose read_T_velo_imu(const fs::path& file) {
     return pose_from_rows(rows, lines);
 }
 
-/// Where the sensor is from the inertial unit. The file lies beside the drive of the same day.
+/// Pose of the sensor relative to the inertial unit, from the file in the folder of the same day.
 Pose find_T_imu_velo(const fs::path& drive, std::vector<std::string>& notes) {
     const char* name = "calib_imu_to_velo.txt";
     for (const fs::path& folder : {drive, whole_path(drive).parent_path()}) {
@@ -89,15 +89,15 @@ Pose find_T_imu_velo(const fs::path& drive, std::vector<std::string>& notes) {
         notes.push_back("the sensor's place on the vehicle from " + (folder / name).string());
         return read_T_velo_imu(folder / name).inverse();
     }
-    notes.push_back(
-        fmt::format("no {} in {} or above; the sensor is taken to be 0.81 m before, "
-                    "0.32 m right of and 0.80 m above the inertial unit, as on KITTI's "
-                    "car, and to look the same way",
-                    name, drive.string()));
+    notes.push_back(fmt::format(
+        "no {} in {} or above; the sensor is assumed to be 0.81 m in front of, 0.32 m right of and "
+        "0.80 m above the inertial unit, as on KITTI's car, and to have the same orientation",
+        name, drive.string()));
     return Pose(Eigen::Translation3d(0.81, -0.32, 0.80));
 }
 
-/// The world begins where the sensor is first known to be: degrees give large coordinates.
+/// Moves the origin of the world to the first known pose, because projected degrees give large
+/// coordinates.
 void put_first_at_origin(std::vector<Pose>& poses) {
     const auto known = [](const Pose& pose) { return pose.matrix().allFinite(); };
     const auto first = std::find_if(poses.begin(), poses.end(), known);
@@ -106,7 +106,8 @@ void put_first_at_origin(std::vector<Pose>& poses) {
     for (Pose& pose : poses) pose.translation() -= origin;
 }
 
-/// Each scan has the file of its own name; where that is missing, the pose is lost.
+/// The pose of each scan comes from the file with the same name; if it is missing, the pose is
+/// lost.
 std::vector<Pose> poses_of(const Layout& layout, const fs::path& folder, const Pose& T_imu_velo) {
     std::vector<Pose> poses;
     std::optional<double> scale;

@@ -6,7 +6,7 @@
 
 namespace dynamic_filter::io {
 
-/// The next four lines that are not blank, as the rows of a rigid motion; one that is not finite
+/// Reads the next four lines that are not blank as a rigid motion. A matrix with non-finite numbers
 /// becomes lost_pose(). Throws InputError.
 Pose read_matrix(Lines& lines);
 

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The data set's calibration: where the sensor is on the vehicle.
+/// Pose of the sensor on the vehicle, from the calibration of the data set.
 Pose T_vehicle_sensor() {
     constexpr double degree = std::numbers::pi / 180.0;
     Pose pose = Pose::Identity();
@@ -71,7 +71,9 @@ std::optional<Layout> find_mulran(const fs::path& data) {
     layout.notes.push_back("vehicle poses from " + poses.string() +
                            ", interpolated at the scans' times, converted with MulRan's "
                            "calibration of the Ouster");
-    if (lost != 0) layout.notes.push_back(fmt::format("{} scans have no pose around them", lost));
+    if (lost != 0)
+        layout.notes.push_back(
+            fmt::format("{} scans have no poses before and after them, and are rejected", lost));
     return layout;
 }
 

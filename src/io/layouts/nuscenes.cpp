@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-/// Calls `f` with each entry; an entry without what is asked of it is an error.
+/// Calls `f` with each entry of a table; throws if an entry lacks a required value.
 template <class F>
 void each_entry(const fs::path& file, const F& f) {
     try {
@@ -55,7 +55,7 @@ std::optional<fs::path> tables_of(const fs::path& data) {
     return tables;
 }
 
-/// The token of the scene of that name, or of the only one.
+/// The token of the scene with that name, or of the only scene.
 std::string scene_token(const fs::path& tables, const std::string& wanted) {
     std::string names, token;
     std::size_t count = 0;
@@ -66,7 +66,7 @@ std::string scene_token(const fs::path& tables, const std::string& wanted) {
     });
     if (token.empty() || (wanted.empty() && count > 1)) {
         throw InputError(tables, "",
-                         fmt::format("choose a scene by its name behind the folder's, such as "
+                         fmt::format("choose a scene by appending its name to the folder, such as "
                                      "{}; there are: {}",
                                      (tables.parent_path() / "scene-0061").string(), names));
     }
@@ -102,7 +102,7 @@ std::vector<Sweep> sweeps_of(const fs::path& data, const fs::path& tables,
     return sweeps;
 }
 
-/// The poses that are asked for: the table of a whole data set has millions.
+/// Reads only the required poses, because the table of the whole data set has millions.
 std::map<std::string, Pose> poses_of(const fs::path& file, const std::vector<Sweep>& sweeps,
                                      std::string Sweep::*token) {
     std::map<std::string, Pose> poses;

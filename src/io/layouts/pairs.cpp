@@ -21,7 +21,7 @@ Pose read_odom(const fs::path& file) {
     return pose;
 }
 
-/// "1500000000_200000000" as seconds and nanoseconds.
+/// Converts "1500000000_200000000" (seconds and nanoseconds) to seconds.
 std::optional<double> stamp_of(const std::string& stem) {
     const std::size_t line = stem.find('_');
     if (line == std::string::npos) return std::nullopt;

@@ -15,14 +15,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A row of a pose file has seven columns or more; a header and comments do not begin with numbers.
+/// True for a row of a pose file: it has at least seven columns and begins with a number, unlike
+/// headers and comments.
 bool is_row(std::string_view line) {
     const bool commas = line.find(',') != std::string_view::npos;
     const auto cells = commas ? split_at(line, ',') : split_tokens(line);
     return cells.size() >= 7 && parse_real(cells.front()).has_value();
 }
 
-/// How many rows look like poses; 0 for what is far too long to be the poses of so many scans.
+/// Number of rows that look like poses; 0 for a file that is far too long for this number of scans.
 std::size_t count_rows(const fs::path& file, std::size_t scans) {
     constexpr std::size_t longest_row = 1000;  // [bytes]
     std::error_code error;
@@ -63,7 +64,7 @@ void note_lost(Layout& layout) {
 }
 
 std::string offer_poses(std::size_t scans, const Paths& folders) {
-    constexpr std::size_t most = 100;  // a text file beside each scan is no pose file
+    constexpr std::size_t most = 100;  // if each scan has a text file, these are no pose files
     std::string offer;
     for (const fs::path& folder : folders) {
         std::error_code ignored;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// What is said about poses that are missing.
+/// Notes about missing poses.
 #pragma once
 
 #include <cstddef>
@@ -9,14 +9,15 @@
 
 namespace dynamic_filter::io {
 
-/// Notes how many of the scans have a pose that is not finite, if any.
+/// Adds a note with the number of scans that have a non-finite pose, if there are any.
 void note_lost(Layout& layout);
 
-/// "; try --poses FILE..." with what in the folders looks like the poses of so many scans: a usual
-/// name, or a row of seven or more numbers for each scan. Empty if nothing does.
+/// Returns "; try --poses FILE..." with the files in the folders that look like poses of this
+/// number of scans: they have a usual name, or a row of seven or more numbers per scan. Empty if
+/// there are none.
 std::string offer_poses(std::size_t scans, const Paths& folders);
 
-/// The names under which a pose file is looked for.
+/// Usual names of pose files, in the order in which they are looked for.
 const std::vector<std::string>& pose_names();
 
 }  // namespace dynamic_filter::io

@@ -14,11 +14,12 @@
 namespace dynamic_filter::io {
 namespace {
 
-constexpr double kRange = 10.0;        // [m] at which a turn counts as much as a shift
-constexpr std::size_t kFitApart = 10;  // scans whose motions mistakes are fitted to
+constexpr double kRange = 10.0;  // [m] range at which a rotation error is converted to a distance
+// Separation of the scans whose motions are used to fit mistakes.
+constexpr std::size_t kFitApart = 10;
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-/// Where the sensor was when scan i was taken, if a mistake of such parameters was made.
+/// Pose of the sensor at scan i under the assumption of a mistake with these parameters.
 using Model = std::function<Pose(const TwoTracks&, std::size_t, const Eigen::VectorXd&)>;
 
 Pose shown_at(const TwoTracks& track, double stamp) {
@@ -32,7 +33,7 @@ Pose as_shown(const TwoTracks& track, std::size_t i, const Eigen::VectorXd&) {
     return track.shown[i];
 }
 
-/// How the motions between scans so far apart differ from those that the model expects.
+/// Differences between the measured motions over `apart` scans and those that the model predicts.
 Eigen::VectorXd errors_of(const std::vector<TwoTracks>& tracks, const Model& model,
                           const Eigen::VectorXd& parameters, std::size_t apart) {
     std::vector<double> errors;
@@ -50,10 +51,10 @@ Eigen::VectorXd errors_of(const std::vector<TwoTracks>& tracks, const Model& mod
 
 struct Fit {
     Eigen::VectorXd parameters;
-    double explained = 0.0;  // share of the squared error
+    double explained = 0.0;  // explained share of the squared error
 };
 
-/// What an even drift, in the sensor frame, explains of the squared error.
+/// Share of the squared error that a constant drift in the sensor frame explains.
 double explained_by_drift(const std::vector<TwoTracks>& tracks) {
     const Eigen::VectorXd errors = errors_of(tracks, as_shown, {}, kFitApart);
     if (errors.size() == 0) return 0.0;
@@ -62,7 +63,7 @@ double explained_by_drift(const std::vector<TwoTracks>& tracks) {
     return 1.0 - after / std::max(errors.squaredNorm(), 1e-12);
 }
 
-/// Gauss and Newton, with differences for derivatives.
+/// Gauss-Newton with numerical derivatives.
 Fit fit(const std::vector<TwoTracks>& tracks, const Model& model, Eigen::Index count) {
     constexpr int kSteps = 4;
     constexpr double kDifference = 1e-3;
@@ -77,7 +78,7 @@ Fit fit(const std::vector<TwoTracks>& tracks, const Model& model, Eigen::Index c
             J.col(k) = (errors_of(tracks, model, moved, kFitApart) - errors) / kDifference;
         }
         Eigen::MatrixXd H = J.transpose() * J;
-        H.diagonal().array() += 1e-3;  // what the way does not show stays 0
+        H.diagonal().array() += 1e-3;  // parameters that the trajectory does not determine stay 0
         result.parameters -= H.ldlt().solve(J.transpose() * errors);
     }
     const double after = errors_of(tracks, model, result.parameters, kFitApart).squaredNorm();
@@ -85,7 +86,7 @@ Fit fit(const std::vector<TwoTracks>& tracks, const Model& model, Eigen::Index c
     return result;
 }
 
-/// Median error of scans so far apart: [m], and [m] at kRange.
+/// Median error over so many scans: of the translation [m], and of the rotation at kRange [m].
 std::pair<double, double> typical_error(const std::vector<TwoTracks>& tracks, std::size_t apart) {
     const Eigen::VectorXd errors = errors_of(tracks, as_shown, {}, apart);
     std::vector<double> shifts, turns;
@@ -114,7 +115,7 @@ std::string mount_text(const Eigen::VectorXd& displacement) {
         shift.x(), shift.y(), shift.z(), turn.x(), turn.y(), turn.z());
 }
 
-/// Errors that do not grow are jitter, those that do are drift.
+/// Describes the noise: errors that do not grow with distance are jitter, growing ones are drift.
 std::string noise_text(const std::vector<TwoTracks>& tracks) {
     const auto [near_shift, near_turn] = typical_error(tracks, 1);
     const auto [far_shift, far_turn] = typical_error(tracks, 20);
@@ -132,11 +133,12 @@ std::string noise_text(const std::vector<TwoTracks>& tracks) {
 
 namespace {
 
-/// An offset in time or another frame, if that explains so much of the squared error.
+/// Describes an offset in time or another frame, if that explains more than `mostly` of the squared
+/// error.
 std::string constant_mistake(const std::vector<TwoTracks>& tracks, double mostly) {
     constexpr double kLeastOffset = 0.01, kMostOffset = 1.0;  // [s]
     constexpr double kBetter = 0.1;
-    constexpr double kFarthestMount = 5.0;  // [m] no vehicle is larger
+    constexpr double kFarthestMount = 5.0;  // [m] larger than any vehicle
     const Fit offset = fit(
         tracks,
         [](const TwoTracks& track, std::size_t i, const Eigen::VectorXd& p) {
@@ -154,7 +156,7 @@ std::string constant_mistake(const std::vector<TwoTracks>& tracks, double mostly
                            std::abs(offset.parameters[0]) < kMostOffset &&
                            offset.explained > mount.explained - kBetter;
     if (is_offset) return offset_text(offset.parameters[0]);
-    // At an even speed, another frame drifts evenly, too.
+    // At a constant speed, poses of another frame look like a constant drift.
     const bool is_mount = mount.explained > mostly &&
                           mount.explained > explained_by_drift(tracks) + kBetter &&
                           mount.parameters.head<3>().norm() < kFarthestMount;
@@ -171,7 +173,7 @@ std::string name_mistake(const std::vector<TwoTracks>& tracks) {
 
 std::string name_constant_mistake(const std::vector<TwoTracks>& tracks) {
     constexpr double kNearlyAll = 0.8;
-    constexpr double kOdometry = 0.03;  // [m] that the odometry itself may be off
+    constexpr double kOdometry = 0.03;  // [m] error of the odometry itself
     const Eigen::VectorXd errors = errors_of(tracks, as_shown, {}, kFitApart);
     const double mean_square = 6.0 * errors.squaredNorm() / static_cast<double>(errors.size());
     return std::sqrt(mean_square) > kOdometry ? constant_mistake(tracks, kNearlyAll) : "";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// What is wrong with poses that do not fit their scans.
+/// Finds the mistake in poses that do not fit their scans.
 #pragma once
 
 #include <string>
@@ -9,19 +9,20 @@
 
 namespace dynamic_filter::io {
 
-/// The poses of scans in a row: as given, and as the scans show them.
+/// Poses of consecutive scans: as given, and as estimated from the scans.
 struct TwoTracks {
     std::vector<double> stamps;  ///< [s], increasing
     std::vector<Pose> given, shown;
 };
 
-/// The mistake that explains best how the given poses differ from those shown, in a sentence with
-/// figures: an offset in time, another frame than the sensor's, jitter, or drift.
+/// Describes, in a sentence with measured values, the mistake that best explains the difference
+/// between given and estimated poses: an offset in time, a frame other than that of the sensor,
+/// jitter, or drift.
 std::string name_mistake(const std::vector<TwoTracks>& tracks);
 
-/// The same where scans do not blur at the given poses: only an offset in time or another frame,
-/// and only if that explains nearly all of a difference that is more than the odometry's own error.
-/// Empty otherwise.
+/// The same for scans that do not blur at the given poses. Only an offset in time or another frame
+/// is possible then, and only if it explains nearly all of a difference that is larger than the
+/// error of the odometry. Otherwise empty.
 std::string name_constant_mistake(const std::vector<TwoTracks>& tracks);
 
 }  // namespace dynamic_filter::io

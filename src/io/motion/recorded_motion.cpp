@@ -15,10 +15,11 @@
 namespace dynamic_filter::io {
 namespace {
 
-constexpr std::size_t kPlaces = 3, kInARow = 21;  // scans that are looked at
+// Number of places, and of consecutive scans at each.
+constexpr std::size_t kPlaces = 3, kInARow = 21;
 constexpr std::array<std::size_t, 4> kApart = {1, 5, 10, 20};
 
-/// Scans in a row, as the odometry takes them.
+/// Consecutive scans as input of the odometry.
 using Piece = std::vector<Scan>;
 
 std::optional<Scan> read(const Sequence& sequence, std::size_t i) {
@@ -70,12 +71,13 @@ std::vector<Pose> poses_of(const std::vector<Tracked>& tracked) {
     return poses;
 }
 
-/// [m] How much the scans blur at the poses that the odometry finds.
+/// Blur [m] of the scans at the poses of the odometry.
 double blur(const Piece& piece, const std::vector<Tracked>& tracked, const OdometryConfig& config) {
     return overlay_blur(piece, poses_of(tracked), config);
 }
 
-/// [m] that the sensor's motion shifts points by during a scan, at a range of 10 m.
+/// Distance [m] by which the motion of the sensor during a scan displaces points at a range of 10
+/// m.
 double distortion(const std::vector<Tracked>& tracked, double duration) {
     std::vector<double> shifts;
     for (const Tracked& t : tracked) {
@@ -85,7 +87,7 @@ double distortion(const std::vector<Tracked>& tracked, double duration) {
     return median(std::move(shifts));
 }
 
-/// Whether the scan sees to all sides, as a sensor does that turns.
+/// True if the scan covers all directions, as that of a rotating sensor does.
 bool turns(const Scan& scan) {
     constexpr std::size_t kSectors = 16, kMostEmpty = 3;
     std::array<bool, kSectors> seen{};
@@ -107,7 +109,7 @@ std::vector<Sweep> all_sweeps(double duration) {
     return sweeps;
 }
 
-/// The poses of a piece, as given and as its scans show them.
+/// Poses of consecutive scans: as given, and as estimated from the scans.
 struct Compared {
     std::vector<double> stamps;
     std::vector<Pose> given, shown;
@@ -138,7 +140,7 @@ Compared compare(Piece piece, const OdometryConfig& config) {
     return compared;
 }
 
-/// Of each two scans so far apart.
+/// Errors for all pairs of scans with this separation.
 std::vector<PoseError> errors_of(const std::vector<Compared>& pieces, std::size_t apart) {
     std::vector<PoseError> errors;
     for (const Compared& piece : pieces) {
@@ -166,9 +168,9 @@ std::optional<PoseError> typical_error(const std::vector<Compared>& pieces, std:
                      median_of(errors, &PoseError::shift), median_of(errors, &PoseError::turn)};
 }
 
-/// See MotionQuality.
+/// See MotionQuality::nearly_right.
 bool nearly_right(const std::vector<Compared>& pieces) {
-    constexpr double kShift = 1.0, kShare = 0.3, kTurn = 0.1;  // [m], of the way, [rad]
+    constexpr double kShift = 1.0, kShare = 0.3, kTurn = 0.1;  // [m], share of the distance, [rad]
     const std::vector<PoseError> errors = errors_of(pieces, kApart.back());
     const auto is_small = [&](const PoseError& error) {
         return error.shift <= std::max(kShift, kShare * error.way) && error.turn <= kTurn;
@@ -233,10 +235,11 @@ std::vector<std::optional<Tracked>> track_scans(const Sequence& sequence,
 
 std::optional<Sweep> find_sweep(const Sequence& sequence, const OdometryConfig& given) {
     OdometryConfig config = given;
-    config.points = std::min(config.points, 1500);  // it takes long as it is
-    constexpr double kLongest = 0.25;               // [s] of a turn; who is slower leaves scans out
-    constexpr double kLeast = 0.3;                  // [m] of distortion, or it does not matter
-    constexpr double kClearly = 0.988;              // of the blur
+    config.points = std::min(config.points, 1500);  // fewer points, because this takes long
+    // [s] of one rotation; a longer time means that scans were left out.
+    constexpr double kLongest = 0.25;
+    constexpr double kLeast = 0.3;      // [m] of distortion; less does not matter
+    constexpr double kClearly = 0.988;  // factor of the blur that counts as clearly better
     const double duration = usual_step(sequence);
     if (!(duration > 0.0) || duration > kLongest) return std::nullopt;
     const Piece* fastest = nullptr;
@@ -286,7 +289,8 @@ MotionQuality measure_motion(const Sequence& sequence, const OdometryConfig& con
 }
 
 std::string find_pose_mistake(const Sequence& sequence, const OdometryConfig& config) {
-    constexpr std::size_t kLong = 60;  // scans in a row: their motion has to vary
+    // Number of consecutive scans; long enough that the motion varies.
+    constexpr std::size_t kLong = 60;
     std::vector<Compared> compared = compare_places(sequence, kLong, config);
     if (compared.empty() || !sequence.has_poses) return "";
     const bool blur = quality_of(compared, true).has_bad_poses();

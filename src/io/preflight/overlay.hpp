@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// How well scans lie on one another.
+/// Measures how well scans overlay.
 #pragma once
 
 #include <functional>
@@ -11,22 +11,22 @@
 
 namespace dynamic_filter::io {
 
-/// Where a scan would be under another reading of its pose.
+/// An interpretation of poses: where a scan is if the interpretation is right.
 struct Reading {
     std::string name;
     std::function<Pose(const Pose&)> pose;
 };
 inline constexpr const char *kAsGiven = "as given", *kInWorld = "points in world",
                             *kInSensor = "points in sensor";
-const std::vector<Reading>& readings();  ///< as given first
+const std::vector<Reading>& readings();  ///< "as given" is first
 
-/// The mean share of each reading, in their order; empty if no pair was read.
+/// Mean share of each interpretation, in the order of readings(); empty if no pair could be read.
 std::vector<Overlay> compare(const Samples& samples, const std::vector<Pair>& pairs);
 
-/// The best place for scan b around the one that its pose gives it.
+/// Result of a search for the best position of scan b around the position from its pose.
 struct Search {
-    double given = 0.0, best = 0.0;  ///< shares
-    double offset = 0.0;             ///< [m] of the best from the given
+    double given = 0.0, best = 0.0;  ///< shares at the given and at the best position
+    double offset = 0.0;             ///< [m] distance of the best from the given position
 };
 Search search_around(const Sample& a, const Sample& b);
 

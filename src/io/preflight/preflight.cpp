@@ -18,7 +18,8 @@ namespace dynamic_filter::io {
 namespace {
 
 constexpr const char* kOtherPoses =
-    "look whether they are of this recording, and of the same times; give others with --poses";
+    "check that the poses are of this recording and of the same times; give other poses with "
+    "--poses";
 
 double share_of(const std::vector<Overlay>& overlays, const std::string& reading) {
     const auto found = std::find_if(overlays.begin(), overlays.end(),
@@ -26,7 +27,7 @@ double share_of(const std::vector<Overlay>& overlays, const std::string& reading
     return found == overlays.end() ? 0.0 : found->share;
 }
 
-/// Clearly more than what chance and a moving scene make of it.
+/// True if the difference is clearly more than chance and moving objects explain.
 bool clearly_better(double share, double than) { return share > 1.1 * than + 0.02; }
 
 bool all_equal(const Samples& samples) {
@@ -35,7 +36,8 @@ bool all_equal(const Samples& samples) {
     });
 }
 
-/// Scans in the world's frame have their ground where the pose is, not at the origin.
+/// True if the points are in the world frame: then the ground is near the poses, not near the
+/// origin.
 bool lie_in_world(const Samples& samples) {
     constexpr double kAway = 10.0;  // [m]
     std::size_t near_origin = 0, near_pose = 0;
@@ -47,7 +49,7 @@ bool lie_in_world(const Samples& samples) {
     return near_pose > 2 * near_origin + 100;
 }
 
-/// The sensors of robots stand upright, as long as they do not fly.
+/// True if the sensor would be upside down; sensors of ground robots are upright.
 bool hang_upside_down(const Samples& samples, const Reading& reading) {
     return std::all_of(samples.begin(), samples.end(), [&](const auto& sample) {
         return reading.pose(sample.second.T_world_sensor)(2, 2) < -0.5;
@@ -67,7 +69,7 @@ std::string meaning_of(const std::string& reading) {
 }
 
 std::string fits_better(const std::vector<Overlay>& overlays, const std::string& reading) {
-    return fmt::format("scans overlay by {:.0f} % so, by {:.0f} % as given",
+    return fmt::format("scans overlay by {:.0f} % this way, by {:.0f} % as given",
                        100.0 * share_of(overlays, reading), 100.0 * share_of(overlays, kAsGiven));
 }
 
@@ -75,7 +77,7 @@ Finding pose_finding(const std::vector<Overlay>& overlays, const std::string& re
     return {meaning_of(reading) + ": " + fits_better(overlays, reading), "--pose-fix " + reading};
 }
 
-/// While the sensor stands still, scans far apart overlay as well as neighbours do.
+/// True if scans far apart overlay as well as neighbors do, because the sensor stands still.
 bool stands_still(const Samples& samples, const std::vector<Pair>& pairs) {
     std::vector<Pair> near, far;
     for (const Pair& pair : pairs) (pair.apart == kApart.front() ? near : far).push_back(pair);
@@ -89,7 +91,8 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
-/// Poses that fit cannot be bettered by moving scans about.
+/// A finding if displacements of the scans improve their overlay, which is impossible with correct
+/// poses.
 std::optional<Finding> misfit(const Samples& samples, const std::vector<Pair>& pairs) {
     std::vector<double> given, best, offset;
     for (const Pair& pair : pairs) {
@@ -111,8 +114,8 @@ std::optional<Finding> misfit(const Samples& samples, const std::vector<Pair>& p
         kOtherPoses};
 }
 
-/// On a straight path some readings overlay alike; then the one in which the sensor stands upright
-/// is right.
+/// On a straight path, several interpretations overlay equally well. Then the one in which the
+/// sensor is upright is right.
 void judge_upside_down(Preflight& result, const Samples& samples) {
     const auto& all = readings();
     if (!hang_upside_down(samples, all.front())) return;
@@ -124,13 +127,13 @@ void judge_upside_down(Preflight& result, const Samples& samples) {
             share_of(result.overlays, name) > 0.97 * share_of(result.overlays, kAsGiven);
         if (!alike || hang_upside_down(samples, *reading)) continue;
         Finding finding = pose_finding(result.overlays, name);
-        finding.what += ", where the sensor hangs upside down";
+        finding.what += ", with which the sensor hangs upside down";
         result.findings.push_back(std::move(finding));
         return;
     }
 }
 
-/// In the sensor's frame, although the format, or else an option, says the world's.
+/// Finding: points are in the sensor frame, although the format or an option says world frame.
 Finding in_sensor_finding(const std::vector<Overlay>& overlays, bool files_in_world) {
     if (files_in_world) {
         return {"the points are in the sensor's frame, but this format has them in the world's: " +
@@ -142,8 +145,8 @@ Finding in_sensor_finding(const std::vector<Overlay>& overlays, bool files_in_wo
             "leave out --points-in-world"};
 }
 
-/// `nearly_right` is asked before poses are said to be something else altogether: where the sensor
-/// hardly moves, drifting poses overlay better in any reading.
+/// `nearly_right` is called before poses are reported as wrong as a whole: if the sensor hardly
+/// moves, drifting poses overlay better under every interpretation.
 void judge_poses(Preflight& result, const Sequence& sequence, const Samples& samples,
                  const std::vector<Pair>& pairs, const std::function<bool()>& nearly_right) {
     const auto& overlays = result.overlays;
@@ -151,7 +154,7 @@ void judge_poses(Preflight& result, const Sequence& sequence, const Samples& sam
     if (all_equal(samples)) {
         if (stands_still(samples, pairs)) return;
         result.findings.push_back(
-            {"all poses are equal, but what the scans show moves",
+            {"all poses are equal, but the scans show that the sensor moves",
              "--poses FILE with the trajectory; scans in the world's frame need it as well"});
         return;
     }
@@ -174,13 +177,14 @@ void judge_poses(Preflight& result, const Sequence& sequence, const Samples& sam
         if (much) result.findings.push_back(in_sensor_finding(overlays, files_in_world));
         return;
     }
-    // A thousandth of any motion is as good as none.
+    // In the interpretation "millimetres", only a thousandth of the given motion is left, which is
+    // nearly the same as no motion.
     const bool as_if_still = best->share < 1.02 * share_of(overlays, kInWorld);
     if (as_if_still || best->reading == kInSensor) {
         if (much && !nearly_right()) {
             result.findings.push_back(
                 {"the poses do not fit the scans: " + fits_better(overlays, kInWorld) +
-                     ", as if nothing moved",
+                     "; the first value assumes that the sensor does not move",
                  kOtherPoses});
         }
         return;
@@ -198,7 +202,8 @@ void judge_points(Preflight& result, const Samples& samples) {
     constexpr double kSuspicious = 0.2;
     std::vector<double> doubled;
     for (const auto& [i, sample] : samples) doubled.push_back(sample.doubled);
-    if (doubled.empty() || lie_in_world(samples)) return;  // seen from elsewhere
+    // Seen from another place, points naturally lie behind each other.
+    if (doubled.empty() || lie_in_world(samples)) return;
     const double typical = median(std::move(doubled));
     if (typical < kSuspicious) return;
     result.findings.push_back(
@@ -208,7 +213,7 @@ void judge_points(Preflight& result, const Samples& samples) {
          "use the scans of one sensor, each with its own pose"});
 }
 
-/// Scans and poses were matched by order, but each has stamps: those may not agree.
+/// Scans and poses were matched by order, but both have stamps, which may contradict each other.
 void judge_pose_stamps(Preflight& result, const Sequence& sequence, double step) {
     const auto& scans = sequence.stamps;
     const auto& poses = sequence.pose_stamps;
@@ -228,7 +233,7 @@ void judge_pose_stamps(Preflight& result, const Sequence& sequence, double step)
             return;
         }
     }
-    // A clock that begins at 0 says nothing about the other.
+    // A clock that begins at 0 cannot be compared with the other one.
     const bool relative = std::abs(scans.front()) < 1.0 || std::abs(poses.front()) < 1.0;
     std::vector<double> offsets;
     for (std::size_t i = 0; i < scans.size(); ++i) {
@@ -256,16 +261,16 @@ void judge_stamps(Preflight& result, const Sequence& sequence) {
     for (const auto& [unit, seconds] : {std::pair{"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}}) {
         if (step * seconds > 0.5 * kLongest || step * seconds < 10.0 * kShortest) continue;
         result.findings.push_back({fmt::format("the stamps are not in seconds: scans are {:.4g} "
-                                               "apart, which are {:.3g} s if it is {}",
+                                               "apart, which is {:.3g} s if the unit is {}",
                                                step, step * seconds, unit),
                                    fmt::format("--time-unit {}", unit)});
         return;
     }
     result.findings.push_back({fmt::format("scans are {:.3g} s apart", step),
-                               "look at the stamps; they should be in seconds"});
+                               "check the stamps; they should be in seconds"});
 }
 
-/// "10.pcd" is read behind "9.pcd"; names that were given otherwise are in no order of time.
+/// Natural order puts "10.pcd" after "9.pcd"; the order of other names may not be that of time.
 void judge_order(Preflight& result, const Sequence& sequence, const Samples& samples) {
     const auto unknown = [](const auto& sample) { return !sample.second.began; };
     if (sequence.bag || std::any_of(samples.begin(), samples.end(), unknown)) return;
@@ -275,22 +280,23 @@ void judge_order(Preflight& result, const Sequence& sequence, const Samples& sam
     if (back == samples.end()) return;
     const auto next = std::next(back);
     result.findings.push_back(
-        {fmt::format("the order of the names is not that in time: by its points {} was taken "
-                     "{:.3g} s before {}, which comes first by its name",
+        {fmt::format("the order of the file names is not the order in time: by the times of its "
+                     "points, {} was taken {:.3g} s before {}, whose name comes first",
                      sequence.scan_files[next->first].filename().string(),
                      *back->second.began - *next->second.began,
                      sequence.scan_files[back->first].filename().string()),
          "rename the scans, and their labels, so that their names sort by time"});
 }
 
-/// Poses that are nearly right, and motion during scans.
+/// Findings about poses that are nearly right, and about motion during scans.
 void judge_motion(Preflight& result, Sequence sequence) {
     sequence.wants_times = !sequence.deskew;
     const OdometryConfig config;
     const std::string mistake = find_pose_mistake(sequence, config);
     if (!mistake.empty()) {
-        result.findings.push_back(
-            {mistake, "run refines such poses by itself, as with --refine on; better poses help"});
+        result.findings.push_back({mistake,
+                                   "`run` refines such poses without being asked (as with --refine "
+                                   "on); more accurate poses give better results"});
     }
     if (sequence.deskew || !sequence.velocities.empty()) return;
     const Blur blur = measure_motion(sequence, config).found;
@@ -302,7 +308,7 @@ void judge_motion(Preflight& result, Sequence sequence) {
     }
 }
 
-/// Of all scans, what shows without reading them.
+/// Faults of all scans that show without reading the points.
 std::map<std::size_t, std::string> find_unusable(const Sequence& sequence) {
     std::map<std::size_t, std::string> unusable;
     for (std::size_t i = 0; i < sequence.size(); ++i) {
@@ -330,7 +336,7 @@ Preflight check_recording(const Sequence& sequence, Depth depth) {
     judge_order(result, sequence, samples);
     judge_points(result, samples);
     if (result.overlays.empty()) return result;
-    std::optional<bool> known;  // it reads scans: once is enough
+    std::optional<bool> known;  // evaluated once, because it reads scans
     const auto nearly_right = [&] {
         if (depth == Depth::quick) return false;
         if (!known) known = measure_motion(sequence, OdometryConfig{}).nearly_right;

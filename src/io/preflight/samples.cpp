@@ -17,8 +17,8 @@ namespace {
 
 constexpr float kNearest = 2.0F, kFarthest = 30.0F;  // [m]
 
-/// What stands upright. The ground is left out: the rings on it look the same from everywhere, as
-/// if nothing had moved.
+/// Upright structures. The ground is left out, because its rings look the same from everywhere, as
+/// if the sensor had not moved.
 Points upright(const Points& points) {
     constexpr float kColumn = 0.6F, kTall = 0.5F;  // [m]
     struct Extent {
@@ -46,8 +46,9 @@ Points upright(const Points& points) {
     return kept;
 }
 
-/// Of the pairs of points in nearly the same direction, how many are not at the same range: from
-/// one place one sees one thing. Two returns of one beam have exactly one direction.
+/// Share of pairs of points in nearly the same direction that have different ranges. From one
+/// place, one direction has one range. Two returns of one beam have exactly the same direction and
+/// are not counted.
 double share_of_doubles(const Points& points) {
     constexpr float kPixel = 0.2F * 3.14159265F / 180.0F, kSame = 0.02F * kPixel;
     struct Direction {
@@ -69,20 +70,20 @@ double share_of_doubles(const Points& points) {
         ++pairs;
         doubles += std::abs(range - other.range) > std::max(0.5F, 0.1F * range) ? 1 : 0;
     }
-    constexpr double kEnough = 0.015;  // a seam, edges and a window make some
+    constexpr double kEnough = 0.015;  // seams, edges and windows cause a few
     const bool many = static_cast<double>(doubles) > kEnough * static_cast<double>(points.size());
     return many ? static_cast<double>(doubles) / static_cast<double>(pairs) : 0.0;
 }
 
 std::size_t count_near(const Points& points, const Point& place) {
-    constexpr float kNear = 6.0F;  // [m] a LiDAR on a car or robot sees the ground there
+    constexpr float kNear = 6.0F;  // [m] a LiDAR on a car or robot sees the ground at this range
     return static_cast<std::size_t>(std::count_if(
         points.begin(), points.end(),
         [&](const Point& p) { return is_measured(p) && (p - place).norm() < kNear; }));
 }
 
-/// Seconds since 1970, or nanoseconds in a field that has room for them; smaller numbers are from
-/// some beginning that other scans need not have.
+/// Start of the scan in seconds since 1970, also from nanoseconds in a field that is wide enough.
+/// Smaller numbers may be relative to a start that differs between scans.
 std::optional<double> began_of(const Cloud& cloud) {
     constexpr double kLeast = 1e8, kMost = 1e10, kNanosecond = 1e-9;
     const Field* field = time_field(cloud);

@@ -63,7 +63,7 @@ std::string fields_of(std::string_view type, MessageEncoding encoding) {
                                                          : fields_in(kOfRos2, type));
 }
 
-/// The types with a package's name among the fields.
+/// The types of fields that contain the name of a package.
 std::vector<std::string> types_in(const std::string& fields) {
     std::vector<std::string> types;
     std::istringstream lines(fields);
@@ -88,7 +88,7 @@ const Definition* find_definition(const std::string& type) {
 }
 
 std::string full_definition(const std::string& type, MessageEncoding encoding) {
-    constexpr std::size_t kRule = 80;  // what parsers look for between the types
+    constexpr std::size_t kRule = 80;  // separator between types that parsers look for
     std::vector<std::string> types{type};
     std::string text;
     for (std::size_t i = 0; i < types.size(); ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// The message types that are written, as bags must spell them out.
+/// Definitions of the message types that are written, because bags must contain them as text.
 #pragma once
 
 #include <string>
@@ -9,17 +9,18 @@
 namespace dynamic_filter::io {
 
 struct Definition {
-    std::string type;  ///< "sensor_msgs/PointCloud2"
-    std::string md5;   ///< of ROS 1's definition
+    std::string type;  ///< such as "sensor_msgs/PointCloud2"
+    std::string md5;   ///< MD5 sum of the ROS 1 definition
 };
 
-/// nullptr for a type that is not written.
+/// Returns nullptr for a type that is not written.
 const Definition* find_definition(const std::string& type);
 
-/// The message and all it is made of, as the encoding's generation of ROS defines them.
+/// The definition of the message and of all types in it, for ROS 1 or ROS 2 depending on the
+/// encoding.
 std::string full_definition(const std::string& type, MessageEncoding encoding);
 
-/// "sensor_msgs/msg/PointCloud2".
+/// Returns a name such as "sensor_msgs/msg/PointCloud2".
 std::string ros2_type(const std::string& type);
 
 }  // namespace dynamic_filter::io

@@ -25,7 +25,8 @@ std::vector<std::string> FrameTree::above(const std::string& frame) const {
     std::vector<std::string> chain{frame};
     for (auto it = links_.find(frame); it != links_.end(); it = links_.find(it->second.parent)) {
         const std::string& parent = it->second.parent;
-        if (std::find(chain.begin(), chain.end(), parent) != chain.end()) break;  // a circle
+        // The links form a cycle.
+        if (std::find(chain.begin(), chain.end(), parent) != chain.end()) break;
         chain.push_back(parent);
     }
     return chain;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Coordinate frames as /tf and /tf_static link them.
+/// The tree of coordinate frames from /tf and /tf_static.
 #pragma once
 
 #include <map>
@@ -14,18 +14,18 @@ namespace dynamic_filter::io {
 
 class FrameTree {
 public:
-    /// A frame keeps the parent it had first.
+    /// Adds a link. A frame keeps its first parent.
     void add(const StampedPose& transform, bool is_static);
-    void put_in_order();  ///< once all are added, before the questions below
+    void put_in_order();  ///< call it after all links are added, before the functions below
 
-    /// `frame` and all above it, the root last.
+    /// `frame` and its ancestors; the root is last.
     [[nodiscard]] std::vector<std::string> above(const std::string& frame) const;
-    /// Empty if they are not linked, or not at that time.
+    /// Pose of one frame in another at a time; empty if they are not linked, or not at that time.
     [[nodiscard]] std::optional<Pose> pose(const std::string& of, const std::string& in,
                                            double stamp) const;
-    /// True if a link that changes lies between `frame` and its root.
+    /// True if a link between `frame` and its root changes over time.
     [[nodiscard]] bool moves(const std::string& frame) const;
-    /// When the links above a frame were told, one that changes most often.
+    /// Stamps of the link above a frame that was published most often.
     [[nodiscard]] std::vector<double> stamps_above(const std::string& frame) const;
 
 private:
@@ -35,7 +35,7 @@ private:
         bool is_static = false;
     };
     [[nodiscard]] std::optional<Pose> in_root(const std::string& frame, double stamp) const;
-    std::map<std::string, Link> links_;  // by child
+    std::map<std::string, Link> links_;  // keys: child frame
 };
 
 }  // namespace dynamic_filter::io

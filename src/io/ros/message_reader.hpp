@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// The fields of a message one after the other: ROS 1 packs them, CDR (ROS 2) aligns them.
+/// Reads the fields of a message in order. ROS 1 stores them without alignment, CDR (ROS 2) with
+/// alignment.
 #pragma once
 
 #include <algorithm>
@@ -14,14 +15,14 @@
 
 namespace dynamic_filter::io {
 
-/// Throws Malformed where the message ends too early.
+/// Throws Malformed if the message ends too early.
 class MessageReader {
 public:
     MessageReader(std::span<const std::byte> data, MessageEncoding encoding)
         : in_(data), cdr_(encoding == MessageEncoding::cdr) {
         if (!cdr_) return;
         in_.take(1);
-        const auto kind = in_.number<std::uint8_t>();  // 0, 1: plain; 6, 7: plain of version 2
+        const auto kind = in_.number<std::uint8_t>();  // 0, 1: plain; 6, 7: plain, version 2
         in_.take(2);
         if (kind != 0 && kind != 1 && kind != 6 && kind != 7) {
             throw Malformed("is CDR of a kind that is not read (" + std::to_string(kind) + ")");
@@ -47,9 +48,10 @@ public:
         if (cdr_ && raw.ends_with('\0')) raw.remove_suffix(1);
         return std::string(raw);
     }
-    /// The bytes of an array of uint8.
+    /// The bytes of a uint8 array.
     std::span<const std::byte> bytes() { return in_.take(number<std::uint32_t>()); }
-    /// How many elements follow; no more than there can be, each of so many bytes at least.
+    /// Number of the elements that follow. Throws if the message is too short for them, at
+    /// `least_bytes` per element.
     std::uint32_t count(std::size_t least_bytes) {
         const auto count = number<std::uint32_t>();
         if (count > in_.left() / least_bytes) {
@@ -62,7 +64,7 @@ public:
 private:
     void align(std::size_t size) {
         if (!cdr_) return;
-        constexpr std::size_t kHead = 4;  // alignment counts from behind it
+        constexpr std::size_t kHead = 4;  // alignment is counted from the end of this header
         const std::size_t step = std::min(size, most_aligned_), at = in_.at() - kHead;
         in_.take((step - at % step) % step);
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// The counterpart of MessageReader: ROS 1 packs the fields, CDR (little endian here) aligns them.
+/// Writes the fields of a message; the counterpart of MessageReader. CDR is written in little
+/// endian.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +26,7 @@ public:
     template <class T>
     void number(T value) {
         if (cdr_) {
-            constexpr std::size_t kHead = 4;  // alignment counts from behind it
+            constexpr std::size_t kHead = 4;  // alignment is counted from the end of this header
             while ((out_.bytes.size() - kHead) % sizeof(T) != 0) out_.bytes.push_back({});
         }
         out_.number(value);
@@ -35,7 +36,7 @@ public:
         out_.raw(text);
         if (cdr_) out_.bytes.push_back({});
     }
-    /// An array of uint8.
+    /// Writes a uint8 array.
     void bytes(std::span<const std::byte> data) {
         number(static_cast<std::uint32_t>(data.size()));
         out_.raw(data);

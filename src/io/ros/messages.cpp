@@ -20,7 +20,7 @@ MessageHeader take_header(MessageReader& in, MessageEncoding encoding) {
                              : static_cast<double>(in.number<std::int32_t>());
     const auto nanoseconds = in.number<std::uint32_t>();
     std::string frame = in.text();
-    if (frame.starts_with('/')) frame.erase(0, 1);  // as ROS wrote them before tf2
+    if (frame.starts_with('/')) frame.erase(0, 1);  // names before tf2 begin with a slash
     return {seconds + 1e-9 * nanoseconds, std::move(frame)};
 }
 
@@ -28,7 +28,7 @@ Pose take_pose(MessageReader& in) {
     std::array<double, 7> v{};
     for (double& value : v) value = in.number<double>();
     const Eigen::Quaterniond rotation(v[6], v[3], v[4], v[5]);
-    constexpr double kTolerance = 0.01;  // as for pose files
+    constexpr double kTolerance = 0.01;  // the same as for pose files
     const bool finite = rotation.coeffs().allFinite();
     if (finite && std::abs(rotation.norm() - 1.0) > kTolerance) {
         throw Malformed("its quaternion has length " + std::to_string(rotation.norm()) +
@@ -46,7 +46,7 @@ struct WireField {
     std::uint8_t type = 0;
 };
 
-/// sensor_msgs/PointField: INT8 = 1 ... FLOAT64 = 8.
+/// Converts the codes of sensor_msgs/PointField: INT8 = 1 ... FLOAT64 = 8.
 FieldType field_type(const WireField& field) {
     constexpr std::array kTypes = {FieldType::i8,  FieldType::u8,  FieldType::i16, FieldType::u16,
                                    FieldType::i32, FieldType::u32, FieldType::f32, FieldType::f64};
@@ -84,7 +84,7 @@ WireCloud take_wire_cloud(MessageReader& in) {
     return wire;
 }
 
-/// Some writers leave out row_step, or write 0 for a count of 1.
+/// Corrects fields of faulty writers: a missing row_step, or 0 for a count of 1.
 void repair(WireCloud& wire) {
     if (wire.row_step == 0) wire.row_step = wire.point_step * wire.width;
     for (WireField& field : wire.fields) field.count = std::max(field.count, 1U);
@@ -102,7 +102,7 @@ void check(const WireCloud& wire) {
         }
         field_bytes += bytes;
     }
-    // The same bytes may have two names, but must not become more without end.
+    // Several fields may share the same bytes, but their number is limited.
     constexpr std::uint64_t kMostNames = 8;
     if (field_bytes > kMostNames * wire.point_step) {
         throw Malformed("its fields overlap: they have " + number(field_bytes) +
@@ -126,7 +126,7 @@ void check(const WireCloud& wire) {
     }
 }
 
-/// One value, as the machine has it.
+/// Copies one value in the byte order of this machine.
 void put_value(std::byte* to, const std::byte* from, std::size_t size, bool swap) {
     if (swap) {
         std::reverse_copy(from, from + size, to);
@@ -135,7 +135,7 @@ void put_value(std::byte* to, const std::byte* from, std::size_t size, bool swap
     }
 }
 
-/// Names that are taken already get a number; empty ones and "_" are padding.
+/// Makes names unique by adding a number; fields with an empty name or "_" are padding.
 std::vector<WireField> named_fields(const WireCloud& wire) {
     std::vector<WireField> fields;
     std::set<std::string> taken;
@@ -168,7 +168,8 @@ Cloud unpack_cloud(const WireCloud& wire) {
     }
     cloud.data.resize(cloud.point_bytes * wire.width * wire.height);
     std::byte* to = cloud.data.data();
-    const std::uint32_t rows = wire.width == 0 ? 0 : wire.height;  // 4 billion empty ones are none
+    // A claim of 4 billion empty rows means no rows.
+    const std::uint32_t rows = wire.width == 0 ? 0 : wire.height;
     for (std::uint32_t row = 0; row < rows; ++row) {
         const std::byte* from = wire.data.data() + std::size_t{wire.row_step} * row;
         for (std::uint32_t i = 0; i < wire.width; ++i, from += wire.point_step) {
@@ -184,10 +185,10 @@ Cloud unpack_cloud(const WireCloud& wire) {
     return cloud;
 }
 
-/// livox_ros_driver/CustomMsg: offset_time [ns] from the stamp.
+/// Reads livox_ros_driver/CustomMsg; offset_time [ns] is relative to the stamp.
 Cloud take_livox(MessageReader& in) {
     in.number<std::uint64_t>();  // timebase
-    in.number<std::uint32_t>();  // number of points, again
+    in.number<std::uint32_t>();  // number of points, repeated
     for (int i = 0; i < 4; ++i) in.number<std::uint8_t>();
     Cloud cloud;
     for (const char* axis : {"x", "y", "z"}) add_field(cloud, axis, FieldType::f32);

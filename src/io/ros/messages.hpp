@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// What is used of ROS messages.
+/// Reads the parts of ROS messages that are used.
 #pragma once
 
 #include <cstddef>
@@ -22,26 +22,26 @@ struct MessageHeader {
 enum class MessageKind { other, cloud, livox, odometry, pose, transforms };
 MessageKind kind_of(const std::string& type);
 
-/// All throw Malformed.
+/// The following functions throw Malformed.
 MessageHeader read_header(const Message& message);
 
 struct CloudMessage {
     MessageHeader header;
     Cloud cloud;
 };
-/// sensor_msgs/PointCloud2 in all its layouts, or Livox's CustomMsg. Padding is left out; what was
-/// big endian is no more.
+/// Reads sensor_msgs/PointCloud2 in all its layouts, or CustomMsg of Livox. Padding is left out,
+/// and big-endian values are converted.
 CloudMessage read_cloud_message(std::span<const std::byte> data, const Topic& topic);
 
-/// A frame in another one at a time. `child` is empty where the message does not say.
+/// Pose of a frame in another frame at a time. `child` is empty if the message does not name it.
 struct StampedPose {
     double stamp = 0.0;
     std::string parent, child;
     Pose T_parent_child = Pose::Identity();
 };
-/// nav_msgs/Odometry, geometry_msgs/PoseStamped and PoseWithCovarianceStamped.
+/// Reads nav_msgs/Odometry, geometry_msgs/PoseStamped and PoseWithCovarianceStamped.
 StampedPose read_pose_message(const Message& message);
-/// tf2_msgs/TFMessage and tf/tfMessage.
+/// Reads tf2_msgs/TFMessage and tf/tfMessage.
 std::vector<StampedPose> read_transforms(const Message& message);
 
 }  // namespace dynamic_filter::io

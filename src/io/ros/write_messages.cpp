@@ -28,14 +28,14 @@ void put_pose(MessageWriter& out, const Pose& pose) {
     for (const double value : rotation.coeffs()) out.number(value);  // x y z w
 }
 
-/// `count` values of zero.
+/// Writes `count` zeros.
 void put_zeros(MessageWriter& out, int count) {
     for (int i = 0; i < count; ++i) out.number(0.0);
 }
 
 constexpr int kCovariance = 36;
 
-/// sensor_msgs/PointField: INT8 = 1 ... FLOAT64 = 8.
+/// Codes of sensor_msgs/PointField: INT8 = 1 ... FLOAT64 = 8.
 std::uint8_t wire_type(FieldType type) {
     switch (type) {
         case FieldType::i8:
@@ -91,11 +91,12 @@ bool is_dense(const Cloud& cloud) {
 }  // namespace
 
 std::int64_t to_nanoseconds(double stamp) {
-    constexpr double kEnd = 2147483647.0;  // int32 in ROS 2, and the rounding may carry
+    constexpr double kEnd = 2147483647.0;  // int32 in ROS 2; rounding may add a second
     if (!(stamp >= 0.0 && stamp < kEnd)) {
         throw Error("a stamp of " + std::to_string(stamp) + " s does not fit a ROS message");
     }
-    const double whole = std::floor(stamp);  // apart, because both together have too many digits
+    // Separately, because a double cannot hold the digits of both.
+    const double whole = std::floor(stamp);
     return static_cast<std::int64_t>(whole) * kSecond + std::llround((stamp - whole) * 1e9);
 }
 
@@ -118,7 +119,7 @@ std::vector<std::byte> cloud_message(const Cloud& cloud, double stamp, const std
         out.number(wire_type(field.type));
         out.number(field.count);
     }
-    out.number(std::uint8_t{0});  // little endian
+    out.number(std::uint8_t{0});  // is_bigendian: no
     out.number(point_step);
     out.number(point_step * width);
     out.bytes(without_wide_integers(cloud));
@@ -130,7 +131,7 @@ std::vector<std::byte> transform_message(const std::string& parent, const std::s
                                          const Pose& T_parent_child, double stamp,
                                          MessageEncoding encoding) {
     MessageWriter out(encoding);
-    out.number(std::uint32_t{1});  // transforms
+    out.number(std::uint32_t{1});  // number of transforms
     put_header(out, stamp, parent);
     out.text(child);
     put_pose(out, T_parent_child);

@@ -75,7 +75,7 @@ TEST_F(Kitti360, WithoutCalibrationOrPosesThereAreNone) {
     EXPECT_EQ(drive(options).T_world_sensor[39].translation().x(), 39.0);
     std::filesystem::remove(data / "calibration/calib_cam_to_velo.txt");
     EXPECT_FALSE(drive().has_poses);
-    EXPECT_TRUE(has_note(drive(), "calib_cam_to_velo.txt nothing says where the sensor is"));
+    EXPECT_TRUE(has_note(drive(), "calib_cam_to_velo.txt the place of the sensor on it"));
     std::filesystem::remove_all(data / "data_poses");
     EXPECT_FALSE(drive().has_poses);
     EXPECT_TRUE(has_note(drive(), "looked for"));
@@ -88,7 +88,7 @@ TEST_F(Kitti360, FaultsAreNamedWithFileAndLine) {
     put_poses(row(2) + "x 1 0 0 0 0 1 0 0 0 0 1 0\n");
     EXPECT_HAS(drive_error(), "'x' is no number of a scan");
     put_poses(row(6) + row(2));
-    EXPECT_HAS(drive_error(), "(line 2): scan 2 comes behind 6");
+    EXPECT_HAS(drive_error(), "(line 2): scan 2 comes after scan 6");
     put_poses(row(100));
     EXPECT_HAS(drive_error(), "no pose of any scan");
     put_poses("\n");

@@ -93,7 +93,7 @@ TEST_F(KittiRaw, WithoutCalibrationTheUsualPlaceIsTakenAndSaid) {
     put_oxts(0, "49 8 110 0 0 0\n");
     put_oxts(1, "49 8 110 0 0 1.5707963267948966\n");
     const Sequence sequence = drive();
-    EXPECT_TRUE(has_note(sequence, "0.81 m before"));
+    EXPECT_TRUE(has_note(sequence, "0.81 m in front of"));
     const Eigen::Vector3d expected(0.32 - 0.81, 0.81 + 0.32, 0.0);
     EXPECT_LT((sequence.T_world_sensor[1].translation() - expected).norm(), 1e-9);
 }
