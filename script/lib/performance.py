@@ -203,10 +203,3 @@ def hours(bench, hours):
 
 
 SECTIONS = [kernels, sequences, threads, online, scaling, lengths]
-
-
-def put(page, name, text):
-    """The page with the section's text in its place, between two comments."""
-    begin, end = f"<!-- script/bench: {name} -->\n", f"<!-- end of {name} -->\n"
-    before, rest = page.split(begin)
-    return before + begin + text + end + rest.split(end)[1]

@@ -8,3 +8,5 @@ add_test(NAME script/mechanisms
          COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/mechanisms_test.py ${PROJECT_SOURCE_DIR} $<TARGET_FILE:dynamicfilter>)
 add_test(NAME script/faults
          COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/faults_test.py ${PROJECT_SOURCE_DIR})
+add_test(NAME script/regions
+         COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/regions_test.py ${PROJECT_SOURCE_DIR})
