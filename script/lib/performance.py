@@ -89,8 +89,8 @@ def sequences(bench):
                     of_stage = [next(p for p in t["process"] if p["stage"] == stage["stage"]) for t in timing]
                     stages.append([scene, sensor, "yes" if truth else "no", stage["stage"], f"{middle(of_stage, 'wall_seconds'):.2f}",
                                    f"{1e3 * middle(of_stage, 'cpu_seconds') / scans:.1f}"])
-    return ("`script/bench --only sequences` measures `dynamicfilter run` as a whole process, from start to exit. The figures are the median of three runs, "
-            "with 300 scans of the street and 150 of the crowd. A run includes reading, refined poses where they are needed, verdicts, labels, both maps, the "
+    return ("`script/bench --only sequences` measures `dynamicfilter run` as a whole process, from start to exit. The figures are the median of three runs. "
+            "A run includes reading, refined poses where they are needed, verdicts, labels, both maps, the "
             "report, and scores where there is ground truth. OctoMap ran in the same session, with one thread, and inserted every tenth scan at 0.2 m. "
             "The last column compares with a plain copy of the scans. The rates of the two stages are items per wall second in which the stage was busy.\n\n" +
             table(["scene", "sensor", "preset", "ground truth", "scans/s", "CPU [ms/scan]", "cores busy", "memory [MB]", "judge / front-end alone",
