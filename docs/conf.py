@@ -32,15 +32,3 @@ html_css_files = ["site.css"]
 html_copy_source = False
 html_show_sphinx = False
 html_show_copyright = False
-
-TITLES = {"results-notes": "Notes on the results"}
-
-
-def give_title(app, page, source):
-    """The notes are the ends of generated pages, and have no title of their own."""
-    if page in TITLES:
-        source[0] = f"# {TITLES[page]}\n\n{source[0]}"
-
-
-def setup(app):
-    app.connect("source-read", give_title)

@@ -43,8 +43,8 @@ std::string run_of(const fs::path& result, std::size_t number, const io::Sequenc
         const fs::path page = result / "report.html";
         if (!fs::exists(page)) {
             throw InputError(result, "",
-                             "holds no report.html; expected the output folder of a run (older "
-                             "ones have none: run again with --overwrite)");
+                             "holds no report.html; expected the output folder of a run (without "
+                             "one, run again with --overwrite and without --no-report)");
         }
         return run_of_report(page, number);
     }

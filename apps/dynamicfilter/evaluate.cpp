@@ -87,8 +87,11 @@ Evaluation scores_of(const EvalOptions& o) {
     const auto missing =
         static_cast<std::size_t>(std::count(left_out.begin(), left_out.end(), true));
     if (missing == sequence.size()) {
-        throw InputError(o.labels ? *o.labels : o.truth.data, "",
-                         "holds no label file of any readable scan in " + o.truth.data.string());
+        throw InputError(
+            o.labels ? *o.labels : o.truth.data, "",
+            fmt::format("holds no label file of any readable scan in {}; labels are named "
+                        "as the scans, for instance {}.label",
+                        o.truth.data.string(), io::stem(sequence, 0)));
     }
     return {std::move(scores), sequence.size(), missing};
 }

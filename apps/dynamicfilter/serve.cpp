@@ -32,7 +32,8 @@ Pages pages_in(const fs::path& folder) {
     if (pages.empty()) {
         throw InputError(folder, "",
                          "holds no report.html, nor do the folders in it; expected the output "
-                         "folder of a run, or a folder of such");
+                         "folder of a run, which `dynamicfilter run RECORDING -o DIR` makes, or a "
+                         "folder with several");
     }
     return pages;
 }

@@ -27,5 +27,4 @@ def score_row(bench, name, settings):
 
 def ablation_table(bench, names=tuple(MECHANISMS)):
     rows = [score_row(bench, name, settings) for name, settings in {"(nothing)": [], **{n: MECHANISMS[n] for n in names}}.items()]
-    return ("\n## Default preset, ablation\n\n`script/ablate`: each mechanism is taken away by the settings in "
-            "script/lib/mechanisms.py. F1 / AA [%], seed 1.\n\n" + table(["without", *RECORDINGS], rows))
+    return table(["without", *RECORDINGS], rows)

@@ -24,6 +24,10 @@ class Bench:
     def seeds(self):
         return [1] if self.quick else [1, 2, 3]
 
+    @property
+    def seeds_sentence(self):
+        return f"The figures are those of seed {self.seeds[0]}.\n\n" if self.quick else "The figures are the means of seeds 1, 2 and 3.\n\n"
+
 
 def call(*words, good=(0,)):
     """Standard output of a command; its failure ends everything."""

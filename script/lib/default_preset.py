@@ -34,12 +34,11 @@ def scenes(bench, cases):
 def default_table(bench):
     cases = [("crowd", sensor, people) for sensor in ("vlp16", "os64") for people in (50, 100, 150)]
     cases += [("street", "os64", None), ("square", "os64", None)]
-    return ("\n## Default preset: scans observe\n\n"
-            f"Mean of seeds {bench.seeds}, F1 with its standard deviation.\n\n" + scenes(bench, cases))
+    return bench.seeds_sentence + scenes(bench, cases)
 
 
 def hall_table(bench):
-    return "\nA hall on two levels:\n\n" + scenes(bench, [("hall", "os64", None)])
+    return bench.seeds_sentence + scenes(bench, [("hall", "os64", None)])
 
 
 def scene_table(bench):
@@ -48,28 +47,25 @@ def scene_table(bench):
              ("crowd", "os128"), ("crowd", "vlp16", "--rate", 5)]
     rows = [[scene, sensor, " ".join(map(str, options)), *row(bench, scene, sensor, *options)]
             for scene, sensor, *options in cases]
-    return ("\n## Other sensors, noise, and nothing moving\n\n"
-            f"Same settings throughout, mean of seeds {bench.seeds}.\n\n" + table(["scene", "sensor", "options", *HEAD], rows))
+    return bench.seeds_sentence + table(["scene", "sensor", "options", *HEAD], rows)
 
 
 def error_tables(_):
-    text = ("\n## Errors by class and by instance\n\nSeed 1; voxels that hold one kind only. An instance is a person or a vehicle of which at least "
-            "20 points were measured.\n")
+    tables = []
     for case in (("default", "crowd", "vlp16", 100, 1), ("paper", "crowd", "vlp16", 100, 1),
                  ("default", "street", "os64", 30, 1), ("default", "square", "os64", 60, 1),
                  ("default", "jam", "vlp16", -1, 1), ("default", "crowd", "vlp16", 150, 1)):
         print("errors", *case, file=sys.stderr, flush=True)
         words = " ".join(map(str, case))
-        text += f"\n`build/release/error_table {words}`\n\n{call(BUILD / 'error_table', *case)}"
-    return text
+        tables.append(f"`build/release/error_table {words}`\n\n{call(BUILD / 'error_table', *case)}")
+    return "\n".join(tables)
 
 
 def real_table(bench):
     data = os.environ.get("DYNAMICFILTER_DATA")
-    text = "\n## Real recordings\n\n"
     if not data:
         print("SKIPPED: real recordings (set DYNAMICFILTER_DATA)", file=sys.stderr)
-        return text + "Skipped: DYNAMICFILTER_DATA was not set.\n"
+        return None
     rows = []
     for folder in sorted(p for p in Path(data).iterdir() if (p / "labels").is_dir()):
         for preset, result in zip(("default", "paper"), both(bench, folder)):
@@ -77,6 +73,4 @@ def real_table(bench):
             rows.append([folder.name, result["metrics"]["scans"], preset, *cells(voxel(result)),
                          cells(voxel(result, True))[2], *(percent(point[k]) for k in ("sa", "da", "aa", "iou")),
                          memory_cell([result])])
-    return text + ("`DYNAMICFILTER_DATA=DIR script/reproduce`; points without ground truth are left out.\n\n" +
-                   table(["recording", "scans", "preset", "PR [%]", "RR [%]", "F1", "instant F1", "SA", "DA", "AA",
-                          "moving IoU", "memory [MB]"], rows))
+    return table(["recording", "scans", "preset", "PR [%]", "RR [%]", "F1", "instant F1", "SA", "DA", "AA", "moving IoU", "memory [MB]"], rows)

@@ -31,17 +31,17 @@ def score_text(result):
 def variant_pictures(bench):
     """Figure 7, and 4 with it: what each variant keeps and loses."""
     runs = [("default preset", "default", [])] + [(f"preset paper, {name}", "paper", s) for name, s in reversed(VARIANTS.items())]
-    text = ""
+    variants = []
     for name, preset, settings in runs:
         result = run(bench, crowd(bench), settings, preset)
         image = picture(bench, "errors", "map-" + name.replace("preset ", "").replace(", ", "-").replace(" ", "-").lower())
-        text += f"\n{name}: {score_text(result)}\n\n{image}\n"
-    return text
+        variants.append(f"{name}: {score_text(result)}\n\n{image}\n")
+    return "\n".join(variants)
 
 
 def submap_picture(bench):
     run(bench, crowd(bench))
-    return picture(bench, "submaps", "submaps")
+    return picture(bench, "submaps", "submaps") + "\n"
 
 
 def scores_over_time(bench):
@@ -60,15 +60,4 @@ def scores_over_time(bench):
     chart = line_chart("time [s]", "score of the map so far [%]", (int(lowest / 5) * 5, 100), series,
                        [(stamps[-1] / 2, "one round")])
     (image_folder(bench) / "scores-over-time.svg").write_text(chart)
-    return "![scores over time](images/scores-over-time.svg)"
-
-
-def figures(bench):
-    return ("\n## Figures\n\nCrowd of 100, VLP-16, seed 1, from above.\n\n"
-            "*Figures 4 and 7, the variants.* Kept voxels in grey (paler: the floor), moving ones that were kept in red, static "
-            "ones that were lost in blue. Without the visibility check every submap near by counts as having looked: nearly all "
-            "people go, and much of what is static with them.\n" +
-            variant_pictures(bench) +
-            "\n*Figure 5, merging (preset paper).* Kept voxels in the colour of the submap that decides them, which is the nearest.\n\n" +
-            submap_picture(bench) +
-            "\n\n*Figure 8, scores over two rounds.*\n\n" + scores_over_time(bench) + "\n")
+    return "![scores over time](images/scores-over-time.svg)\n"

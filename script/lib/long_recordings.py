@@ -32,18 +32,14 @@ def length_table(bench):
     series = [("F1 [%]", "#222222", False, [(n, 100 * voxel(r[0])[2]) for n, r in results.items()]),
               ("AA [%]", "#1f77b4", False, [(n, 100 * r[0]["metrics"]["point"]["aa"]) for n, r in results.items()])]
     (image_folder(bench) / "against-length.svg").write_text(line_chart("rounds of the robot", "[%]", (90, 100), series))
-    return ("\n## Against the length of the recording\n\n"
-            f"`simulate crowd --pedestrians 150 --rate 1.25 --rounds N`, default preset, mean of seeds {bench.seeds}. The picture shows seed {bench.seeds[0]}.\n\n" +
-            table(["rounds", *HEAD], [[n, *row(r)] for n, r in results.items()]) +
-            "\n![F1 and AA of the crowd of 150 against the number of rounds](images/against-length.svg)\n")
+    return (bench.seeds_sentence + table(["rounds", *HEAD], [[n, *row(r)] for n, r in results.items()]) +
+            f"\nThe picture shows seed {bench.seeds[0]}.\n\n![F1 and AA of the crowd of 150 against the number of rounds](images/against-length.svg)\n")
 
 
 def rate_table(bench):
     """The same two rounds, with more or fewer scans a second."""
     rates = [1.25, 5] if bench.quick else [1.25, 2.5, 5, 10]
-    return ("\n## Against the rate of the sensor\n\n"
-            f"`simulate crowd --pedestrians 150 --rate R`, two rounds, default preset, mean of seeds {bench.seeds}.\n\n" +
-            table(["rate [Hz]", *HEAD], [[r, *row(results_of(bench, "crowd", "vlp16", *PEOPLE, "--rate", r))] for r in rates]))
+    return bench.seeds_sentence + table(["rate [Hz]", *HEAD], [[r, *row(results_of(bench, "crowd", "vlp16", *PEOPLE, "--rate", r))] for r in rates])
 
 
 def long_rests(bench):
@@ -51,6 +47,4 @@ def long_rests(bench):
     cases = [(scene, sensor, *options) for scene in ("jam", "platform")
              for sensor, *options in (("vlp16", "--rate", 5), ("os64", "--rate", 2.5))]
     rows = [[scene, sensor, options[1], *row(results_of(bench, scene, sensor, *options))] for scene, sensor, *options in cases]
-    return ("\n## Queues and trains\n\n"
-            "A queue at a light, with a bus and a van that stand; a platform, where people wait and a train comes, stands and leaves. "
-            f"Whole scenes, default preset, mean of seeds {bench.seeds}.\n\n" + table(["scene", "sensor", "rate [Hz]", *HEAD], rows))
+    return bench.seeds_sentence + table(["scene", "sensor", "rate [Hz]", *HEAD], rows)

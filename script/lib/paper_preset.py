@@ -55,13 +55,10 @@ def crowd_vlp16(bench):
         shares.append([people, *(f"{100 * r['metrics']['dynamic_voxel_share']:.1f}" for r in results["full"]),
                        {50: 54.8, 100: 58.5, 150: 59.3}[people]])
     seeds = [f"seed {s}" for s in bench.seeds]
-    return ("\n## Preset paper, Table II: the crowd, VLP-16\n\n" +
-            f"Mean of seeds {bench.seeds}, F1 with its standard deviation; speeds are medians: items per busy wall second "
-            "of the stage, and scans per second of the whole run with reading and writing. Paper: 17.95 scans/s and "
-            "11.20 submaps/s on 4 cores.\n\n" + table(FULL_HEAD, rows2) +
-            "\nShare of voxels with a moving point [%]:\n\n" + table(["people", *seeds, "paper"], shares) +
-            "\n## Preset paper, Table III: ablation, VLP-16\n\nMean of the same seeds. The last three columns are the paper's, on its own "
-            "scene.\n\n" + table(["people", "variant", "PR [%]", "RR [%]", "F1", "PR", "RR", "F1"], rows3))
+    return (bench.seeds_sentence + "Table II of the paper, the full method:\n\n" + table(FULL_HEAD, rows2) +
+            "\nShare of the voxels that hold a moving point [%]:\n\n" + table(["people", *seeds, "paper"], shares) +
+            "\nTable III of the paper, the ablation. The last three columns are the paper's figures:\n\n" +
+            table(["people", "variant", "PR [%]", "RR [%]", "F1", "PR", "RR", "F1"], rows3))
 
 
 def crowd_os64(bench):
@@ -74,7 +71,7 @@ def crowd_os64(bench):
             results.append(run(bench, recording))
             shutil.rmtree(recording)
         rows.append(full_row(people, results))
-    return "\n## Preset paper: the crowd, 64 beams (os64, 131,072 rays a scan)\n\n" + table(FULL_HEAD, rows)
+    return bench.seeds_sentence + table(FULL_HEAD, rows)
 
 
 def reverting_table(bench):
@@ -82,5 +79,4 @@ def reverting_table(bench):
     recording = simulated(bench, "crowd", "vlp16", 1, "--pedestrians", 100)
     rows = [[kind, *cells(voxel(run(bench, recording, ["back_end.enabled=false", f"front_end.reverting={kind}"])))]
             for kind in ("none", "visibility", "map")]
-    return ("\n## Preset paper, Figure 3: reverting\n\nFront-end only, crowd of 100, VLP-16, seed 1.\n\n" +
-            table(["reverting", "PR [%]", "RR [%]", "F1"], rows))
+    return table(["reverting", "PR [%]", "RR [%]", "F1"], rows)

@@ -19,10 +19,9 @@ def row(name, method, metrics, cpu, rate):
 
 def peers_table(bench):
     """OctoMap takes almost a second a dense scan, so both get every second one."""
-    text = "\n## OctoMap on the same recordings\n\n"
     if not OCTOMAP.exists():
         print("SKIPPED: OctoMap (install liboctomap-dev)", file=sys.stderr)
-        return text + "Skipped: liboctomap-dev is not installed.\n"
+        return None
     rows = []
     for scene, sensor, stride in (("crowd", "vlp16", 1), ("street", "os64", 2), ("hall", "os64", 2)):
         stride *= 4 if bench.quick else 1
@@ -33,9 +32,4 @@ def peers_table(bench):
         ours = run(bench, recording, preset="default", options=("--stride", stride))
         rows.append(row(name, "default preset", ours["metrics"], ours["timing"]["cpu_seconds"],
                         ours["timing"]["scans_per_second"]))
-    return text + (
-        "`build/release/octomap_peer RECORDING STRIDE`: Debian's OctoMap, `insertPointCloud` with the default sensor model, voxels of 0.2 m, "
-        "no limit of range; a point is static if its voxel is occupied in the final tree, dynamic if free, unknown if not there. Seed 1. "
-        "Scans per wall second: OctoMap's reading and insertion; our reading, filtering (on two cores) and writing. CPU times: "
-        "OctoMap's insertion, our whole run.\n\n" +
-        table(["recording", "method", "PR [%]", "RR [%]", "F1", "AA [%]", "moving IoU [%]", "CPU [s]", "[scans/s]"], rows))
+    return table(["recording", "method", "PR [%]", "RR [%]", "F1", "AA [%]", "moving IoU [%]", "CPU [s]", "[scans/s]"], rows)

@@ -28,9 +28,10 @@ def kernels(_):
     context = result["context"]
     rows = [[b["name"].replace("_", " "), f"{b['items/s'] / 1e6:.1f}", f"{100 * b['roofline']:.0f}"]
             for b in result["benchmarks"]]
-    return (f"`build/release/kernels`, one thread, {machine()}. The roofline is measured in the same run: a copy moves "
-            f"{float(context['copy'].split()[0]):.0f} GB/s, multiply-adds reach {float(context['multiply-add'].split()[0]):.0f} Gflop/s; "
-            "a kernel's share is the longer of its two least times over its time. More than 100 % means that the data stay in the cache.\n\n" +
+    return (f"`build/release/kernels` measures each kernel with one thread on a machine with {machine()}. The roofline is the bound that memory and "
+            f"arithmetic set. It is measured in the same run: a copy moves {float(context['copy'].split()[0]):.0f} GB/s, and multiply-adds reach "
+            f"{float(context['multiply-add'].split()[0]):.0f} Gflop/s. From both follow two shortest possible times of a kernel. The share of the roofline "
+            "is the longer of these two over the measured time. A share of more than 100 % means that the data stay in the cache.\n\n" +
             table(["kernel", "million items/s", "of its roofline [%]"], rows))
 
 
@@ -88,14 +89,14 @@ def sequences(bench):
                     of_stage = [next(p for p in t["process"] if p["stage"] == stage["stage"]) for t in timing]
                     stages.append([scene, sensor, "yes" if truth else "no", stage["stage"], f"{middle(of_stage, 'wall_seconds'):.2f}",
                                    f"{1e3 * middle(of_stage, 'cpu_seconds') / scans:.1f}"])
-    return ("`script/bench --only sequences`: `dynamicfilter run` as a whole process, from start to exit, median of three: 300 scans of the street, "
-            "150 of the crowd; reading, refined poses where they are needed, verdicts, labels, both maps, report, and scores where there is ground truth. "
-            "Beside it in the same session: OctoMap's insertion alone, of every tenth scan at 0.2 m, one thread; and a plain copy of the scans. "
-            "The two stages are alone and per busy wall second.\n\n" +
+    return ("`script/bench --only sequences` measures `dynamicfilter run` as a whole process, from start to exit. The figures are the median of three runs. "
+            "A run includes reading, refined poses where they are needed, verdicts, labels, both maps, the "
+            "report, and scores where there is ground truth. OctoMap ran in the same session, with one thread, and inserted every tenth scan at 0.2 m. "
+            "The last column compares with a plain copy of the scans. The rates of the two stages are items per wall second in which the stage was busy.\n\n" +
             table(["scene", "sensor", "preset", "ground truth", "scans/s", "CPU [ms/scan]", "cores busy", "memory [MB]", "judge / front-end alone",
                    "integrate / back-end alone", "times OctoMap", "of a copy's rate [%]"], rows) +
-            "\nThe same runs of the default preset by stage (`process` in `timing.json`). `prepare` chooses poses and deskewing, and takes the same time "
-            "for a recording of any length.\n\n" +
+            "\nThe next table shows the stages of the same runs with the default preset (`process` in `timing.json`). The stage `prepare` chooses poses and "
+            "deskewing. It takes the same time for a recording of any length.\n\n" +
             table(["scene", "sensor", "ground truth", "stage", "wall [s]", "CPU [ms/scan]"], stages))
 
 
@@ -109,8 +110,9 @@ def threads(bench):
         serial = max(0.0, 2.0 * wall[1] / wall[0] - 1.0)  # Amdahl
         expected = [1.0 / (serial + (1.0 - serial) / n) for n in (4, 8)]
         rows.append([scene, sensor, f"{wall[0]:.1f}", f"{wall[1]:.1f}", f"{100 * serial:.0f}", *[f"{e:.1f}" for e in expected]])
-    return ("`script/bench --only threads`: whole processes with `--threads 1` and `--threads 2`, median of three. Reading ahead has a thread of its own "
-            "in both. The serial share follows from the two, and from it what four and eight threads would give; they were not measured.\n\n" +
+    return ("`script/bench --only threads` measures whole processes with `--threads 1` and `--threads 2`, as the median of three runs. In both cases, reading "
+            "ahead has a thread of its own. The serial share follows from the two times by Amdahl's law. The last two columns follow from the serial share. "
+            "Four and eight threads were not measured.\n\n" +
             table(["scene", "sensor", "one thread [s]", "two [s]", "serial [%]", "four would be x times as fast", "eight"], rows))
 
 
@@ -133,7 +135,7 @@ def lengths(bench):
         timing = run(bench, looped, preset="default")["timing"]
         rows.append([scans, f"{timing['voxels'] / 1e3:.0f}", f"{timing['peak_rss_bytes'] / 1e6:.0f}",
                      f"{1e3 * timing['cpu_seconds'] / scans:.1f}"])
-    return ("`script/bench --only lengths`: the street's 300 scans of 64 beams, driven up and down again and again.\n\n" +
+    return ("`script/bench --only lengths` drives up and down the street repeatedly, with its 300 scans of 64 beams.\n\n" +
             table(["scans", "voxels [10^3]", "memory [MB]", "CPU [ms/scan]"], rows))
 
 
@@ -147,16 +149,17 @@ def online(bench):
         latency = timing["stages"]["latency"]
         rows.append([scene, sensor, f"{latency['p50']:.1f}", f"{latency['p99']:.1f}", timing["online"]["dropped"],
                      f"{100 * timing['cpu_seconds'] / (0.1 * scans):.0f}"])
-    text = ("`dynamicfilter run --online`, 10 Hz: from the scan's arrival to its instant verdict; the share of one core includes reading, "
-            "writing and the final verdicts.\n\n" +
+    text = ("The command is `dynamicfilter run --online` at 10 Hz. The latency is the time from the arrival of a scan to its instant verdict, which comes "
+            "together with the scan. The share of one core includes reading, writing and the final verdicts.\n\n" +
             table(["scene", "sensor", "latency p50 [ms]", "p99 [ms]", "dropped", "of one core [%]"], rows))
     say("overload")
     result = json.loads(call(BUILD / "replay", simulated(bench, *CASES[0], 1), "overload", 60))
     return text + (
-        f"\nOverload, `build/release/replay RECORDING overload 60` (crowd, VLP-16): a scan alone takes {result['alone_ms']:.1f} ms; ten times as many as "
-        f"that allows come, {result['sent_per_second']:.0f} a second, for a minute. {result['judged_per_second']:.0f} a second are judged, the rest is "
-        f"dropped. Age of what comes out: p50 {result['age_p50_ms']:.1f} ms, p99 {result['age_p99_ms']:.1f} ms. The last scan is dropped "
-        f"{result['recovery_seconds']:.2f} s after the load ends. Counters exact at every push: {'yes' if result['counters_exact'] else 'NO'} "
+        f"\n`build/release/replay RECORDING overload 60` measures an overload with the crowd and a VLP-16. A single scan takes {result['alone_ms']:.1f} ms. "
+        f"For a minute, {result['sent_per_second']:.0f} scans per second arrive, which is ten times the rate that this time allows. The filter judges "
+        f"{result['judged_per_second']:.0f} scans per second and drops the rest. A scan is {result['age_p50_ms']:.1f} ms old (p50) when its verdict comes, "
+        f"and {result['age_p99_ms']:.1f} ms (p99). The last scan is dropped "
+        f"{result['recovery_seconds']:.2f} s after the load ends. The counters were exact at every push: {'yes' if result['counters_exact'] else 'NO'} "
         f"({result['in']} = {result['processed']} + {result['dropped']} + {result['rejected']}).\n")
 
 
@@ -178,7 +181,7 @@ def scaling(bench):
         add(f"points: {sensor}", simulated(bench, "street", sensor, 1))
     for size in (0.4, 0.2, 0.1):
         add(f"voxels of {size} m", street, settings=[f"map.voxel_size={size}"])
-    return ("The street, default preset, with ground truth.\n\n" +
+    return ("All rows are of the street with the default preset and with ground truth. The first column says what changes from row to row.\n\n" +
             table(["", "scans", "points a scan [10^3]", "voxels [10^3]", "CPU [ms/scan]", "memory [MB]"], rows))
 
 
@@ -194,19 +197,13 @@ def hours(bench, hours):
         return max(row["resident_mib"] for row in part)
 
     first, last = mean(rows[:third], "ms_per_scan"), mean(rows[-third:], "ms_per_scan")
-    return (f"`build/release/replay RECORDING hours {hours:g}`: the street with a VLP-16, again and again, each round beginning where the last "
-            f"ended, through the online filter as fast as it can, horizon 200 m. Memory goes up and down as the map is cut; at most it is "
-            f"{most(rows[:third]):.0f} MiB in the first third, {most(rows[third:-third]):.0f} in the second, {most(rows[-third:]):.0f} in the last. A scan takes "
+    return (f"`build/release/replay RECORDING hours {hours:g}` replays the street with a VLP-16 repeatedly through the online filter, as fast as it can. "
+            f"Each round begins where the last one ended, and the horizon is 200 m. The memory rises and falls because the filter cuts the map at the "
+            f"horizon. The maximum is {most(rows[:third]):.0f} MiB in the first third, {most(rows[third:-third]):.0f} in the second and "
+            f"{most(rows[-third:]):.0f} in the last. A scan takes "
             f"{first:.2f} ms in the first third and {last:.2f} ms in the last ({100 * (last / first - 1):+.1f} %).\n\n" +
             table(["hours", "resident [MiB]", "voxels [10^3]", "ms/scan"],
                   [[f"{r['hours']:.2f}", f"{r['resident_mib']:.0f}", f"{r['voxels'] / 1e3:.0f}", f"{r['ms_per_scan']:.2f}"] for r in rows]))
 
 
 SECTIONS = [kernels, sequences, threads, online, scaling, lengths]
-
-
-def put(page, name, text):
-    """The page with the section's text in its place, between two comments."""
-    begin, end = f"<!-- script/bench: {name} -->\n", f"<!-- end of {name} -->\n"
-    before, rest = page.split(begin)
-    return before + begin + text + end + rest.split(end)[1]

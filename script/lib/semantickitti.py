@@ -36,10 +36,9 @@ def mean_rows(rows):
 
 
 def table_one(bench, windows=None):
-    text = "\n## Table I: SemanticKITTI\n\n"
     if not bench.semantickitti:
         print("SKIPPED: Table I (give --semantickitti PATH)", file=sys.stderr)
-        return text + "Skipped: no `--semantickitti PATH`.\n"
+        return None
     root = bench.semantickitti
     root = root / "sequences" if (root / "sequences").is_dir() else root
     rows = []
@@ -50,8 +49,4 @@ def table_one(bench, windows=None):
         else:
             print(f"SKIPPED: sequence {sequence} of SemanticKITTI is not in {root}", file=sys.stderr)
             rows.append([sequence, "Skipped: not there", *["-"] * 6])
-    return text + (
-        "`script/reproduce --semantickitti PATH`: the windows of ERASOR, one scan of two (sequence 01: all), poses of the data set. "
-        "PR, RR and F1 by ERASOR's rule (`erasor` in `metrics.json`); behind them F1 with mixed voxels left out, AA and moving IoU. "
-        "Points without a label, the car's own among them, are left out.\n\n" +
-        table(["sequence", "method", "PR [%]", "RR [%]", "F1", "F1, mixed left out", "AA [%]", "moving IoU [%]"], rows + mean_rows(rows)))
+    return table(["sequence", "method", "PR [%]", "RR [%]", "F1", "F1, mixed left out", "AA [%]", "moving IoU [%]"], rows + mean_rows(rows))

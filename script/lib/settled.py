@@ -10,11 +10,9 @@ SCENES = [("a crowd of 100, VLP-16 at 5 Hz, 120 s", ("crowd", "vlp16", 100, 5, 1
 
 def settled_table(bench):
     """Verdicts by the evidence that there was so many seconds after the scan."""
-    text = ("\n## How soon it is known\n\n"
-            "Verdicts that come with the scan, that are asked for some seconds later (`DynamicFilter::settled`), and in the end: "
-            "`build/release/settled SCENE SENSOR PEDESTRIANS RATE SECONDS SEED`.\n")
+    tables = []
     for title, arguments in SCENES[:1] if bench.quick else SCENES:
         words = [str(a) for a in arguments]
         print("settled", *words, file=sys.stderr, flush=True)
-        text += f"\n{title[0].upper()}{title[1:]}, `settled {' '.join(words)}`:\n\n" + call(BUILD / "settled", *words)
-    return text
+        tables.append(f"{title[0].upper()}{title[1:]}, `settled {' '.join(words)}`:\n\n" + call(BUILD / "settled", *words))
+    return "\n".join(tables)

@@ -62,10 +62,16 @@ void refuse_inner_folder(const fs::path& data, const OpenOptions& options) {
 }
 
 void require_folder(const fs::path& data) {
-    if (!present(data)) throw InputError(data, "", "does not exist; expected a recording's folder");
+    if (!present(data))
+        throw InputError(
+            data, "", "does not exist; expected a bag (.mcap, .bag, .db3) or a folder with scans");
     if (!is_folder(data)) {
         const std::string kind = kind_by_content(read_head(data, 100));
-        const std::string force = kind.ends_with("bag") ? "; force --format bag" : "";
+        const std::string force = kind.ends_with("bag") ? "; force --format bag"
+                                  : kind.ends_with("cloud")
+                                      ? "; a single cloud cannot be cleaned, because "
+                                        "the scans tell what moved"
+                                      : "";
         throw InputError(data, "",
                          "is " + (kind.empty() ? "a file" : kind) + force +
                              "; expected a bag (.mcap, .bag, .db3), or a folder with "

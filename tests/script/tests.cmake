@@ -9,3 +9,5 @@ add_test(NAME script/mechanisms
 add_test(NAME script/faults
          COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/faults_test.py ${PROJECT_SOURCE_DIR})
 add_test(NAME script/skips COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/skips_test.py ${PROJECT_SOURCE_DIR})
+add_test(NAME script/regions
+         COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/regions_test.py ${PROJECT_SOURCE_DIR})

@@ -127,7 +127,7 @@ void judge_upside_down(Preflight& result, const Samples& samples) {
             share_of(result.overlays, name) > 0.97 * share_of(result.overlays, kAsGiven);
         if (!alike || hang_upside_down(samples, *reading)) continue;
         Finding finding = pose_finding(result.overlays, name);
-        finding.what += ", with which the sensor hangs upside down";
+        finding.what += ", but then the sensor would hang upside down";
         result.findings.push_back(std::move(finding));
         return;
     }
