@@ -104,6 +104,9 @@ void add_run(CLI::App& app, std::function<int()>& chosen) {
     CLI::Option* const view =
         c.add_flag("--view", o->view, "show the run in a browser, live, at the address it prints");
     c.add_option("--port", o->port, "of the view (default: any that is free)")->needs(view);
+    c.add_option("--edits", o->edits,
+                 "edits.json of another run, applied to labels and maps (default: the output "
+                 "folder's own)");
     c.add_flag("!--no-maps", o->maps, "write no static_map.pcd and no dynamic_points.pcd");
     c.add_flag("!--no-report", o->report, "write no report.html")->excludes(view);
     c.add_flag("-q,--quiet", o->quiet, "say only what is wrong");
@@ -201,6 +204,9 @@ void add_report(CLI::App& app, std::function<int()>& chosen) {
     serve_command.add_option("DIR", s->folder, "output folder of a run, or a folder of such")
         ->required();
     serve_command.add_option("--port", s->port, "default: any that is free");
+    serve_command.add_flag("--edit", s->edit,
+                           "correct verdicts of this one run by hand; saved as DIR/edits.json "
+                           "(docs/editing.md)");
     serve_command.callback([s, &chosen] { chosen = [s] { return serve(*s); }; });
 }
 
