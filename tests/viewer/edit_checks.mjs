@@ -159,6 +159,26 @@ describe("corrections by hand", { skip: command ? false : "DF_COMMAND is not set
     await until(isApplied, "applied", 30_000);
   });
 
+  test("an apply that was killed is finished by the next one", async () => {
+    const files = () => ["static_map.pcd", "dynamic_points.pcd", "labels/000000.label", "labels/000059.label"].map((name) => readFileSync(at(`out/${name}`)));
+    const whole = files();
+    await page.close();
+    for (const ms of [30, 90, 150, 250]) {
+      const token = new URL(address).searchParams.get("edit");
+      http("/apply", "POST", { "X-Edit-Token": token }).catch(() => {});
+      await new Promise((done) => setTimeout(done, ms));
+      const ended = new Promise((done) => server.on("exit", done));
+      server.kill("SIGKILL");
+      await ended;
+      run("info", "out/static_map.pcd");
+      await serve();
+    }
+    const { searchParams } = new URL(address);
+    assert.equal((await http("/apply", "POST", { "X-Edit-Token": searchParams.get("edit") })).status, 200);
+    files().forEach((bytes, i) => assert.ok(bytes.equals(whole[i])));
+    await openEditor();
+  });
+
   test("edits survive a new run, and the page shows them", async () => {
     const files = ["static_map.pcd", "dynamic_points.pcd", "labels/000030.label", "edits.json"].map((name) => readFileSync(at(`out/${name}`)));
     await page.close();

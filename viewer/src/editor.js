@@ -86,6 +86,7 @@ export class Editor {
   }
 
   #chooseMap(points, how) {
+    this.#forget();
     this.#select(points.length ? { points, cut: false, how } : null);
   }
 
@@ -93,6 +94,12 @@ export class Editor {
     this.#selection = selection?.points.length ? selection : null;
     this.panel.setChosen(this.#selection);
     this.#light((this.#selection?.points ?? []).flatMap((i) => this.view.clouds.map.position(i)));
+  }
+
+  /** The point that was clicked, too. */
+  #forget() {
+    this.session.select(null);
+    this.#select(null);
   }
 
   #light(places) {
@@ -106,7 +113,7 @@ export class Editor {
     if (!this.#selection) return;
     const { row } = this.session.store.values;
     const edit = { label, how: this.#selection.how, ...(this.#oneScan ? { scans: [row, row] } : {}), cells: this.#indices[0].index.cellsOf(this.#selection.points) };
-    this.#select(null);
+    this.#forget();
     this.#list.add(edit);
   }
 
@@ -178,6 +185,8 @@ export class Editor {
       if (key === "z") event.shiftKey ? this.redo() : this.undo();
       else if (key === "y") this.redo();
       else return;
+    } else if (key === "escape") {
+      return this.#select(null);
     } else if (KEYS[key] && !event.altKey) {
       this.mark(KEYS[key]);
     } else {
