@@ -2,6 +2,7 @@
 #include "apply_edits.hpp"
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 #include "config_file.hpp"

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "dynamic_filter/error.hpp"
@@ -139,7 +139,7 @@ std::string text_of(const Edits& edits) {
         "{{\"format\": \"{}\", \"version\": {}, \"cell_size\": {},\n"
         "\"edits\": [",
         kFormat, kVersion, ordered_json(edits.cell_size).dump());
-    for (std::size_t i = 0; i < edits.edits.size(); ++i) {  // one a line, for whoever compares two
+    for (std::size_t i = 0; i < edits.edits.size(); ++i) {  // one a line: easy to compare
         const Edit& edit = edits.edits[i];
         const auto code = static_cast<std::size_t>(
             std::find(kLabels.begin(), kLabels.end(), edit.label) - kLabels.begin());

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <tuple>
 #include <vector>
 
 #include "dynamic_filter/error.hpp"
