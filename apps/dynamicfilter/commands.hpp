@@ -48,7 +48,8 @@ struct RunOptions {
     bool online = false;
     double speed = 1.0;  ///< of online: times the sensor's rate; 0: as fast as it can
     bool overwrite = false, resume = false;
-    bool maps = true, report = true;  ///< left beside the labels
+    std::optional<std::filesystem::path> edits;  ///< empty: those in the output folder, if any
+    bool maps = true, report = true;             ///< left beside the labels
     bool view = false;
     std::uint16_t port = 0;  ///< of the view; 0: any
     bool quiet = false;      ///< says only what is wrong
@@ -99,6 +100,7 @@ struct ReportOptions {
 struct ServeOptions {
     std::filesystem::path folder;
     std::uint16_t port = 0;
+    bool edit = false;  ///< corrections by hand, of one run
 };
 
 struct RenderOptions {

@@ -128,6 +128,9 @@ void add_run(CLI::App& app, std::function<int()>& chosen) {
     CLI::Option* const view = c.add_flag(
         "--view", o->view, "show the run live in a browser, at the address that it prints");
     c.add_option("--port", o->port, "port of the view (default: any free one)")->needs(view);
+    c.add_option("--edits", o->edits,
+                 "edits.json of another run, which is applied to labels and maps (default: that of "
+                 "the output folder)");
     c.add_flag("!--no-maps", o->maps, "do not write static_map.pcd and dynamic_points.pcd");
     c.add_flag("!--no-report", o->report, "do not write report.html")->excludes(view);
     c.add_flag("-q,--quiet", o->quiet, "print only warnings and errors");
@@ -241,6 +244,10 @@ void add_report(CLI::App& app, std::function<int()>& chosen) {
         .add_option("DIR", s->folder, "output folder of a run, or a folder that holds several")
         ->required();
     serve_command.add_option("--port", s->port, "port (default: any free one)");
+    serve_command.add_flag(
+        "--edit", s->edit,
+        "correct the labels of this run by hand in the page; the corrections are "
+        "kept in DIR/edits.json");
     serve_command.callback([s, &chosen] { chosen = [s] { return serve(*s); }; });
 }
 

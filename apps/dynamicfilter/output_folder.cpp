@@ -34,8 +34,11 @@ Names written_by(Contents contents) {
     switch (contents) {
         case Contents::result:
             return {{"static_map.pcd", "dynamic_points.pcd", "metrics.json", "timing.json",
-                     "config.toml", "run.log", "report.html", kRunState},
-                    {{"labels", ".label"}}};
+                     "config.toml", "run.log", "report.html", "map_gaps.bin", kRunState},
+                    {{"labels", ".label"},
+                     {"unedited", ".label"},
+                     {"unedited", ".pcd"},
+                     {"unedited", ".json"}}};
         case Contents::recording:
             return {{"poses.txt", "times.txt"}, {{"labels", ".label"}, {"velodyne", ".bin"}}};
         case Contents::benchmark:

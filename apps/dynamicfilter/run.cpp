@@ -7,6 +7,7 @@
 #include "dynamic_filter/io/file.hpp"
 #include "dynamic_filter/io/preflight.hpp"
 #include "dynamic_filter/parallel.hpp"
+#include "edits/run_edits.hpp"
 #include "frames.hpp"
 #include "motion.hpp"
 #include "progress.hpp"
@@ -84,6 +85,7 @@ int run(const RunOptions& o) {
     if (o.resume && !named) throw ConfigError("--resume needs the folder to go on with: -o DIR");
     if (o.overwrite && named) refuse_foreign_labels(*o.output);
     const fs::path folder = named ? *o.output : default_output();
+    const std::optional<Edits> edits = edits_for(folder, o, config);
     std::optional<LiveView> live;
     if (o.view) {
         live.emplace(o.port, folder.filename().string(), o.data.data.string(), sequence.size());
@@ -122,6 +124,7 @@ int run(const RunOptions& o) {
     for (const std::string& line : sequence.losses) fmt::print(stderr, "lost     {}\n", line);
     for (const std::string& line : summary.rejected) fmt::print(stderr, "rejected {}\n", line);
     for (const std::string& line : summary.dropped) fmt::print(stderr, "dropped {}\n", line);
+    if (edits && !summary.interrupted) apply_to_run(output.path(), *edits, o.quiet);
     if (!summary.interrupted) io::write_file(output.path() / kRunState, state + kComplete);
     if (summary.interrupted && output.path() != output.name()) {
         fmt::print("interrupted; the earlier result in {} stays\n", output.name().string());

@@ -14,6 +14,7 @@
 #include "dynamic_filter/io/file.hpp"
 #include "dynamic_filter/io/writers.hpp"
 #include "dynamic_filter/parallel.hpp"
+#include "edits/map_gaps.hpp"
 #include "frames.hpp"
 #include "map_files.hpp"
 #include "motion.hpp"
@@ -161,12 +162,16 @@ void write_results(Pass& pass) {
     std::vector<Verdict> verdicts(pass.sequence.size());
     std::vector<MapFiles::Records> records(pass.sequence.size());
     std::vector<Labels> instants(pass.sequence.size());
+    std::vector<Gaps> gaps(pass.sequence.size());
     const auto classify = [&](std::size_t i, MaybeFrame& maybe) {
         const io::Frame& frame = *maybe.frame;
         verdicts[i] = pass.filter.verdict({frame.points, frame.T_world_sensor, frame.stamp, i});
         io::write_labels(folder / (io::stem(pass.sequence, i) + ".label"), verdicts[i].labels,
                          io::Durable::contents);
-        if (pass.extras.maps) records[i] = maps.records_of(frame, verdicts[i]);
+        if (pass.extras.maps) {
+            records[i] = maps.records_of(frame, verdicts[i]);
+            gaps[i] = gaps_of(frame.points);
+        }
         instants[i] = pass.instant.get(i);
     };
     const auto use = [&](std::size_t i, MaybeFrame& maybe) {
@@ -189,6 +194,9 @@ void write_results(Pass& pass) {
     for_each_frame(pass.sequence, scans, classify, use);
     io::sync_folder(folder);
     maps.commit();
+    std::vector<Gaps> of_scans;
+    for (const std::size_t i : scans) of_scans.push_back(std::move(gaps[i]));
+    write_gaps(pass.output.path(), of_scans);
 }
 
 /// Third pass, over recordings with ground truth: which removed points lie near one that stays.

@@ -3,12 +3,14 @@
 
 #include <chrono>
 #include <map>
+#include <optional>
 #include <thread>
 
 #include "commands.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/io/file.hpp"
 #include "progress.hpp"
+#include "view/edit_server.hpp"
 #include "view/http_server.hpp"
 
 namespace dynamic_filter::app {
@@ -88,12 +90,19 @@ HttpAnswer answer(const Pages& pages, const std::string& path) {
 }  // namespace
 
 int serve(const ServeOptions& o) {
+    std::optional<EditServer> editor;
+    if (o.edit) editor.emplace(o.folder);
     const Pages pages = pages_in(o.folder);
     catch_interrupts();
-    const HttpServer server(
-        o.port, [&](const std::string& path, const std::string&) { return answer(pages, path); });
-    fmt::print("{} {} at {}   (Ctrl-C ends)\n", pages.size(), pages.size() == 1 ? "run" : "runs",
-               server.url());
+    constexpr std::size_t kMostBytes = 64 << 20;  // of edits.json
+    const auto handle = [&](const HttpRequest& request) {
+        if (editor && EditServer::is_meant(request.path)) return editor->answer(request);
+        return request.method == "POST" ? HttpAnswer{405, "text/plain", {}}
+                                        : answer(pages, request.path);
+    };
+    const HttpServer server(o.port, handle, {.body_bytes = editor ? kMostBytes : 0});
+    fmt::print("{} {} at {}{}   (Ctrl-C ends)\n", pages.size(), pages.size() == 1 ? "run" : "runs",
+               server.url(), editor ? "?edit=" + editor->token() : "");
     std::fflush(stdout);
     while (!interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
     return kDone;

@@ -9,3 +9,4 @@ import "./compare_checks.mjs";
 import "./live_checks.mjs";
 import "./big_checks.mjs";
 import "./command_checks.mjs";
+import "./edit_checks.mjs";

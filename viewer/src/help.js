@@ -19,6 +19,8 @@ const KEYS = [
   ["N B", "next false removal, next missed point"],
   ["Enter", "explain the point in the middle of the view (when the picture has the focus)"],
   ["Esc", "forget the point, close"],
+  ["J K U", "with serve --edit: mark what is chosen as static, dynamic, unknown"],
+  ["Ctrl+Z Ctrl+Y", "with serve --edit: undo, redo"],
   ["L", "light, dark"],
   ["?", "these keys"],
 ];

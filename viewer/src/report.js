@@ -6,6 +6,8 @@ import { expose } from "./automation.js";
 import { colouringsOf } from "./colours.js";
 import { controls } from "./controls.js";
 import { h } from "./dom.js";
+import { editToken } from "./edit_server.js";
+import { Editor } from "./editor.js";
 import { count, fixed } from "./format.js";
 import { errorButtons } from "./errors.js";
 import { fromHash, keepHash } from "./hash.js";
@@ -134,10 +136,13 @@ export async function startReport(runs) {
   const link = fromHash(location.hash);
   const session = new Session(link.settings);
   const panels = panelsOf(session, shown);
+  const editor = editToken() ? new Editor(session, editToken()) : null;
+  if (editor) panels.splice(1, 0, { id: "edit", label: "Edit", element: editor.panel.element });
   const timeline = timelineOf(session);
   document.title = `${metas.map(({ name }) => name).join(", ")} – DynamicFilter`;
   const page = frame({ title: metas.length > 1 ? "DynamicFilter" : metas[0].name, subtitle: subtitleOf(metas, runs.length), panels, timeline: timeline.element });
-  const automation = expose(session);
+  const automation = expose(session, editor ? { editor: () => editor.state() } : {});
+  const openPoint = (id) => editor || page.open(id);  // who edits keeps that panel open
   try {
     const cells = cellsOf(metas, page.stage);
     const middle = metas[0].origin ?? [0, 0, 0];
@@ -145,7 +150,7 @@ export async function startReport(runs) {
       new RunView(run, cells[i], session.orbit, (run.meta.origin ?? [0, 0, 0]).map((o, c) => o - middle[c])));
     watchTheme((theme) => session.views.forEach((view) => view.setTheme(theme)));
     session.store.watch(SHOWN, (settings) => session.views.forEach((view) => view.apply(settings)));
-    const pickers = session.views.map((view) => bindCanvas(session, view, page.open));
+    const pickers = session.views.map((view) => bindCanvas(session, view, openPoint));
     page.say("Reading the map …");
     for (const view of session.views) await view.loadMap();
     if (link.camera) session.orbit.set(link.camera);
@@ -172,6 +177,7 @@ export async function startReport(runs) {
       pickers[i](canvas.clientWidth / 2, canvas.clientHeight / 2, AROUND_MIDDLE);
     } });
     await loadAll(session, panels, timeline, page.say);
+    await editor?.start();
     chooseLinked(session, link.point);
     keepHash(session);
     automation.done();

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 
 namespace dynamic_filter::app {
 
@@ -70,6 +71,13 @@ HttpRequest parse_request(std::string_view head) {
         value = trimmed(value);
         if (name == "host") request.host = lower(value);
         if (name == "origin") request.origin = lower(value);
+        if (name == "x-edit-token") request.token = value;
+        if (name == "content-length") {
+            const char* const end = value.data() + value.size();
+            const auto [stop, error] = std::from_chars(value.data(), end, request.length);
+            if (error != std::errc{} || stop != end) request.length = SIZE_MAX;
+        }
+        if (name == "transfer-encoding") request.length = SIZE_MAX;
         if (name == "transfer-encoding" || (name == "content-length" && value != "0")) {
             request.has_body = true;
         }
@@ -77,10 +85,11 @@ HttpRequest parse_request(std::string_view head) {
     return request;
 }
 
-int refusal_of(const HttpRequest& request, std::uint16_t port) {
+int refusal_of(const HttpRequest& request, std::uint16_t port, std::size_t body_bytes) {
     if (request.method.empty()) return 400;
-    if (request.method != "GET" && request.method != "HEAD") return 405;
-    if (request.has_body) return 413;
+    const bool posts = request.method == "POST" && body_bytes > 0;
+    if (request.method != "GET" && request.method != "HEAD" && !posts) return 405;
+    if (request.has_body && (!posts || request.length > body_bytes)) return 413;
     if (!is_here(request.host, port)) return 403;
     std::string_view origin = request.origin;
     if (origin.empty()) return 0;
@@ -102,6 +111,8 @@ const char* reason_of(int status) {
             return "Method Not Allowed";
         case 413:
             return "Content Too Large";
+        case 409:
+            return "Conflict";
         case 431:
             return "Request Header Fields Too Large";
         default:

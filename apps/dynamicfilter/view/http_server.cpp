@@ -20,7 +20,6 @@
 #include <vector>
 
 #include "dynamic_filter/error.hpp"
-#include "http_request.hpp"
 
 namespace dynamic_filter::app {
 
@@ -90,7 +89,7 @@ struct HttpServer::Connection {
     }
 
     void read(const HttpHandler& handler, std::uint16_t port) {
-        std::array<char, 2048> bytes;
+        std::array<char, 16384> bytes;
         const ssize_t n = recv(descriptor, bytes.data(), bytes.size(), 0);
         if (n < 0 && (errno == EAGAIN || errno == EINTR)) return;
         if (n <= 0) {
@@ -103,11 +102,12 @@ struct HttpServer::Connection {
             if (request.size() > limits.request_bytes) answer({431, "text/plain", {}}, false);
             return;
         }
-        const HttpRequest parsed = parse_request(std::string_view(request).substr(0, end + 2));
-        const int refusal = refusal_of(parsed, port);
-        answer(refusal != 0 ? HttpAnswer{refusal, "text/plain", {}}
-                            : handler(parsed.path, parsed.query),
-               parsed.method == "GET");
+        HttpRequest parsed = parse_request(std::string_view(request).substr(0, end + 2));
+        const int refusal = refusal_of(parsed, port, limits.body_bytes);
+        if (refusal != 0) return answer({refusal, "text/plain", {}}, false);
+        if (request.size() - (end + 4) < parsed.length) return;  // the rest is under way
+        parsed.body = request.substr(end + 4, parsed.length);
+        answer(handler(parsed), parsed.method != "HEAD");
     }
 
     void write() {

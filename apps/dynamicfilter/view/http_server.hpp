@@ -9,6 +9,8 @@
 #include <string>
 #include <thread>
 
+#include "http_request.hpp"
+
 namespace dynamic_filter::app {
 
 struct HttpAnswer {
@@ -17,15 +19,17 @@ struct HttpAnswer {
     std::shared_ptr<const std::string> body;  ///< shared, as many may ask for one report
 };
 
-/// Called in the server's thread with the decoded path ("/live") and what follows its '?'.
-using HttpHandler = std::function<HttpAnswer(const std::string& path, const std::string& query)>;
+/// Called in the server's thread.
+using HttpHandler = std::function<HttpAnswer(const HttpRequest& request)>;
 
 struct HttpLimits {
     std::size_t connections = 64, request_bytes = 8192;
+    std::size_t body_bytes = 0;                              ///< of a POST; 0: none is taken
     std::chrono::milliseconds to_ask{5000}, to_read{60000};  ///< a client's time
 };
 
-/// What a viewer needs of HTTP, and nothing else: GET and HEAD on 127.0.0.1, one request a
+/// What a viewer needs of HTTP, and nothing else: GET, HEAD and, where a
+/// body is allowed, POST on 127.0.0.1, one request a
 /// connection, in one thread of its own. Not a library's server, because those at hand give each
 /// client a thread, or take connections without bound: here all has limits, and those
 /// beyond the most connections wait in the kernel's queue. Requests that name another host or come

@@ -37,9 +37,8 @@ LiveView::LiveView(std::uint16_t port, std::string name, std::string input, std:
       input_(std::move(input)),
       total_(total),
       page_(shared(page_with({}))),
-      server_(port, [this](const std::string& path, const std::string& query) {
-          return answer(path, query);
-      }) {}
+      server_(port,
+              [this](const HttpRequest& request) { return answer(request.path, request.query); }) {}
 
 void LiveView::finish(const std::filesystem::path& report) {
     if (std::filesystem::exists(report)) report_ = shared(io::read_file(report));

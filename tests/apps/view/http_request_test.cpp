@@ -48,6 +48,22 @@ TEST(HttpRequest, WhatIsNotAskedFromHereIsRefused) {
     EXPECT_EQ(status(""), 400);
 }
 
+TEST(HttpRequest, ABodyIsTakenOnlyWhereThatIsWanted) {
+    constexpr std::size_t kMost = 100;
+    const auto status = [](const std::string& more) {
+        const std::string head = "POST /edits HTTP/1.1\r\nHost: 127.0.0.1:8080\r\n" + more;
+        return refusal_of(parse_request(head), kPort, kMost);
+    };
+    EXPECT_EQ(status("Content-Length: 100\r\nX-Edit-Token: abc\r\n"), 0);
+    EXPECT_EQ(status("Content-Length: 101\r\n"), 413);
+    EXPECT_EQ(status("Content-Length: -1\r\n"), 413);
+    EXPECT_EQ(status("Content-Length: 99999999999999999999999\r\n"), 413);
+    EXPECT_EQ(status("Transfer-Encoding: chunked\r\n"), 413);
+    EXPECT_EQ(status("Content-Length: 5\r\nOrigin: http://example.org\r\n"), 403);
+    EXPECT_EQ(status("Content-Length: 5\r\nOrigin: null\r\n"), 403);
+    EXPECT_EQ(parse_request("POST / HTTP/1.1\r\nX-Edit-Token: abc \r\n").token, "abc");
+}
+
 TEST(HttpRequest, AnyBytesAreTaken) {
     std::mt19937 random(3);
     const std::string valid = get("/a%20b?x", "Origin: http://localhost:8080\r\n");

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <tuple>
 #include <vector>
 
 #include "dynamic_filter/error.hpp"
@@ -63,7 +64,8 @@ protected:
     [[nodiscard]] std::string request(const std::string& target) const {
         return fmt::format("GET {} HTTP/1.1\r\nHost: 127.0.0.1:{}\r\n\r\n", target, server_.port());
     }
-    static HttpAnswer answer(const std::string& path, const std::string& query) {
+    static HttpAnswer answer(const HttpRequest& request) {
+        const auto& [path, query] = std::tie(request.path, request.query);
         static const auto big = std::make_shared<const std::string>(30'000'000, 'x');
         if (path == "/big") return {200, "text/plain", big};
         if (path != "/page") return {};
