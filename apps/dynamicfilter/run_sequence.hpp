@@ -37,8 +37,8 @@ struct RunSummary {
 
 /// Who looks on, if anybody.
 struct Watchers {
-    LiveView* live = nullptr;       ///< is told of every scan
-    bool quiet = false;             ///< no progress on stderr
+    LiveView* live = nullptr;  ///< is told of every scan
+    bool quiet = false;        ///< no progress on stderr
 };
 
 /// What a run leaves beside labels and figures.

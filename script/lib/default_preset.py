@@ -4,7 +4,7 @@ import shutil
 import sys
 from pathlib import Path
 
-from lib.bench import (BUILD, NOISE, both, call, cells, mean, memory_cell, percent, point_cells, run, simulated, spread,
+from lib.bench import (BUILD, NOISE, both, call, cells, mean, memory_cell, percent, point_cells, simulated, spread,
                                table, voxel)
 
 HEAD = ["PR [%]", "RR [%]", "F1", "instant F1", "AA [%]", "moving IoU [%]", "memory [MB]", "F1 with preset paper"]
