@@ -12,9 +12,9 @@ fail() { echo "$1"; cat said.txt; exit 1; }
 for signal in INT TERM; do
     rm -rf out said.txt
     # As slow as an old sensor, so that the signal comes in the midst of it.
-    "$command" run data -o out --online --speed 0.5 > said.txt 2>&1 &
+    "$command" run data -o out --online --speed 1 > said.txt 2>&1 &
     process=$!
-    until grep -qs "filter 3/24" said.txt; do
+    until grep -qs "filter 6/24" said.txt; do
         kill -0 "$process" || fail "ended before it filtered"
         sleep 0.02
     done
@@ -25,7 +25,7 @@ for signal in INT TERM; do
     grep -q '^interrupted' out/run.log || fail "the log does not say it"
     "$command" info out/static_map.pcd > /dev/null || fail "the map cannot be read"
     labels=$(ls out/labels | wc -l)
-    [ "$labels" -ge 3 ] && [ "$labels" -lt 24 ] || fail "$labels label files"
+    [ "$labels" -ge 6 ] && [ "$labels" -lt 24 ] || fail "$labels label files"
     "$command" run data -o out --resume > said.txt 2>&1 || fail "cannot be resumed"
     for file in static_map.pcd dynamic_points.pcd labels metrics.json; do
         diff -r "expected/$file" "out/$file" || fail "$file differs"

@@ -1,4 +1,4 @@
-foreach(unit bag bag_scans bag_writer benchmark cloud cloud_writers file frame frame_tree las layout layouts
+foreach(unit bag bag/decompress bag_scans bag_writer benchmark cloud cloud_writers file frame frame_tree las layout layouts
              layouts/apollo layouts/below layouts/kitti_360 layouts/kitti_raw lzf matching mcap
              messages motion/pose_mistakes natural_order npy packets pcd pcd_header ply ply_header png pose_fix pose_table poses
              records rigid rosbag1 rosbag2 sequence text text_cloud trajectory writers)

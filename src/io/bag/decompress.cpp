@@ -29,6 +29,19 @@ std::uint64_t most_output(std::size_t input, std::uint64_t declared) {
     return std::min(declared, kFree + kRatio * input);
 }
 
+/// Whether what follows the whole content, such as its checksum, agrees with it. Nothing may follow
+/// if the file was cut off there.
+bool ends_well(const Decoder& decode, std::span<const std::byte> in) {
+    std::byte beyond[1];
+    while (!in.empty()) {
+        const Step step = decode(in, beyond);
+        if (step.damaged || step.given > 0) return false;
+        if (step.end || step.taken == 0) break;
+        in = in.subspan(step.taken);
+    }
+    return true;
+}
+
 /// Runs the decoder until it ends, makes no progress, or has written `most` bytes.
 Decompressed run(const Decoder& decode, std::span<const std::byte> in, std::uint64_t declared) {
     constexpr std::size_t kStep = std::size_t{1} << 20U;
@@ -43,7 +56,7 @@ Decompressed run(const Decoder& decode, std::span<const std::byte> in, std::uint
         if (step.damaged) break;
         in = in.subspan(step.taken);
         if (step.end || done == declared) {
-            out.complete = done == declared;
+            out.complete = done == declared && (step.end || ends_well(decode, in));
             break;
         }
         if (done == most || (step.taken == 0 && step.given == 0)) break;
