@@ -216,6 +216,18 @@ MotionQuality quality_of(const std::vector<Compared>& compared, bool has_poses) 
     return quality;
 }
 
+/// In a short recording, a sweep may look better by chance. A real one makes the map of each half
+/// of the scans sharper.
+bool sharpens_both_halves(const Piece& piece, const Sweep& sweep, const OdometryConfig& config) {
+    const auto middle = piece.begin() + static_cast<std::ptrdiff_t>(piece.size() / 2);
+    for (Piece half : {Piece(piece.begin(), middle), Piece(middle, piece.end())}) {
+        const double as_it_is = blur(half, track(half, config), config);
+        for (Scan& scan : half) scan.times = sweep_times(scan.points, sweep);
+        if (!(blur(half, track(half, config), config) < as_it_is)) return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 std::vector<std::optional<Tracked>> track_scans(const Sequence& sequence,
@@ -267,7 +279,8 @@ std::optional<Sweep> find_sweep(const Sequence& sequence, const OdometryConfig& 
     });
     const auto best = std::min_element(blurs.begin(), blurs.end());
     if (*best > as_it_is * kClearly) return std::nullopt;
-    return sweeps[static_cast<std::size_t>(best - blurs.begin())];
+    const Sweep sweep = sweeps[static_cast<std::size_t>(best - blurs.begin())];
+    return sharpens_both_halves(*fastest, sweep, config) ? std::optional(sweep) : std::nullopt;
 }
 
 double Blur::least() const {

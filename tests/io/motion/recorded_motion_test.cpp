@@ -132,6 +132,23 @@ TEST_F(RecordedMotion, OfSnapshotsNoTurningIsFound) {
     EXPECT_FALSE(find_sweep(open(), {}));
 }
 
+/// People who walk let some rotation fit a few scans by chance, but not both halves of them.
+TEST_F(RecordedMotion, OfFewSnapshotsOfACrowdNoTurningIsFound) {
+    sim::SimulationOptions options;
+    options.scene = "crowd";
+    sim::Simulation simulation(options);
+    test::Drive crowd;
+    for (std::size_t i = 0; i < 12; ++i) {
+        sim::SimulatedScan s = simulation.scan(i);
+        crowd.truth.push_back(s.T_world_sensor);
+        // The stamps are those of a faster sensor, as where 10 Hz are assumed.
+        const double stamp = 0.1 * static_cast<double>(i);
+        crowd.scans.push_back({std::move(s.points), Pose::Identity(), stamp, i, false});
+    }
+    put(crowd, {});
+    EXPECT_FALSE(find_sweep(open(), {}));
+}
+
 TEST_F(RecordedMotion, OfHardlyAnyScansNothingIsSaid) {
     test::Drive one = street(false);
     one.scans.resize(1);
