@@ -138,6 +138,61 @@ TEST(BackEnd, PointsBeyondTheKeysOwnNoVoxel) {
     EXPECT_EQ(back_end.buffer()[0].voxels.size(), 1U);
 }
 
+std::vector<double> positions(const BackEnd& back_end) {
+    std::vector<double> xs;
+    for (const auto& b : back_end.buffer()) xs.push_back(b.submap.T_map_submap.translation().x());
+    return xs;
+}
+
+/// Submaps of 100 points each at the given places.
+BackEnd with_submaps_at(const std::vector<double>& xs) {
+    test::Random random(5);
+    BackEnd back_end(small_config());
+    StageTimes times;
+    for (const double x : xs) {
+        back_end.insert(submap_at(x, random.points(100, 3.0)), kBeams, times);
+    }
+    return back_end;
+}
+
+TEST(BackEnd, ForgetsTheSubmapsBeyondTheRadius) {
+    BackEnd back_end = with_submaps_at({0.0, 40.0, 20.0, 60.0});
+    EXPECT_EQ(back_end.keep_within({50.0, 0.0, 0.0}, 12.0, 1000), 12.0);
+    EXPECT_EQ(positions(back_end), (std::vector<double>{40.0, 60.0}));
+    std::set<VoxelKey> kept;
+    for (const auto& b : back_end.buffer()) {
+        std::set<VoxelKey> own;
+        for (const auto id : b.voxels) own.insert(back_end.voxels().key(id));
+        EXPECT_EQ(own, keys_of(b.submap.points));
+        kept.merge(own);
+    }
+    EXPECT_EQ(back_end.voxels().size(), kept.size());  // the voxels are numbered anew
+}
+
+TEST(BackEnd, ForgetsTheFarthestSubmapsWhileItHoldsTooManyPoints) {
+    BackEnd back_end = with_submaps_at({0.0, 5.0, 10.0, 15.0});
+    EXPECT_EQ(back_end.keep_within({14.0, 0.0, 0.0}, 100.0, 400), 100.0);  // exactly as many
+    EXPECT_EQ(positions(back_end).size(), 4U);
+    EXPECT_EQ(back_end.keep_within({14.0, 0.0, 0.0}, 100.0, 299), 9.0);  // the last one forgotten
+    EXPECT_EQ(positions(back_end), (std::vector<double>{10.0, 15.0}));
+}
+
+TEST(BackEnd, KeepsTheNearestSubmapHoweverManyPointsItHas) {
+    BackEnd back_end = with_submaps_at({0.0, 5.0});
+    back_end.keep_within({4.0, 0.0, 0.0}, 100.0, 1);
+    EXPECT_EQ(positions(back_end), (std::vector<double>{5.0}));
+}
+
+TEST(BackEnd, TheLatestLocalMapIsAnchoredAtTheNewestSubmap) {
+    BackEnd back_end = with_submaps_at({0.0, 2.0, 4.0});
+    StageTimes times;
+    const LocalMap latest = back_end.local_map(pose_at(4.0), times);
+    const LocalMap third = back_end.local_map_of(2, times);
+    EXPECT_EQ(latest.voxels, third.voxels);
+    EXPECT_EQ(latest.probability, third.probability);
+    EXPECT_FALSE(latest.voxels.empty());
+}
+
 TEST(BackEnd, WithoutIncidentCorrectionItNeedsNoNormals) {
     test::Random random(4);
     Config config = small_config();
