@@ -213,5 +213,37 @@ TEST(ProjectKernel, PointsAboveAndBelowTheGridHaveNoPixel) {
     }
 }
 
+TEST(SphericalKernel, EveryLevelAgreesWithTheLibraryFunctionsBitForBitAmongThem) {
+    test::Random random(5);
+    const Points points = random.points(1003, 40.0);
+    const Pose T_image_points = random.pose(5.0, 3.0);
+    const Eigen::Matrix<float, 3, 4, Eigen::RowMajor> matrix =
+        T_image_points.matrix().topRows<3>().cast<float>();
+    std::vector<std::vector<float>> all;
+    for (const Level& level : levels()) {
+        std::vector<float> out(3 * points.size() + 1, -7.0F);  // the last one is a guard
+        float* const azimuth = out.data();
+        float* const elevation = azimuth + points.size();
+        float* const range = elevation + points.size();
+        level.to_spherical({.xyz = points.front().data(),
+                            .count = points.size(),
+                            .matrix = matrix.data(),
+                            .azimuth = azimuth,
+                            .elevation = elevation,
+                            .range = range});
+        EXPECT_EQ(out.back(), -7.0F);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const Eigen::Vector3d p = T_image_points * points[i].cast<double>();
+            const double across = p.head<2>().norm();
+            if (across < 0.1) continue;
+            EXPECT_NEAR(azimuth[i], std::atan2(p.y(), p.x()), 1e-4 / across + 3e-5) << level.name;
+            EXPECT_NEAR(elevation[i], std::atan2(p.z(), across), 1e-4 / across + 3e-5);
+            EXPECT_NEAR(range[i], p.norm(), 1e-4);
+        }
+        all.push_back(out);
+        EXPECT_EQ(all.back(), all.front()) << level.name;
+    }
+}
+
 }  // namespace
 }  // namespace dynamic_filter

@@ -13,11 +13,13 @@ struct Glance {
     Scan scan;
     std::vector<bool> person, bench;
 
-    Glance(double stamp, float x) {
+    explicit Glance(double stamp) {
         scan.stamp = stamp;
         for (float u = -8.0F; u < 8.0F; u += 0.4F) {
             for (float v = -8.0F; v < 8.0F; v += 0.4F) add({u, v, -1.8F});
         }
+    }
+    Glance(double stamp, float x) : Glance(stamp) {
         add_box({5.0F, 3.0F, -1.8F}, {6.5F, 3.4F, -1.0F}, bench);
         add_box({x, 3.05F, -1.8F}, {x + 0.5F, 3.45F, -0.1F}, person);
     }
@@ -96,6 +98,7 @@ TEST(Instances, WhoLeavesWasDynamicBefore) {
     for (int i = 11; i < 20; ++i) f.see({0.2 * i, -4.0F + 0.3F * static_cast<float>(i - 10)}, true);
     f.voxels = resting;
     EXPECT_GT(f.moved(there, there.person).first, 0.7F);
+    EXPECT_LE(f.moved(there, there.person).second, 1.0F);
 }
 
 TEST(Instances, WhatOnlyFlickersWhereItIsDoesNotMove) {
@@ -141,6 +144,103 @@ TEST(Instances, SurviveThatVoxelsAreForgotten) {
     };
     EXPECT_GT(moved(whole).size(), 100U);
     EXPECT_EQ(moved(cut), moved(whole));
+}
+
+/// Share of the points that are dynamic.
+double dynamic_share(const Followed& f, const std::vector<bool>& of) {
+    return static_cast<double>(dynamic_points(f, of)) /
+           static_cast<double>(std::count(of.begin(), of.end(), true));
+}
+
+TEST(Instances, AScanThatFollowsTooSoonIsLeftAsItIs) {
+    Followed f;
+    for (int i = 0; i < 8; ++i) f.see({0.2 * i, -4.0F + 0.3F * static_cast<float>(i)}, true);
+    const Glance too_soon(1.5, -1.9F), in_time(1.6, -1.9F);
+    f.see(too_soon, false);
+    EXPECT_EQ(dynamic_points(f, too_soon.person), 0);
+    f.see(in_time, false);
+    EXPECT_GT(dynamic_share(f, in_time.person), 0.8);
+}
+
+TEST(Instances, AFewDynamicVoxelsDoNotMakeATrackMove) {
+    Followed f;
+    for (int i = 0; i < 30; ++i) {
+        Glance sight(0.2 * i);
+        const float x = -4.0F + 0.2F * static_cast<float>(i);
+        sight.add_box({x, 3.05F, -1.5F}, {x + 0.5F, 3.45F, -0.5F}, sight.bench);
+        sight.add_box({x, 3.05F, -0.4F}, {x + 0.5F, 3.45F, -0.1F}, sight.person);  // its head
+        f.see(sight, true);
+        EXPECT_EQ(dynamic_points(f, sight.bench), 0) << i;
+    }
+}
+
+/// A van that drives by the steps [m], one every 0.2 s, and stands after the last of them.
+Glance van(int scan, const std::vector<float>& steps) {
+    float x = -6.0F;
+    for (int i = 0; i < scan && i < static_cast<int>(steps.size()); ++i) {
+        x += steps[static_cast<std::size_t>(i)];
+    }
+    Glance sight(0.2 * scan);
+    sight.add_box({x, 3.0F, -1.8F}, {x + 3.5F, 4.6F, -0.2F}, sight.person);
+    return sight;
+}
+
+// It goes farther in a scan than a center may jump; only its speed tells where to expect it. Then
+// it stops at once, and only its last place fits.
+TEST(Instances, AVanIsFollowedAsItSpeedsUpAndAsItStops) {
+    const std::vector<float> steps{0.5F, 0.7F, 0.9F, 1.1F, 1.2F, 1.2F, 1.2F, 1.2F};
+    Followed f;
+    for (int i = 0; i <= 8; ++i) f.see(van(i, steps), true);
+    for (int i = 9; i < 30; ++i) f.see(van(i, steps), false);
+    EXPECT_GT(dynamic_share(f, van(29, steps).person), 0.8);
+}
+
+// Without the first steps there is no speed, and each scan begins a track of its own.
+TEST(Instances, WhatJumpsIsNotFollowed) {
+    const std::vector<float> steps(6, 1.2F);
+    Followed f;
+    for (int i = 0; i <= 6; ++i) f.see(van(i, steps), true);
+    for (int i = 7; i < 20; ++i) f.see(van(i, steps), false);
+    EXPECT_EQ(dynamic_share(f, van(19, steps).person), 0.0);
+}
+
+/// Something of 3 voxels, or of 12, with a point in the middle of each.
+Glance few_voxels(double stamp, int step, bool is_large) {
+    Glance sight(stamp);
+    for (const int x : {0, 1, 2}) {
+        for (const int y : {0, 1}) {
+            for (const int z : {0, 1}) {
+                if (!is_large && (y == 1 || z == 1)) continue;
+                const Cell cell(step - 20 + x, 10 + y, z - 5);
+                const Point p = (cell.cast<float>().array() + 0.5F) * 0.2F;
+                sight.add_box(p, p, sight.person);
+            }
+        }
+    }
+    return sight;
+}
+
+TEST(Instances, SmallObjectsMayChangeTheirSizeByTheToleranceToo) {
+    Followed f;
+    for (int i = 0; i < 10; ++i) f.see(few_voxels(0.2 * i, i, i % 2 == 0), true);
+    for (int i = 10; i < 30; ++i) f.see(few_voxels(0.2 * i, 9, false), false);
+    EXPECT_EQ(dynamic_share(f, few_voxels(0, 9, false).person), 1.0);
+}
+
+// A bag is left behind where the track was; the person takes the track along.
+TEST(Instances, TheClusterThatSharesMostContinuesTheTrack) {
+    const auto sight_of = [](int i) {
+        Glance sight(0.2 * i);
+        const float x = -6.0F + 0.4F * static_cast<float>(std::min(i, 10));
+        sight.add_box({x, 3.05F, -1.8F}, {x + 0.5F, 3.45F, -0.1F}, sight.person);
+        if (i >= 10) sight.add_box({-2.9F, 3.05F, -1.5F}, {-2.7F, 3.45F, -0.5F}, sight.bench);
+        return sight;
+    };
+    Followed f;
+    for (int i = 0; i < 11; ++i) f.see(sight_of(i), true);
+    for (int i = 11; i < 30; ++i) f.see(sight_of(i), false);
+    EXPECT_GT(dynamic_share(f, sight_of(29).person), 0.8);
+    EXPECT_EQ(dynamic_share(f, sight_of(29).bench), 0.0);
 }
 
 }  // namespace
