@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "dynamic_filter/error.hpp"
+#include "folders.hpp"
 #include "frame.hpp"
 #include "input.hpp"
 #include "text.hpp"
@@ -195,7 +196,11 @@ void refuse_bad_size(const std::filesystem::path& file) {
 Cloud read_cloud(const std::filesystem::path& file) {
     const Reader reader = reader_of(file);
     if (reader == nullptr) {
-        throw InputError(file, "", "unknown kind of cloud; expected " + cloud_kinds());
+        throw InputError(file, "",
+                         "unknown kind of cloud; expected " + cloud_kinds() +
+                             (extension_of(file) == ".feather"
+                                  ? "; docs/formats.md has the lines that convert Argoverse 2"
+                                  : ""));
     }
     return reader(file);
 }

@@ -118,8 +118,9 @@ void refuse_unusable(const Sequence& sequence, std::size_t i) {
         const Pose& T_world_sensor = sequence.T_world_sensor[i];
         if (!T_world_sensor.matrix().allFinite()) {
             throw InputError(file, "",
-                             sequence.bag ? "no pose is known at its time"
-                                          : "its pose is not finite (lost tracking?)");
+                             sequence.bag
+                                 ? "no pose is known at its time"
+                                 : "it has no pose, or one that is not finite (lost tracking?)");
         }
         refuse_absurd(T_world_sensor, file);
     }

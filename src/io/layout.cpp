@@ -53,7 +53,8 @@ void refuse_inner_folder(const fs::path& data, const OpenOptions& options) {
     const std::string name = without_slash(data).filename().string();
     if (options.format || (name != "velodyne" && name != "pcd") || find_pose_file(data)) return;
     const fs::path above = parent_of(data);
-    if (!find_pose_file(above) && !present(above / "labels") && !present(above / "calib.txt")) {
+    if (!find_pose_file(above) && !present(above / "labels") && !present(above / "calib.txt") &&
+        !present(above / "gt_cloud.pcd")) {
         return;
     }
     throw InputError(data, "",
@@ -127,7 +128,10 @@ void find_folder_scans(Layout& layout, const fs::path& data) {
 }
 
 void find_scans(Layout& layout, const fs::path& data) {
-    if (layout.format == Format::folder) return find_folder_scans(layout, data);
+    if (layout.format == Format::folder) {
+        find_folder_scans(layout, data);
+        return refuse_other_floats(layout.scan_folder, layout.scans);
+    }
     const bool kitti = layout.format == Format::kitti;
     layout.scan_folder = data / (kitti ? "velodyne" : "pcd");
     const std::string kind = kitti ? ".bin" : ".pcd";
@@ -137,6 +141,7 @@ void find_scans(Layout& layout, const fs::path& data) {
                          "no *" + kind + " found; a recording of format " +
                              to_string(layout.format) + " keeps its scans there");
     }
+    refuse_other_floats(layout.scan_folder, layout.scans);
 }
 
 /// Folders that may contain the files that belong to the scans: for scans found below `top`, all
@@ -180,13 +185,13 @@ void find_poses(Layout& layout, const Paths& folders, const OpenOptions& options
 
 using Finder = std::optional<Layout> (*)(const fs::path& data, const OpenOptions& options);
 
-/// Layouts that contain poses; they are not used if other poses are given.
+/// Layouts that contain poses; most of them are not used if other poses are given.
 std::optional<Layout> find_by_contents(const fs::path& data, const OpenOptions& options) {
-    for (const Finder find : {find_kitti_360, find_kitti_raw, find_apollo}) {
+    for (const Finder find : {find_kitti_360, find_kitti_raw, find_apollo, find_mulran}) {
         if (auto layout = find(data, options)) return layout;
     }
     if (options.poses) return std::nullopt;
-    for (const auto find : {find_pairs, find_glim, find_mulran}) {
+    for (const auto find : {find_pairs, find_glim}) {
         if (auto layout = find(data)) return layout;
     }
     return std::nullopt;

@@ -37,6 +37,7 @@ std::vector<double> numbers(std::string_view line, const Lines& lines) {
     std::string hint = "expected 12 (KITTI, 3x4 row by row) or 8 (TUM: t x y z qx qy qz qw)";
     if (columns == 16) hint += "; 16 look like a 4x4 matrix: keep the first 12";
     if (columns == 7) hint += "; 7 look like TUM without its stamp: put one first";
+    if (columns == 17) hint += "; 17 look like a 4x4 matrix after an index: keep columns 2 to 13";
     if (columns == 13) hint += "; 13 look like KITTI after a stamp or an index: remove the first";
     lines.fail(fmt::format("{} columns; {}", columns, hint));
 }

@@ -120,7 +120,28 @@ TEST_F(Layouts, Mulran) {
     EXPECT_LT((middle.linear() * Eigen::Vector3d::UnitX()).x(), -0.999);  // it looks backwards
     EXPECT_TRUE(has_note(sequence, "1 scans have no pose"));
     EXPECT_EQ(read_frame(sequence, 0).points.size(), 1U);
-    EXPECT_THROW((void)read_frame(sequence, 2), InputError);
+    EXPECT_HAS(error_of([&] { (void)read_frame(sequence, 2); }), "it has no pose");
+}
+
+TEST_F(Layouts, MulransFolderMayBeThatOfTheScansOrOneAbove) {
+    for (const char* name : {"1500000000000000000", "1500000000500000000"}) {
+        data.put("KAIST01/Ouster/" + std::string(name) + ".bin", floats({1, 2, 3, 4}));
+    }
+    const auto poses = data.put("KAIST01/global_pose.csv",
+                                "1500000000000000000,1,0,0,10,0,1,0,20,0,0,1,30\n"
+                                "1500000001000000000,1,0,0,12,0,1,0,20,0,0,1,30\n");
+    for (const char* given : {"", "KAIST01", "KAIST01/Ouster", "KAIST01/Ouster/"}) {
+        const Sequence sequence = open_sequence(data / given);
+        EXPECT_TRUE(has_note(sequence, "MulRan's calibration")) << given;
+        EXPECT_NEAR(sequence.T_world_sensor.at(1).translation().x(), 12.7042, 1e-6);
+    }
+    // Its own pose file may be named; other poses are those of the sensor.
+    OpenOptions options;
+    options.poses = poses;
+    EXPECT_TRUE(has_note(open_sequence(data / "KAIST01/Ouster", options), "MulRan's calibration"));
+    options.poses = data.put("other.txt", kitti_rows(2));
+    const Sequence other = open_sequence(data / "KAIST01", options);
+    EXPECT_EQ(other.T_world_sensor.at(1).translation().x(), 1.0);
 }
 
 TEST_F(Layouts, MulranWithFaults) {
@@ -190,7 +211,12 @@ TEST_F(Nuscenes, OneScene) {
 
 TEST_F(Nuscenes, Faults) {
     EXPECT_HAS(open_error(), "scene-0001, scene-0002");
-    EXPECT_HAS(error_of([&] { (void)open_sequence(data / "scene-9"); }), "scene-0002");
+    EXPECT_HAS(error_of([&] { (void)open_sequence(data / "scene-9"); }),
+               "has no scene-9; choose a scene");
+    for (const char* given : {"v1.0-mini", "samples", "samples/LIDAR_TOP", "sweeps/LIDAR_TOP/"}) {
+        EXPECT_HAS(error_of([&] { (void)open_sequence(data / given); }),
+                   (data / "scene-0061").string() + "; there are: scene-0001, scene-0002");
+    }
     table("ego_pose", pose_entry("e1", "1", "1, 0, 0, 0"));
     EXPECT_HAS(scene_error(), "1 of the 2");
     table("ego_pose", pose_entry("e1", "1", "9, 0, 0, 0"));

@@ -1,5 +1,5 @@
 foreach(unit bag bag/decompress bag_scans bag_writer benchmark cloud cloud_writers file frame frame_tree las layout layouts
-             layouts/apollo layouts/below layouts/kitti_360 layouts/kitti_raw lzf matching mcap
+             layouts/apollo layouts/bin_points layouts/below layouts/kitti_360 layouts/kitti_raw lzf matching mcap
              messages motion/pose_mistakes natural_order npy packets pcd pcd_header ply ply_header png pose_fix pose_table poses
              records rigid rosbag1 rosbag2 sequence text text_cloud trajectory writers)
   df_test(io/${unit} dynamic_filter_io)

@@ -42,7 +42,9 @@ TEST(EvidenceMap, EqualsAskingEveryKeyframeAboutEveryVoxel) {
     Config some_scans;
     some_scans.keyframe.interval = 1.0;  // every second scan
     some_scans.keyframe.distance = 100.0;
-    for (const Config& config : {every_scan(), some_scans}) {
+    Config short_sighted = every_scan();
+    short_sighted.scans.sight.farthest = 6.0;  // some voxels lie just beyond it
+    for (const Config& config : {every_scan(), some_scans, short_sighted}) {
         const EvidenceMap map = filled(scans, config);
         ASSERT_GT(map.grid().voxels().size(), 1000U);
         for (std::uint32_t v = 0; v < map.grid().voxels().size(); v += 7) {
@@ -102,6 +104,7 @@ TEST(EvidenceMap, KnowsWhichScansOwnAVoxel) {
         EXPECT_EQ(map.grid()[v].evidence.n_own, 3);
         EXPECT_EQ(map.grid()[v].evidence.first_owner, 0U);
         EXPECT_EQ(map.grid()[v].evidence.last_owner, 2U);
+        EXPECT_EQ(map.grid()[v].evidence.hits, map.grid()[v].evidence.n_occ);
     }
 }
 
@@ -163,6 +166,28 @@ TEST(EvidenceMap, NamesTheKeyframesThatSawThroughAVoxel) {
     EXPECT_EQ(map.observers().kept().size(), scans.size());
     EXPECT_EQ(map.observers().kept().front().index, 100U);
     EXPECT_EQ(map.index_of_owner(map.grid()[some.back()].evidence.first_owner), 108U);
+}
+
+TEST(EvidenceMap, AsksUpTo64KeyframesAndThenEverySecond) {
+    Config config = every_scan();
+    config.scans.observers.images_asked = 1000.0;  // all keyframes observe a new voxel
+    for (const std::size_t count : {64U, 65U}) {
+        const EvidenceMap map = filled(drive(count, true), config);
+        std::vector<std::uint32_t> all(map.grid().size());
+        std::iota(all.begin(), all.end(), 0U);
+        const auto seen_through = map.free_keyframes(all);
+        std::size_t named = 0, counted = 0;
+        for (const std::uint32_t v : all) {
+            named += seen_through[v].size();
+            counted += map.grid()[v].evidence.n_free;
+        }
+        ASSERT_GT(counted, 1000U);
+        if (count == 64) {
+            EXPECT_EQ(named, counted);
+        } else {
+            EXPECT_LT(named, counted * 6 / 10);
+        }
+    }
 }
 
 TEST(EvidenceMap, WithinFindsWhatLiesNear) {

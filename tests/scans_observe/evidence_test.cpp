@@ -3,8 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <string_view>
+#include <tuple>
 #include <vector>
+
+#include "support/random.hpp"
 
 namespace dynamic_filter {
 namespace {
@@ -218,6 +224,90 @@ TEST(CoPresence, IsTheOverlapOfTheirTimes) {
     EXPECT_FLOAT_EQ(co_presence(owned_between(0, 3), owned_between(2, 5)), 2.0F / 6.0F);
     EXPECT_FLOAT_EQ(co_presence(owned_between(0, 3), owned_between(4, 5)), 0.0F);
     EXPECT_FLOAT_EQ(co_presence(owned_between(9, 9), owned_between(0, 8)), 0.0F);
+}
+
+TEST(Record, ReturnsWhetherTheScoreMayHaveChanged) {
+    const auto counters = [](const Evidence& e) {
+        return std::tuple(e.occupied, e.free, e.hits, e.passes, e.n_switch, e.n_flicker,
+                          is_unknown(e));
+    };
+    test::Random random(1);
+    constexpr std::array kSights{Sight::unknown,    Sight::occupied, Sight::weak_occupied,
+                                 Sight::free,       Sight::passed,   Sight::weak_free,
+                                 Sight::weak_passed};
+    int changed = 0, same = 0;
+    for (int sequence = 0; sequence < 200; ++sequence) {
+        Evidence e;
+        Sight sight = Sight::unknown;
+        for (int i = 0; i < 60; ++i) {
+            if (random.chance(0.1)) sight = kSights[random.below(kSights.size())];
+            const auto before = counters(e);
+            const Observation o{sight, 1, random.chance(0.3)};
+            const bool is_changed = record(e, o, kRun);
+            ASSERT_EQ(is_changed, counters(e) != before);
+            ++(is_changed ? changed : same);
+        }
+    }
+    EXPECT_GT(changed, 1000);
+    EXPECT_GT(same, 1000);
+}
+
+TEST(Record, OnlyARunThatGoesOnLeavesTheScoreAsItIs) {
+    Evidence e;
+    EXPECT_FALSE(record(e, {Sight::unknown}, kRun));
+    for (unsigned i = 0; i < kRun; ++i) EXPECT_TRUE(record(e, {Sight::occupied, 1, true}, kRun));
+    for (int i = 0; i < 5; ++i) EXPECT_FALSE(record(e, {Sight::occupied, 1, true}, kRun));
+    EXPECT_TRUE(record(e, {Sight::weak_free}, kRun));
+    EXPECT_TRUE(record(e, {Sight::passed}, kRun));
+    Evidence once;
+    EXPECT_TRUE(record(once, {Sight::weak_occupied}, kRun));
+    once.run = kRun;  // nothing but that the voxel is known now changes
+    EXPECT_TRUE(is_unknown(once));
+    EXPECT_TRUE(record(once, {Sight::weak_occupied}, kRun));
+    EXPECT_FALSE(is_unknown(once));
+}
+
+TEST(Record, ACounterAboveZeroStaysSoHoweverOftenItIsHalved) {
+    Evidence e = after("-");
+    for (std::uint32_t scan = 1; scan < 300000; ++scan) record_owner(e, scan);
+    EXPECT_EQ(e.n_free, 1);
+    EXPECT_EQ(e.passes, 1);
+    EXPECT_EQ(e.n_flicker, 0);
+}
+
+TEST(Record, TheFirstScanMayHaveAnyNumber) {
+    for (const std::uint32_t scan : {0U, 3U}) {
+        Evidence e;
+        record_owner(e, scan);
+        record_owner(e, scan);
+        EXPECT_EQ(e.n_own, 1);
+        EXPECT_EQ(e.since, scan);
+    }
+}
+
+// The formula of the header, for counters that are not scaled down.
+TEST(DynamicScore, IsTheSmallerOfBothLogarithms) {
+    const ScansConfig::Evidence c;
+    Evidence e;
+    e.n_occ = 10;
+    e.occupied = 10 * kSure;
+    e.hits = 10;
+    e.free = 25 * kSure;
+    e.n_switch = 3;
+    e.n_flicker = 3;
+    for (const unsigned passes : {3U, 5U, 8U, 25U}) {
+        e.passes = static_cast<std::uint16_t>(passes);
+        const double expected = c.flicker * std::pow(4.0, c.switch_power) *
+                                std::pow(10.0, c.occupied_power) * std::pow(10.0, c.hit_power);
+        const double all = std::log((25.0 + c.offset) / (expected + c.offset));
+        const double thin = c.thin_flicker * std::pow(4.0, c.switch_power) *
+                            std::pow(10.0, c.occupied_power + c.hit_power);
+        const double near =
+            std::log((passes + c.thin_offset) / (thin + c.thin_offset)) + c.thin_benefit;
+        const double least = -c.static_limit;
+        EXPECT_NEAR(score(e), std::clamp(c.gain * std::min(all, near), least, 1.0), 1e-3);
+        EXPECT_NEAR(score.expected_free(e), expected, 1e-3);
+    }
 }
 
 }  // namespace

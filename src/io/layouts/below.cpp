@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int deepest = 2;
+constexpr int deepest = 4;  // DATA/dataset/sequences/08/velodyne
 
 struct Found {
     fs::path folder;
@@ -26,14 +26,24 @@ bool is_passed_over(const fs::path& folder) {
            (present(folder / "run.log") && present(folder / "config.toml"));
 }
 
+/// The scans of a recording in its own folder, which is the one to open; empty for other folders.
+std::optional<fs::path> scans_of_recording(const fs::path& folder,
+                                           const std::set<std::string>& kinds) {
+    if (is_drive(folder)) return folder / "velodyne_points" / "data";
+    for (const char* name : {"velodyne", "pcd"}) {
+        std::error_code ignored;
+        if (!list_files(folder / name, kinds, ignored).empty()) return folder / name;
+    }
+    return std::nullopt;
+}
+
 void search(const fs::path& data, const std::set<std::string>& kinds, int depth,
             std::vector<Found>& found) {
     for (const fs::path& folder : list_folders(data)) {
         if (is_passed_over(folder)) continue;
         std::error_code ignored;
-        if (is_drive(folder)) {
-            const fs::path scans = folder / "velodyne_points" / "data";
-            found.push_back({folder, list_files(scans, kinds, ignored).size()});
+        if (const auto scans = scans_of_recording(folder, kinds)) {
+            found.push_back({folder, list_files(*scans, kinds, ignored).size()});
             continue;
         }
         const std::size_t scans = list_files(folder, kinds, ignored).size();

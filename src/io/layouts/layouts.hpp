@@ -23,16 +23,17 @@ std::optional<Layout> find_glim(const std::filesystem::path& data);
 /// Reads x y z, and the intensity if there is an intensities_compact.bin. Throws InputError.
 Cloud read_submap(const std::filesystem::path& folder);
 
-/// MulRan: Ouster/NANOSECONDS.bin, here or in sensor_data/, and global_pose.csv. The file contains
-/// poses of the vehicle; the poses of the sensor follow from the calibration of the data set. A
-/// scan without neighboring poses gets a non-finite pose. Empty for other folders. Throws
-/// InputError if no scan gets a pose.
-std::optional<Layout> find_mulran(const std::filesystem::path& data);
+/// MulRan: Ouster/NANOSECONDS.bin, here or in sensor_data/, and global_pose.csv. `data` may also be
+/// the folder Ouster. The file contains poses of the vehicle; the poses of the sensor follow from
+/// the calibration of the data set. A scan without neighboring poses gets a non-finite pose. Empty
+/// for other folders, and if other poses are given. Throws InputError if no scan gets a pose.
+std::optional<Layout> find_mulran(const std::filesystem::path& data, const OpenOptions& options);
 
 /// nuScenes: v1.0-*/ with its tables, samples/LIDAR_TOP and sweeps/LIDAR_TOP. Returns the scans of
 /// one scene in the order of their times. If there are several scenes, the user appends the name of
-/// one to the folder, as in DATA/scene-0061. Empty for other folders. Throws InputError with the
-/// names of the scenes if none is chosen, and if tables contradict each other.
+/// one to the folder, as in DATA/scene-0061. `data` may also be one of the folders in it. Empty for
+/// other folders. Throws InputError with the names of the scenes if none is chosen, and if tables
+/// contradict each other.
 std::optional<Layout> find_nuscenes(const std::filesystem::path& data);
 
 /// A raw drive of KITTI: velodyne_points/data/*.bin with timestamps.txt, and oxts/data/*.txt, from
@@ -51,9 +52,12 @@ std::optional<Layout> find_kitti_360(const std::filesystem::path& data, const Op
 /// pose.
 std::optional<Layout> find_apollo(const std::filesystem::path& data, const OpenOptions& options);
 
-/// Throws InputError if the scans are those of Argoverse 2, which cannot be read; the message says
-/// what to do.
+/// Throws InputError if the scans are those of Argoverse 2, here or in logs below, which cannot be
+/// read; the message says what to do.
 void refuse_argoverse(const std::filesystem::path& data);
+
+/// Throws InputError if the sizes of these .bin files show that a point has other than four floats.
+void refuse_other_floats(const std::filesystem::path& folder, const Paths& scans);
 
 /// Throws InputError with the names of the recordings.
 [[noreturn]] void refuse_several(const std::filesystem::path& data, const Paths& recordings);
@@ -62,7 +66,7 @@ void refuse_argoverse(const std::filesystem::path& data);
 /// such as the sensors of HeLiMOS and the sequences of SemanticKITTI.
 void refuse_several_recordings(const std::filesystem::path& data);
 
-/// The only folder, at most two levels below `data`, that contains files of one of the kinds or a
+/// The only folder, at most four levels below `data`, that contains files of one of the kinds or a
 /// drive. Empty if there is none. Throws InputError with their names if there are several.
 std::optional<std::filesystem::path> find_below(const std::filesystem::path& data,
                                                 const std::set<std::string>& kinds);

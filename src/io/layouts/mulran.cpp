@@ -36,6 +36,14 @@ std::optional<fs::path> scan_folder_of(const fs::path& data) {
     return std::nullopt;
 }
 
+/// The folder of the recording, if `data` is its folder Ouster.
+fs::path root_of(const fs::path& data) {
+    const fs::path whole = whole_path(data);
+    if (whole.filename() != "Ouster") return data;
+    const fs::path above = whole.parent_path();
+    return above.filename() == "sensor_data" ? above.parent_path() : above;
+}
+
 double stamp_of(const fs::path& scan) {
     const auto nanoseconds = parse_count(scan.stem().string());
     if (!nanoseconds) {
@@ -46,10 +54,12 @@ double stamp_of(const fs::path& scan) {
 
 }  // namespace
 
-std::optional<Layout> find_mulran(const fs::path& data) {
-    const fs::path poses = data / "global_pose.csv";
-    const auto folder = scan_folder_of(data);
+std::optional<Layout> find_mulran(const fs::path& data, const OpenOptions& options) {
+    const fs::path root = root_of(data), poses = root / "global_pose.csv";
+    const auto folder = scan_folder_of(root);
     if (!folder || !present(poses)) return std::nullopt;
+    std::error_code ignored;
+    if (options.poses && !fs::equivalent(*options.poses, poses, ignored)) return std::nullopt;
     Layout layout;
     layout.scan_folder = *folder;
     layout.scans = list_files(*folder, {".bin"});

@@ -40,6 +40,15 @@ Pose pose_of(const Json& entry, const fs::path& file) {
         Eigen::Quaterniond(number(q, 0), number(q, 1), number(q, 2), number(q, 3)), "wxyz", where);
 }
 
+/// The folder of the data set, if `data` is one of the folders in it that hold tables or scans.
+fs::path root_of(const fs::path& data) {
+    const fs::path whole = whole_path(data);
+    const std::string name = whole.filename().string();
+    if (name == "LIDAR_TOP") return whole.parent_path().parent_path();
+    const bool is_inside = name.starts_with("v1.0-") || name == "samples" || name == "sweeps";
+    return is_inside ? whole.parent_path() : data;
+}
+
 std::optional<fs::path> tables_of(const fs::path& data) {
     std::optional<fs::path> tables;
     for (const fs::path& folder : list_folders(data)) {
@@ -65,10 +74,12 @@ std::string scene_token(const fs::path& tables, const std::string& wanted) {
         names += (count++ == 0 ? "" : ", ") + name;
     });
     if (token.empty() || (wanted.empty() && count > 1)) {
-        throw InputError(tables, "",
-                         fmt::format("choose a scene by appending its name to the folder, such as "
-                                     "{}; there are: {}",
-                                     (tables.parent_path() / "scene-0061").string(), names));
+        throw InputError(
+            tables, "",
+            (wanted.empty() ? "" : "has no " + wanted + "; ") +
+                fmt::format("choose a scene by appending its name to the folder, such as "
+                            "{}; there are: {}",
+                            (tables.parent_path() / "scene-0061").string(), names));
     }
     return token;
 }
@@ -126,7 +137,7 @@ std::map<std::string, Pose> poses_of(const fs::path& file, const std::vector<Swe
 
 std::optional<Layout> find_nuscenes(const fs::path& data) {
     const bool names_scene = !present(data);
-    const fs::path root = names_scene ? data.parent_path() : data;
+    const fs::path root = names_scene ? data.parent_path() : root_of(data);
     const auto tables = tables_of(root);
     if (!tables) return std::nullopt;
     const std::string scene =

@@ -29,8 +29,17 @@ TEST_F(Below, ARecordingBelowIsOpenedAsOne) {
     data.put("00/poses.txt", kitti_rows(2));
     EXPECT_EQ(open().format, Format::kitti);
     EXPECT_TRUE(open().has_poses);
-    std::filesystem::create_directories(data / "more");
-    std::filesystem::rename(data / "00", data / "more/00");  // three levels down
+    std::filesystem::create_directories(data / "more/dataset");
+    std::filesystem::rename(data / "00",
+                            data / "more/dataset/00");  // its scans are four levels down
+    EXPECT_EQ(open().format, Format::kitti);
+    EXPECT_TRUE(open().has_poses);
+    put_bins("more/dataset/01/velodyne", 2);
+    EXPECT_HAS(open_error(), "more/dataset/00 (2 files), more/dataset/01 (2 files)");
+    EXPECT_HAS(open_error(), "such as " + (data / "more/dataset/00").string());
+    std::filesystem::remove_all(data / "more/dataset/01");
+    std::filesystem::create_directories(data / "one/two");
+    std::filesystem::rename(data / "more", data / "one/two/more");
     EXPECT_HAS(open_error(), "holds no scans");
 }
 
@@ -42,6 +51,17 @@ TEST_F(Below, SeveralFoldersAreNamed) {
     EXPECT_HAS(error, "such as " + (data / "lidar/front").string());
     for (std::size_t i = 0; i < 10; ++i) put_bins("more" + std::to_string(i), 1);
     EXPECT_HAS(open_error(), "and 2 more");
+}
+
+TEST_F(Below, ARecordingCountsOnceAndItsScanFolderIsRefused) {
+    for (const char* name : {"00", "05"}) {
+        put_pcd(std::string(name) + "/pcd/000000.pcd", 0, 0);
+        put_pcd(std::string(name) + "/gt_cloud.pcd", 0, 0);
+    }
+    EXPECT_HAS(open_error(), "00 (1 files), 05 (1 files); give one of them");
+    EXPECT_HAS(error_of([&] { (void)open_sequence(data / "00/pcd"); }), "give the folder above it");
+    std::filesystem::remove_all(data / "05");
+    EXPECT_EQ(open().format, Format::benchmark);
 }
 
 TEST_F(Below, PoseFilesUnderOtherNamesAreOffered) {
@@ -78,6 +98,14 @@ TEST_F(Below, ArgoversesLogsAreRefusedWithWhatToDo) {
         EXPECT_HAS(error, "Argoverse 2");
         EXPECT_HAS(error, "docs/formats.md");
     }
+    std::filesystem::create_directories(data / "av2/val/LOG");
+    std::filesystem::rename(data / "sensors", data / "av2/val/LOG/sensors");
+    std::filesystem::remove(data / "city_SE3_egovehicle.feather");
+    for (const char* given : {"av2", "av2/val", "av2/val/LOG"}) {
+        EXPECT_HAS(error_of([&] { (void)open_sequence(data / given); }), "Argoverse 2");
+    }
+    const auto file = data / "av2/val/LOG/sensors/lidar/315966265259836000.feather";
+    EXPECT_HAS(error_of([&] { (void)read_cloud(file); }), "Argoverse 2");
 }
 
 }  // namespace
