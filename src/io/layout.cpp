@@ -47,16 +47,26 @@ std::optional<fs::path> if_exists(const fs::path& path) {
     return present(path) ? std::optional(path) : std::nullopt;
 }
 
+/// True if the PCD files of the folder bear poses, as those of DynamicMap_Benchmark do.
+bool has_viewpoints(const fs::path& folder) {
+    std::error_code ignored;
+    const Paths clouds = list_files(folder, {".pcd"}, ignored);
+    if (clouds.empty()) return false;
+    const std::string head = read_head(clouds.front(), 1000), key = "\nVIEWPOINT ";
+    const std::size_t at = head.find(key);
+    return at != std::string::npos && !head.substr(at + key.size()).starts_with("0 0 0 1 0 0 0");
+}
+
 /// Throws if the user gave DATA/velodyne in place of DATA, a common mistake: poses, labels and
 /// calibration would not be found.
 void refuse_inner_folder(const fs::path& data, const OpenOptions& options) {
     const std::string name = without_slash(data).filename().string();
     if (options.format || (name != "velodyne" && name != "pcd") || find_pose_file(data)) return;
     const fs::path above = parent_of(data);
-    if (!find_pose_file(above) && !present(above / "labels") && !present(above / "calib.txt") &&
-        !present(above / "gt_cloud.pcd")) {
-        return;
-    }
+    const bool is_recording = find_pose_file(above) || present(above / "labels") ||
+                              present(above / "calib.txt") || present(above / "gt_cloud.pcd") ||
+                              has_viewpoints(data);
+    if (!is_recording) return;
     throw InputError(data, "",
                      "is the scan folder inside a recording; give the folder above it (" +
                          above.string() + "), or force --format folder");

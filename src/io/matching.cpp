@@ -17,8 +17,24 @@ constexpr double most_gap = 0.05;            // [s] half the period of a 10 Hz L
 constexpr double least_epoch_seconds = 1e8;  // smaller whole numbers are indices, not times
 constexpr double least_nanoseconds = 1e15;   // larger than any number of seconds
 
+/// SECONDS_NANOSECONDS at the end of a name, as in "cloud_1583836591_182590976".
+std::optional<double> split_time_in(const std::string& name) {
+    constexpr std::size_t digits = 9;
+    const std::size_t low = name.rfind('_');
+    if (low == std::string::npos || low == 0 || name.size() - low - 1 != digits) {
+        return std::nullopt;
+    }
+    const std::size_t high = name.rfind('_', low - 1);  // npos + 1 is 0
+    const std::string whole = name.substr(high + 1, low - high - 1), part = name.substr(low + 1);
+    const bool numeric = (whole + part).find_first_not_of("0123456789") == std::string::npos;
+    const auto seconds = parse_real(whole), nanoseconds = parse_real(part);
+    if (!numeric || !seconds || !nanoseconds || *seconds < least_epoch_seconds) return std::nullopt;
+    return *seconds + *nanoseconds * 1e-9;
+}
+
 /// Reads a file name as a time; empty for indices such as "000123".
 std::optional<double> time_in(const std::string& name) {
+    if (const auto time = split_time_in(name)) return time;
     const bool numeric = name.find_first_not_of("0123456789.") == std::string::npos;
     const auto value = numeric ? parse_real(name) : std::nullopt;
     if (!value) return std::nullopt;

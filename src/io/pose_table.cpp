@@ -16,10 +16,10 @@ namespace {
 
 constexpr std::size_t matrix_columns = 13;
 
-enum Role : std::size_t { x, y, z, qx, qy, qz, qw, time, role_count };
+enum Role : std::size_t { x, y, z, qx, qy, qz, qw, time, nanoseconds, role_count };
 
-constexpr std::array<const char*, role_count> role_names = {"x",  "y",  "z",  "qx",
-                                                            "qy", "qz", "qw", "timestamp"};
+constexpr std::array<const char*, role_count> role_names = {"x",  "y",  "z",         "qx",  "qy",
+                                                            "qz", "qw", "timestamp", "nsec"};
 
 /// The meaning of each column, and the factor that converts stamps to seconds.
 struct Columns {
@@ -50,9 +50,10 @@ Title title_of(std::string_view cell) {
 }
 
 std::optional<Role> role_of(const std::string& name) {
-    for (const char* known : {"timestamp", "stamp", "time", "t"}) {
+    for (const char* known : {"timestamp", "stamp", "time", "t", "sec", "secs"}) {
         if (name == known) return time;
     }
+    if (name == "nsec" || name == "nsecs") return nanoseconds;
     for (std::size_t axis = 0; axis < 4; ++axis) {
         const std::string letter(1, "xyzw"[axis]);
         if (name == "q" + letter || name == "q_" + letter || name == "q_rs_" + letter) {
@@ -114,7 +115,9 @@ std::array<double, role_count> values_of(std::string_view line, const Columns& c
 
 void append_row(PoseFile& file, const std::array<double, role_count>& v, const Columns& columns,
                 const Lines& lines) {
-    if (columns.of[time]) append_stamp(file, v[time] * columns.seconds, lines);
+    if (columns.of[time]) {
+        append_stamp(file, v[time] * columns.seconds + v[nanoseconds] * 1e-9, lines);
+    }
     const bool finite =
         std::all_of(v.begin(), v.begin() + time, [](double value) { return std::isfinite(value); });
     file.poses.push_back(finite

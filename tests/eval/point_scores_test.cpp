@@ -29,6 +29,16 @@ TEST(PointScore, IsUndefinedWithoutPointsOfAKind) {
     EXPECT_DOUBLE_EQ(*none.ha, 0.0);
 }
 
+TEST(CoverCount, CountsPointsByTheirTruth) {
+    CoverCount count;
+    for (int i = 0; i < 5; ++i) count.add(Label::static_, i < 3);
+    for (int i = 0; i < 7; ++i) count.add(Label::dynamic, i < 1);
+    EXPECT_EQ(count.still, 5U);
+    EXPECT_EQ(count.covered_still, 3U);
+    EXPECT_EQ(count.dynamic, 7U);
+    EXPECT_EQ(count.covered_dynamic, 1U);
+}
+
 TEST(Confusion, CountsTheDynamicClassOnly) {
     Confusion c;
     EXPECT_FALSE(c.iou());

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <random>
@@ -109,6 +110,50 @@ TEST(ScanScores, ResultsBesideEachOtherScoreAsAlone) {
         EXPECT_EQ(beside.voxel.at("erasor").f1, alone.voxel.at("erasor").f1);
     }
     EXPECT_NE(both.scores(0).point.iou, both.scores(1).point.iou);
+}
+
+TEST(ScoreLabels, AnyNumberOfScansIsReadEachOnceAndInOrder) {
+    const auto few = random_scans();
+    for (const std::size_t count : {1U, 15U, 16U, 17U, 33U}) {
+        std::vector<int> reads(count);
+        const ScanSource source = [&](std::size_t i) {
+            ++reads.at(i);
+            LabelledScan scan = few[i % few.size()];
+            for (Point& p : scan.points) p.x() += 10.0F * static_cast<float>(i);  // apart
+            return std::optional(scan);
+        };
+        const Scores scores = score_labels(count, source, 0.2);
+        EXPECT_EQ(std::count(reads.begin(), reads.end(), reads.front()),
+                  static_cast<std::ptrdiff_t>(count));
+        ScanScores beside(0.2, 1);
+        for (std::size_t i = 0; i < count; ++i) {
+            const LabelledScan scan = *source(i);
+            const std::array<const Labels*, 1> verdict{&scan.verdict};
+            beside.add(scan, verdict);
+            beside.add_near(beside.near_removed(scan, verdict));
+        }
+        EXPECT_EQ(scores.point.iou, beside.scores(0).point.iou) << count;
+    }
+}
+
+// Removed points of two results lie in the same cell, or in cells that share an edge.
+TEST(ScanScores, EachResultHasItsOwnRemovedPlaces) {
+    const Point kept(1.0F, 1.0F, 1.0F);
+    for (const float dx : {0.02F, -0.04F, 0.049F}) {
+        for (const float dy : {0.0F, 0.01F}) {
+            LabelledScan scan{{kept, kept + Point(dx, dy, 0.0F), kept + Point(dx, 0.0F, dy)},
+                              Labels(3, kStill),
+                              {}};
+            const Labels first{kStill, kDynamic, kStill}, second{kStill, kStill, kDynamic};
+            ScanScores both(0.2, 2);
+            const std::array<const Labels*, 2> verdicts{&first, &second};
+            both.add(scan, verdicts);
+            both.add_near(both.near_removed(scan, verdicts));
+            // The kept point is near to each removed one, so all static points are covered.
+            EXPECT_EQ(both.scores(0).point.sa, 1.0);
+            EXPECT_EQ(both.scores(1).point.sa, 1.0);
+        }
+    }
 }
 
 TEST(ScoreLabels, RefusesArraysThatAreNotParallel) {

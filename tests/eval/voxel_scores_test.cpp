@@ -81,6 +81,20 @@ TEST(VoxelTally, ErasorReadingNeedsTheSameLabelAtTheNearestSurvivor) {
     EXPECT_DOUBLE_EQ(*s.rr, 0.5);
 }
 
+TEST(VoxelTally, ErasorReadingComparesTheMeansOfAllPointsAndOfTheKeptOnes) {
+    VoxelTally tally(0.2);
+    add(tally, in_voxel(0, -0.09F), kStill, kKept);
+    add(tally, in_voxel(0, 0.09F), kStill, kRemoved);  // the means are 0.09 m apart
+    add(tally, in_voxel(10, -0.09F), kStill, kRemoved);
+    for (int i = 0; i < 3; ++i) add(tally, in_voxel(10, -0.09F), kDynamic, kRemoved);
+    add(tally, in_voxel(11, 0.09F), kStill, kKept);
+    add(tally, in_voxel(11, 0.09F), kDynamic, kKept);
+    add(tally, in_voxel(11, 0.09F), kDynamic, kRemoved);
+    const auto s = tally.scores().at("erasor");
+    EXPECT_DOUBLE_EQ(*s.pr, 1.0);
+    EXPECT_DOUBLE_EQ(*s.rr, 1.0);  // of voxel 10 nothing is near, and voxel 11 is a tie now
+}
+
 TEST(VoxelTally, DynamicShareCountsVoxelsWithAnyMovingPoint) {
     EXPECT_DOUBLE_EQ(worked_example().dynamic_share(), 4.0 / 5.0);
     EXPECT_DOUBLE_EQ(VoxelTally(0.2).dynamic_share(), 0.0);

@@ -42,6 +42,24 @@ TEST_F(MatchingTest, NanosecondsInFileNames) {
     EXPECT_EQ(open().T_world_sensor[1].translation().x(), 3.0);
 }
 
+TEST_F(MatchingTest, SecondsAndNanosecondsInFileNames) {
+    for (const char* name : {"cloud_1500000000_020000000.bin", "cloud_1500000000_620000000.bin"}) {
+        data.put(std::string("scans/") + name, floats({1, 2, 3, 4}));
+    }
+    data.put("traj.txt", tum_rows(5, 1.5e9));
+    const Sequence sequence = open();
+    EXPECT_EQ(sequence.T_world_sensor[0].translation().x(), 0.0);
+    EXPECT_EQ(sequence.T_world_sensor[1].translation().x(), 3.0);
+    EXPECT_NEAR(sequence.stamps[1] - sequence.stamps[0], 0.6, 1e-6);
+    // Other numbers behind an underscore are no times.
+    for (const char* name :
+         {"cloud_12_020000000", "cloud_1500000000_02", "a_b_020000000", "_020000000"}) {
+        const test::TemporaryFolder folder;
+        folder.put(std::string(name) + ".bin", floats({1, 2, 3, 4}));
+        EXPECT_FALSE(open_sequence(folder.path()).measured_stamps) << name;
+    }
+}
+
 TEST_F(MatchingTest, StampsOfBothSidesAreKeptWhereOrderDecides) {
     put_bins("scans", 3);
     data.put("traj.txt", tum_rows(3, 100.0));

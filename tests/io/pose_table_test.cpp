@@ -32,6 +32,7 @@ TEST(PoseTable, NamedColumnsInAnyOrder) {
     EXPECT_EQ(file.poses.at(0).translation(), Eigen::Vector3d(1, 2, 3));
     EXPECT_TRUE(read("x,y,z,qx,qy,qz,qw\n0,0,0,0,0,0,1\n").stamps.empty());
     EXPECT_EQ(read("stamp_ms,x,y,z,qx,qy,qz,qw\n5,0,0,0,0,0,0,1\n").stamps.at(0), 0.005);
+    EXPECT_EQ(read("#sec,nsec,x,y,z,qx,qy,qz,qw\n16,500000000,0,0,0,0,0,0,1\n").stamps.at(0), 16.5);
     EXPECT_FALSE(read("x,y,z,qx,qy,qz,qw\nnan,0,0,0,0,0,1\n").poses.at(0).matrix().allFinite());
 }
 

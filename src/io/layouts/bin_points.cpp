@@ -28,9 +28,10 @@ void refuse_other_floats(const std::filesystem::path& folder, const Paths& scans
         folder, "",
         fmt::format(
             "its files seem to have {} bytes a point, because all their sizes are multiples "
-            "of that; expected 16 (float32 x y z intensity); write the points so, or as "
-            ".npy arrays of N x 3 or more columns",
-            common));
+            "of that; expected 16 (float32 x y z intensity); {}",
+            common,
+            common == 20 ? "if they are nuScenes's, name them *.pcd.bin"
+                         : "write the points so, or as .npy arrays of N x 3 or more columns"));
 }
 
 }  // namespace dynamic_filter::io

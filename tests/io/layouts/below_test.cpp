@@ -55,13 +55,16 @@ TEST_F(Below, SeveralFoldersAreNamed) {
 
 TEST_F(Below, ARecordingCountsOnceAndItsScanFolderIsRefused) {
     for (const char* name : {"00", "05"}) {
-        put_pcd(std::string(name) + "/pcd/000000.pcd", 0, 0);
-        put_pcd(std::string(name) + "/gt_cloud.pcd", 0, 0);
+        put_pcd(std::string(name) + "/pcd/000000.pcd", 2, 0);
     }
     EXPECT_HAS(open_error(), "00 (1 files), 05 (1 files); give one of them");
     EXPECT_HAS(error_of([&] { (void)open_sequence(data / "00/pcd"); }), "give the folder above it");
     std::filesystem::remove_all(data / "05");
     EXPECT_EQ(open().format, Format::benchmark);
+    put_pcd("00/pcd/000000.pcd", 0, 0);  // without poses in the files, it may be any folder
+    EXPECT_EQ(open_sequence(data / "00/pcd").size(), 1U);
+    put_pcd("00/gt_cloud.pcd", 0, 0);
+    EXPECT_HAS(error_of([&] { (void)open_sequence(data / "00/pcd"); }), "give the folder above it");
 }
 
 TEST_F(Below, PoseFilesUnderOtherNamesAreOffered) {

@@ -25,6 +25,10 @@ TEST_F(BinPoints, OtherThanFourFloatsAreNamedBeforeAnythingIsRead) {
         put_points(folder, 3, 8);
         EXPECT_HAS(open_error(), "12 bytes a point");
         std::filesystem::remove_all(data / folder);
+        put_points(folder, 5, 8);
+        EXPECT_HAS(open_error(), "20 bytes a point");
+        EXPECT_HAS(open_error(), "name them *.pcd.bin");
+        std::filesystem::remove_all(data / folder);
         put_points(folder, 4, 8);
         EXPECT_EQ(open().size(), 8U);
         std::filesystem::remove_all(data / folder);
