@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include "advice.hpp"
 #include "commands.hpp"
 #include "dynamic_filter/io/preflight.hpp"
 #include "frames.hpp"
@@ -19,16 +20,18 @@ int check(const DataOptions& options) {
     }
     for (const std::string& line : sequence.losses) fmt::print("LOST      {}\n", line);
     for (const std::string& line : preflight.unusable) fmt::print("UNUSABLE  {}\n", line);
-    for (const io::Finding& finding : preflight.findings) {
-        const bool is_option = finding.advice.starts_with("--");
+    for (const io::Finding& found : preflight.findings) {
+        const io::Finding finding = blame_needless_fix(found, options);
         fmt::print("FOUND     {}\n", finding.what);
-        fmt::print(
-            fmt::runtime(is_option ? "try       dynamicfilter run {} {}\n" : "advice    {1}\n"),
-            options.data.string(), finding.advice);
+        if (finding.advice.starts_with("--")) {
+            fmt::print("try       {}\n", next_command(options, finding.advice));
+        } else {
+            fmt::print("advice    {}\n", finding.advice);
+        }
     }
     const bool fine =
         preflight.findings.empty() && preflight.unusable.empty() && sequence.losses.empty();
-    if (fine) fmt::print("nothing suspicious\n");
+    if (fine) fmt::print("nothing suspicious\nnext      {}\n", next_command(options, ""));
     return fine ? kDone : kRejected;
 }
 

@@ -117,7 +117,7 @@ struct OdometryOptions {
     DataOptions data;
     std::filesystem::path output;
     ConfigOptions config;
-    bool quiet = false;
+    bool overwrite = false, quiet = false;
 };
 
 struct DemoOptions {

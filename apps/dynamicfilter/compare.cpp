@@ -55,6 +55,7 @@ std::string run_of(const fs::path& result, std::size_t number, const io::Sequenc
 }  // namespace
 
 int report(const ReportOptions& o) {
+    require_extension(o.output, ".html");
     std::optional<io::Sequence> truth;
     if (!o.truth.data.empty()) truth = open(o.truth);
     if (truth && !truth->has_truth()) {

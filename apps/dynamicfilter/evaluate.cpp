@@ -97,6 +97,7 @@ Evaluation scores_of(const EvalOptions& o) {
 }
 
 int evaluate(const EvalOptions& o) {
+    if (o.json) require_extension(*o.json, ".json");
     const Evaluation e = scores_of(o);
     fmt::print("{}{}", ranges_text(o.ranges), protocol_table(o.protocol, e.scores, o.voxel));
     if (o.json) io::write_file(*o.json, text_of(to_json(e.scores)));

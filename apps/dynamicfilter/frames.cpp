@@ -48,6 +48,11 @@ void refuse_other_count(const io::Sequence& sequence, std::size_t i, std::size_t
 
 }  // namespace
 
+void require_extension(const std::filesystem::path& output, const std::string& extension) {
+    if (output.extension() == extension) return;
+    throw ConfigError(output.string() + ": the name of what is written must end in " + extension);
+}
+
 io::Sequence open(const DataOptions& options) {
     io::OpenOptions how = options.open;
     if (!options.format.empty()) how.format = format_of(options.format);
@@ -59,7 +64,12 @@ io::Sequence open(const DataOptions& options) {
         how.without_poses = true;
     }
     how.deskew = options.deskew == "on";
-    return io::open_sequence(options.data, how);
+    io::Sequence sequence = io::open_sequence(options.data, how);
+    if (how.pose_fix != io::PoseFix::none && !sequence.has_poses) {
+        throw ConfigError("--pose-fix " + options.pose_fix +
+                          " has no poses to correct; give them with --poses FILE");
+    }
+    return sequence;
 }
 
 void for_each_frame(const io::Sequence& sequence, const std::vector<std::size_t>& scans,

@@ -14,6 +14,10 @@
 
 namespace dynamic_filter::app {
 
+/// Throws ConfigError if the file to be written has another extension, because it may then be a
+/// file of the user's recording.
+void require_extension(const std::filesystem::path& output, const std::string& extension);
+
 io::Sequence open(const DataOptions& options);
 
 /// A frame, or why it cannot be used.

@@ -314,6 +314,7 @@ void add_others(CLI::App& app, std::function<int()>& chosen) {
     add_reading_options(o, track->data);
     add_selection_options(o, track->data);
     add_config_options(o, track->config);
+    o.add_flag("--overwrite", track->overwrite, "replace an existing file");
     o.add_flag("-q,--quiet", track->quiet, "print only warnings and errors");
     o.callback([=, &chosen] { chosen = [=] { return odometry(*track); }; });
 
@@ -349,7 +350,9 @@ void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
 
 /// CLI11 names what it did not expect, but not what may have been meant.
 [[noreturn]] void refuse_unknown_options(const CLI::App& app) {
-    const CLI::App& command = *app.get_subcommands().front();
+    const auto given_commands = app.get_subcommands();
+    const bool has_command = !given_commands.empty();
+    const CLI::App& command = has_command ? *given_commands.front() : app;
     std::vector<std::string> known;
     const auto add = [&known](const CLI::App& group) {
         for (const CLI::Option* option : group.get_options()) {
@@ -357,7 +360,9 @@ void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
         }
     };
     add(command);
-    for (const CLI::App* group : command.get_subcommands({})) add(*group);
+    for (const CLI::App* group : command.get_subcommands({})) {
+        if (has_command) add(*group);
+    }
     std::string text;
     for (const std::string& given : app.remaining(true)) {
         const bool is_option = given.starts_with('-');
@@ -366,6 +371,11 @@ void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
         text += fmt::format("{}unknown {} '{}'{}", text.empty() ? "" : "; ",
                             is_option ? "option" : "argument", name,
                             is_option ? did_you_mean(name, known) : "");
+    }
+    if (!has_command) {
+        throw ConfigError(text +
+                          "; options come after a command, and `dynamicfilter --help` lists "
+                          "the commands");
     }
     throw ConfigError(
         fmt::format("{}; `dynamicfilter {} --help` lists the options", text, command.get_name()));

@@ -120,7 +120,7 @@ std::vector<std::string> choose_motion(io::Sequence& sequence, Config& config,
             error_text(quality)));
     }
     if (!sequence.has_poses) {
-        notes.emplace_back("there are no poses, so they are found by odometry");
+        notes.emplace_back("no poses are used, so they are found by odometry");
     }
     if (!sequence.has_poses || config.odometry.refine) {
         add(notes,
@@ -176,6 +176,9 @@ void write_poses(const std::filesystem::path& path, const io::Sequence& sequence
 
 int odometry(const OdometryOptions& o) {
     const Config config = load_config(o.config);
+    if (!o.overwrite && std::filesystem::exists(o.output)) {
+        throw ConfigError(o.output.string() + ": exists; choose another -o, or --overwrite");
+    }
     DataOptions without_poses = o.data;
     without_poses.open.poses = "none";
     io::Sequence sequence = open(without_poses);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include "advice.hpp"
 #include "commands.hpp"
 #include "config_file.hpp"
 #include "dynamic_filter/error.hpp"
@@ -107,7 +108,8 @@ int run(const RunOptions& o) {
     }
     io::write_file(output.path() / kRunState, state);
     tell(sequence.notes, o.quiet);
-    for (const io::Finding& finding : io::check_recording(sequence, io::Depth::quick).findings) {
+    for (const io::Finding& found : io::check_recording(sequence, io::Depth::quick).findings) {
+        const io::Finding finding = blame_needless_fix(found, o.data);
         fmt::print(stderr, "warning: {}; {}{} (`dynamicfilter check` looks closer)\n", finding.what,
                    finding.advice.starts_with("--") ? "try " : "", finding.advice);
     }

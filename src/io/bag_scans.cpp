@@ -242,6 +242,11 @@ Sequence open_bag(const std::filesystem::path& data, const OpenOptions& options)
     sequence.root = data;
     sequence.notes = contents.notes;
     sequence.losses = contents.losses;
+    if (scans->bag.files().size() > 1) {
+        sequence.notes.push_back(fmt::format(
+            "{} bags are read as parts of one recording; if they are not, give one of them",
+            scans->bag.files().size()));
+    }
     sequence.notes.push_back("scans from " + clouds.topic.name);
     for (const FoundScan& scan : in_order(clouds, sequence.notes)) {
         sequence.stamps.push_back(scan.stamp);

@@ -107,10 +107,12 @@ Match match_poses(const Layout& layout, const PoseFile& file, const std::vector<
         const std::vector<double> named = times_in_names(layout.scans);
         if (!named.empty()) return match_by_time(layout, file, named, "file names");
     }
-    throw InputError(*layout.poses, "",
-                     fmt::format("{} scans in {} but {} poses; give the matching file with --poses "
-                                 "(--first, --last and --stride apply after matching)",
-                                 scans, layout.scan_folder.string(), file.poses.size()));
+    throw InputError(
+        *layout.poses, "",
+        fmt::format("{} scans in {} but {} poses; give the matching file with --poses, "
+                    "or --poses none, which finds the poses (--first, --last and --stride apply "
+                    "after matching)",
+                    scans, layout.scan_folder.string(), file.poses.size()));
 }
 
 }  // namespace dynamic_filter::io

@@ -15,6 +15,13 @@ void require_stamps(const std::filesystem::path& path, std::size_t stamps, std::
     throw OutputError(path, fmt::format("{} stamps but {} poses", stamps, poses));
 }
 
+/// Rounded after the seconds are split off: since 1970, a double has no room for nanoseconds.
+std::int64_t nanoseconds_of(double stamp) {
+    const double seconds = std::floor(stamp);
+    return static_cast<std::int64_t>(seconds) * 1'000'000'000 +
+           std::llround((stamp - seconds) * 1e9);
+}
+
 Eigen::Quaterniond rotation_of(const Pose& pose) {
     return Eigen::Quaterniond(pose.linear()).normalized();
 }
@@ -57,9 +64,8 @@ void write_poses_csv(const std::filesystem::path& path, std::span<const double> 
         const Eigen::Vector3d t = T_world_sensor[i].translation();
         const Eigen::Quaterniond q = rotation_of(T_world_sensor[i]);
         fmt::format_to(std::back_inserter(text),
-                       "{:.0f},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n",
-                       std::round(stamps[i] * 1e9), t.x(), t.y(), t.z(), q.w(), q.x(), q.y(),
-                       q.z());
+                       "{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n",
+                       nanoseconds_of(stamps[i]), t.x(), t.y(), t.z(), q.w(), q.x(), q.y(), q.z());
     }
     write_file(path, text);
 }

@@ -131,6 +131,31 @@ TEST_F(Check, NamesPointsInTheWorldAndMergedSensors) {
     expect_only(check_recording(open_sequence(merged->path()), Depth::thorough), "merged", "one");
 }
 
+TEST_F(Check, NamesPointsInMillimetres) {
+    const auto copy = write_copy([](const Frame& frame) {
+        Points points = frame.points;
+        for (Point& p : points) p *= 1000.0F;
+        return points;
+    });
+    for (const Depth depth : {Depth::quick, Depth::thorough}) {
+        expect_only(check_recording(open_sequence(copy->path()), depth), "in millimetres",
+                    "in metres");
+    }
+}
+
+TEST_F(Check, NamesPosesOfAnotherRecordingWhateverTheirReading) {
+    expect_only(after([](Sequence& sequence) {
+                    double far = 0.0;
+                    change_poses(sequence, [&](const Pose& pose) {
+                        far += 200.0;
+                        Pose apart = pose;
+                        apart.translation() += Eigen::Vector3d(far, -2.0 * far, 3e3);
+                        return apart;
+                    });
+                }),
+                "do not", "--poses none");
+}
+
 TEST_F(Check, ASensorThatHangsUpsideDownOnAStraightPathIsNoticed) {
     // The readings of the quaternion overlay alike there.
     const test::TemporaryFolder straight;

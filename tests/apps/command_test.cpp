@@ -285,6 +285,10 @@ TEST_F(Command, UsageErrorsExitWithTwo) {
     expect_said("unknown command 'rnu', did you mean 'run'?");
     EXPECT_EQ(run("eval --truth data --lables out"), 2);
     expect_said("unknown option '--lables', did you mean '--labels'?");
+    EXPECT_EQ(run("--verson"), 2);
+    expect_said("unknown option '--verson', did you mean '--version'?");
+    EXPECT_EQ(run("--pose-fix inverse"), 2);
+    expect_said("options come after a command");
     EXPECT_EQ(run("run data out"), 2);
     expect_said("unknown argument 'out'; `dynamicfilter run --help` lists the options");
     EXPECT_EQ(run("run"), 2);
@@ -312,6 +316,21 @@ TEST_F(Command, NeverWritesOverARecording) {
     EXPECT_EQ(run("run data -o data/velodyne --overwrite"), 2);
     EXPECT_EQ(run("demo -o data"), 2);
     EXPECT_EQ(run("run data -o out"), 0);
+}
+
+TEST_F(Command, OneFileIsNotWrittenOverAnother) {
+    const fs::path copy = folder_ / "copy";
+    fs::copy(recording(), copy, fs::copy_options::recursive);
+    const std::string poses = slurp(copy / "poses.txt");
+    EXPECT_EQ(run("odometry " + copy.string() + " -o " + (copy / "poses.txt").string()), 2);
+    expect_said("poses.txt: exists; choose another -o, or --overwrite");
+    EXPECT_EQ(run("eval --truth " + copy.string() + " --labels " + copy.string() + " --json " +
+                  (copy / "poses.txt").string()),
+              2);
+    expect_said("must end in .json");
+    EXPECT_EQ(run("report " + copy.string() + " -o " + (copy / "times.txt").string()), 2);
+    expect_said("must end in .html");
+    EXPECT_EQ(slurp(copy / "poses.txt"), poses);
 }
 
 TEST_F(Command, QuietSaysOnlyWhatIsWrong) {

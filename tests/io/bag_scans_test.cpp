@@ -162,7 +162,7 @@ TEST_F(BagScansTest, ScansBeyondThePosesAreRejectedOneByOne) {
     drive("odom", "lidar", -1.0, 0.05);
     const Sequence sequence = opened();
     EXPECT_EQ(sequence.size(), 5U);
-    EXPECT_NO_THROW((void)read_frame(sequence, 0));
+    EXPECT_FLOAT_EQ(read_frame(sequence, 0).points.at(0).x(), 5.0F);
     EXPECT_HAS(error_of([&] { (void)read_frame(sequence, 4); }), "no pose is known at its time");
 }
 
@@ -209,7 +209,7 @@ TEST_F(BagScansTest, MessagesThatAreNoneAreCountedAndTheOthersGoOn) {
     EXPECT_HAS(sequence.losses[0],
                "2 messages cannot be read and are left out; the first is of /p");
     ASSERT_EQ(sequence.size(), 4U);
-    EXPECT_NO_THROW((void)read_frame(sequence, 2));
+    EXPECT_FLOAT_EQ(read_frame(sequence, 2).points.at(0).x(), 7.0F);
     EXPECT_HAS(error_of([&] { (void)read_frame(sequence, 3); }), "a.mcap (scan 3 of /points)");
 }
 

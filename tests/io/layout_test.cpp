@@ -81,5 +81,14 @@ TEST_F(LayoutTest, LabelsMayBeOfSomeScansOnly) {
     EXPECT_TRUE(has_note(open(), "labels of 3 of 3 scans, and 1 of no scan"));
 }
 
+TEST_F(LayoutTest, ScansAndOptimizedPoses) {
+    for (std::size_t i = 0; i < 3; ++i) put_pcd("Scans/" + number(i) + ".pcd", 0, 0);
+    data.put("optimized_poses.txt", kitti_rows(3));
+    data.put("times.txt", "10.0\n10.5\n11.5\n");
+    const Sequence sequence = open();
+    EXPECT_EQ(sequence.T_world_sensor[2].translation().x(), 2.0);  // the LiDAR's: no calibration
+    EXPECT_EQ(sequence.stamps[2], 11.5);
+}
+
 }  // namespace
 }  // namespace dynamic_filter::io

@@ -1,7 +1,11 @@
-foreach(unit bag bag/decompress bag_scans bag_writer benchmark cloud cloud_writers file frame frame_tree las layout layouts
-             layouts/apollo layouts/bin_points layouts/below layouts/kitti_360 layouts/kitti_raw lzf matching mcap
-             messages motion/pose_mistakes natural_order npy packets pcd pcd_header ply ply_header png pose_fix pose_table poses
-             records rigid rosbag1 rosbag2 sequence text text_cloud trajectory writers)
+foreach(unit bag/bag bag/bag_writers bag/decompress bag/mcap bag/rosbag1 bag/rosbag1_writer bag/rosbag2 bag_scans
+             benchmark byte_writer cloud cloud_writers field_types file folders frame las layout layouts/apollo
+             layouts/argoverse layouts/below layouts/bin_points layouts/drive layouts/glim layouts/kitti_360
+             layouts/kitti_raw layouts/matrix layouts/mulran layouts/numbers layouts/nuscenes layouts/pairs
+             layouts/pose_notes layouts/several lzf matching motion/pose_mistakes natural_order npy pcd pcd_header
+             pcd_writer ply ply_header png pose_fix pose_table pose_writers poses preflight/overlay preflight/samples
+             records rigid ros/definitions ros/frame_tree ros/messages ros/packets ros/write_messages sequence text
+             text_cloud trajectory writers)
   df_test(io/${unit} dynamic_filter_io)
   # Units behind the public headers are tested too.
   string(REPLACE "/" "_" name ${unit})

@@ -70,6 +70,29 @@ TEST(MapSegments, ABreakReturnsTheVerdictsOfAWindowThatIsNotFull) {
     }
 }
 
+TEST(MapSegments, TheMapIsCutAfterAQuarterOfTheHorizon) {
+    const auto scans = drive(2, false);  // in a hall of 15 m by 10 m
+    MapSegments maps(every_scan(), with_horizon(4.0));
+    maps.newest().push(scans[0].scan);
+    const std::size_t whole = maps.newest().size();
+    const auto forget_at = [&](double x) {
+        Pose pose = scans[0].scan.T_world_sensor;
+        pose.translation().x() += x;
+        maps.forget_far(pose);
+        return maps.newest().size();
+    };
+    EXPECT_EQ(forget_at(0.0), whole);  // where it begins
+    EXPECT_EQ(forget_at(0.9), whole);
+    const std::size_t cut = forget_at(1.1);
+    EXPECT_LT(cut, whole * 8 / 10);
+    EXPECT_GT(cut, 100U);
+    maps.newest().push(scans[1].scan);
+    const std::size_t grown = maps.newest().size();
+    EXPECT_GT(grown, cut);
+    EXPECT_EQ(forget_at(2.0), grown);  // 0.9 m on
+    EXPECT_LT(forget_at(2.2), grown);
+}
+
 TEST(MapSegments, ScansAreSettledInOrderAndOnce) {
     const auto scans = drive(6, false);
     MapSegments maps(every_scan(), with_horizon(0.0));

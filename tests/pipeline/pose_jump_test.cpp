@@ -36,6 +36,22 @@ TEST(PoseJump, DrivingBrakingNoiseAndGapsAreNone) {
     EXPECT_FALSE(pose_jump(at(0, 0), at(100, 0.0), at(0, 0.1)));     // equal stamps: unknown
 }
 
+TEST(PoseJump, DependsOnDifferencesOnly) {
+    constexpr double kFar = 4000.0, kLate = 1.6e9;
+    const auto off =
+        pose_jump(at(kFar, kLate), at(kFar + 2.0, kLate + 0.125), at(kFar + 9.0, kLate + 0.25));
+    ASSERT_TRUE(off);
+    EXPECT_NEAR(*off, 5.0, 1e-6);
+    EXPECT_FALSE(
+        pose_jump(at(kFar, kLate), at(kFar + 2.0, kLate + 0.125), at(kFar + 4.0, kLate + 0.25)));
+}
+
+// With 50 m/s^2 over the last step and the one before: 2 m + 50 * 0.1 * (0.05 + 0.1) m.
+TEST(PoseJump, AllowsForAnAccelerationSinceThePoseBeforeTheLast) {
+    EXPECT_FALSE(pose_jump(at(0, 0), at(0, 0.1), at(2.7, 0.2)));
+    EXPECT_TRUE(pose_jump(at(0, 0), at(0, 0.1), at(2.8, 0.2)));
+}
+
 TEST(PoseJump, TwoSensorsThatTakeTurnsAreNone) {
     EXPECT_FALSE(pose_jump(at(0.0, 0.0), at(0.5, 0.01), at(0.1, 0.1)));
     EXPECT_FALSE(pose_jump(at(0.5, 0.01), at(0.1, 0.1), at(0.6, 0.11)));

@@ -11,3 +11,4 @@ add_test(NAME script/faults
 add_test(NAME script/skips COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/skips_test.py ${PROJECT_SOURCE_DIR})
 add_test(NAME script/regions
          COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/regions_test.py ${PROJECT_SOURCE_DIR})
+add_test(NAME script/mirror COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/mirror_test.py)

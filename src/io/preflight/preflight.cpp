@@ -18,8 +18,8 @@ namespace dynamic_filter::io {
 namespace {
 
 constexpr const char* kOtherPoses =
-    "check that the poses are of this recording and of the same times; give other poses with "
-    "--poses";
+    "check that the poses are of this recording, of the same times, and of the sensor, not of the "
+    "vehicle that carries it; give other poses with --poses, or --poses none, which finds them";
 
 double share_of(const std::vector<Overlay>& overlays, const std::string& reading) {
     const auto found = std::find_if(overlays.begin(), overlays.end(),
@@ -47,6 +47,14 @@ bool lie_in_world(const Samples& samples) {
         near_pose += sample.near_pose;
     }
     return near_pose > 2 * near_origin + 100;
+}
+
+/// True if scans show enough upright structures to be compared.
+bool have_structure(const Samples& samples) {
+    return std::count_if(samples.begin(), samples.end(), [](const auto& sample) {
+               constexpr std::size_t kEnough = 200;
+               return sample.second.upright.size() > kEnough;
+           }) > 1;
 }
 
 /// True if the sensor would be upside down; sensors of ground robots are upright.
@@ -138,7 +146,7 @@ Finding in_sensor_finding(const std::vector<Overlay>& overlays, bool files_in_wo
     if (files_in_world) {
         return {"the points are in the sensor's frame, but this format has them in the world's: " +
                     fits_better(overlays, kInSensor),
-                "--format folder with a pose file"};
+                "give --format folder, and a pose file with --poses"};
     }
     return {"the points are in the sensor's frame, not in the world's: " +
                 fits_better(overlays, kInSensor),
@@ -153,9 +161,10 @@ void judge_poses(Preflight& result, const Sequence& sequence, const Samples& sam
     const double given = share_of(overlays, kAsGiven);
     if (all_equal(samples)) {
         if (stands_still(samples, pairs)) return;
-        result.findings.push_back(
-            {"all poses are equal, but the scans show that the sensor moves",
-             "--poses FILE with the trajectory; scans in the world's frame need it as well"});
+        result.findings.push_back({"all poses are equal, but the scans show that the sensor moves",
+                                   "give the trajectory with --poses FILE, which scans in the "
+                                   "world's frame need as well; "
+                                   "--poses none finds it for scans in the sensor's frame"});
         return;
     }
     const bool files_in_world = sequence.format == Format::benchmark;
@@ -169,6 +178,14 @@ void judge_poses(Preflight& result, const Sequence& sequence, const Samples& sam
         std::max_element(overlays.begin(), overlays.end(),
                          [](const Overlay& a, const Overlay& b) { return a.share < b.share; });
     const bool much = clearly_better(best->share, given);
+    constexpr double kNothing = 0.02;
+    if (best->share < kNothing && have_structure(samples)) {
+        result.findings.push_back(
+            {fmt::format("the scans do not overlay, however the poses are read ({:.0f} %)",
+                         100.0 * best->share),
+             kOtherPoses});
+        return;
+    }
     if (best->reading == kAsGiven) {
         judge_upside_down(result, samples);
         return;
@@ -211,6 +228,21 @@ void judge_points(Preflight& result, const Samples& samples) {
                      "several sensors or several sweeps are merged into one scan",
                      100.0 * typical),
          "use the scans of one sensor, each with its own pose"});
+}
+
+/// Sensors of all kinds see less far than this with half of their beams.
+void judge_unit(Preflight& result, const Samples& samples) {
+    constexpr float kTooFar = 500.0F;  // [m]
+    std::vector<double> ranges;
+    for (const auto& [i, sample] : samples) ranges.push_back(sample.typical_range);
+    if (ranges.empty() || lie_in_world(samples)) return;
+    const double typical = median(std::move(ranges));
+    if (typical < kTooFar) return;
+    result.findings.push_back(
+        {fmt::format("half of the points lie more than {:.0f} m from the sensor: they may be in "
+                     "millimetres, or in the world's frame",
+                     typical),
+         "write the points in metres, or give --points-in-world and the poses"});
 }
 
 /// Scans and poses were matched by order, but both have stamps, which may contradict each other.
@@ -334,6 +366,7 @@ Preflight check_recording(const Sequence& sequence, Depth depth) {
     if (sequence.has_poses) result.overlays = compare(samples, pairs);
     judge_stamps(result, sequence);
     judge_order(result, sequence, samples);
+    judge_unit(result, samples);
     judge_points(result, samples);
     if (result.overlays.empty()) return result;
     std::optional<bool> known;  // evaluated once, because it reads scans

@@ -96,11 +96,23 @@ std::optional<double> began_of(const Cloud& cloud) {
     return began;
 }
 
+float typical_range(const Points& points) {
+    std::vector<float> ranges;
+    for (const Point& p : points) {
+        if (is_measured(p)) ranges.push_back(p.norm());
+    }
+    if (ranges.empty()) return 0.0F;
+    const auto middle = ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() / 2);
+    std::nth_element(ranges.begin(), middle, ranges.end());
+    return *middle;
+}
+
 Sample sample_of(const Frame& frame) {
     const Point said = frame.T_world_sensor.translation().cast<float>();
     return {upright(frame.points),          frame.T_world_sensor,
             share_of_doubles(frame.points), count_near(frame.points, Point::Zero()),
-            count_near(frame.points, said), began_of(frame.cloud)};
+            count_near(frame.points, said), typical_range(frame.points),
+            began_of(frame.cloud)};
 }
 
 }  // namespace

@@ -84,13 +84,5 @@ TEST(BagWriter, KnowsItsExtensions) {
     EXPECT_HAS(error_of<ConfigError>([] { (void)BagWriter::create("a.pcd"); }), ".mcap");
 }
 
-TEST(BagWriter, Ros1HasNoTimesAfter2106) {
-    const TemporaryFolder folder;
-    const auto writer = BagWriter::create(folder / "a.bag");
-    EXPECT_THROW(writer->write({"/a", "nav_msgs/Odometry", MessageEncoding::ros1},
-                               std::int64_t{1} << 62U, {}),
-                 OutputError);
-}
-
 }  // namespace
 }  // namespace dynamic_filter::io

@@ -117,7 +117,8 @@ TEST_F(Bags, EveryTruncationOfWhatIsWritten) {
     }
 }
 
-/// Whatever byte is changed, and however: no crash, and an error is one of ours.
+/// Whatever byte is changed, and however: an error is one of ours, and of an MCAP file, which has
+/// checksums, no changed message is delivered. A ROS 1 bag has none; there are never more messages.
 TEST_F(Bags, EveryChangedByte) {
     for (const std::string name : {"a.mcap", "a.bag"}) {
         const std::string bytes = name == "a.bag" ? two_chunk_bag("lz4") : two_chunk_mcap("zstd");
@@ -129,7 +130,12 @@ TEST_F(Bags, EveryChangedByte) {
             for (const int value : {0x00, 0x01, 0x7F, 0x80, 0xFF}) {
                 put_byte(n, static_cast<char>(value));
                 try {
-                    (void)read_all(folder_ / name);
+                    const ReadBack back = read_all(folder_ / name);
+                    EXPECT_LE(back.messages.size(), four.size()) << name << " byte " << n;
+                    for (const std::string& found : all_data(back)) {
+                        const bool known = std::find(four.begin(), four.end(), found) != four.end();
+                        EXPECT_TRUE(known || name == "a.bag") << name << " byte " << n;
+                    }
                 } catch (const InputError&) {
                 }
             }
