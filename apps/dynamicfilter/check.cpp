@@ -15,6 +15,11 @@ int check(const DataOptions& options) {
     for (const std::string& note : sequence.notes) fmt::print("note      {}\n", note);
     const io::Preflight preflight = io::check_recording(sequence, io::Depth::thorough);
     fmt::print("scans     {}, of which {} were read\n", sequence.size(), preflight.scans);
+    if (!preflight.overlays.empty()) {
+        fmt::print(
+            "overlay   share of structures that another scan shows in the same place, if "
+            "poses are read\n");
+    }
     for (const io::Overlay& overlay : preflight.overlays) {
         fmt::print("overlay   {:>3.0f} %  {}\n", 100.0 * overlay.share, overlay.reading);
     }

@@ -381,6 +381,14 @@ void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
         fmt::format("{}; `dynamicfilter {} --help` lists the options", text, command.get_name()));
 }
 
+/// What CLI11 says of wrong arguments, in the form of all other errors.
+std::string usage_error(const CLI::App* app, const CLI::Error& error) {
+    const auto commands = app->get_subcommands();
+    const std::string command = commands.empty() ? "" : commands.front()->get_name() + " ";
+    return fmt::format("dynamicfilter: {}; `dynamicfilter {}--help` lists the {}\n", error.what(),
+                       command, commands.empty() ? "commands" : "options");
+}
+
 int failed(ExitCode code, const std::exception& error) {
     fmt::print(stderr, "dynamicfilter: {}\n", error.what());
     return code;
@@ -404,6 +412,7 @@ int main(int argc, char** argv) {
     CLI::App app("Removes moving objects from LiDAR scans and maps.", "dynamicfilter");
     app.set_version_flag("--version", DYNAMIC_FILTER_VERSION);
     app.require_subcommand(1);
+    app.failure_message(usage_error);
     std::function<int()> chosen;
     add_run(app, chosen);
     add_eval(app, chosen);

@@ -139,6 +139,8 @@ std::string kind_by_content(std::string_view head) {
     if (head.starts_with("\x93NUMPY")) return "a NumPy array";
     if (head.starts_with("ply\n") || head.starts_with("ply\r")) return "a PLY cloud";
     if (head.starts_with("# .PCD")) return "a PCD cloud";
+    if (head.starts_with("PK\x03\x04")) return "a zip archive";
+    if (head.starts_with("\x1F\x8B")) return "a gzip archive";
     return head.find('\0') == std::string_view::npos ? "" : "a binary file";
 }
 

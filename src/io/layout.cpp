@@ -82,7 +82,8 @@ void require_folder(const fs::path& data) {
                                   : kind.ends_with("cloud")
                                       ? "; a single cloud cannot be cleaned, because "
                                         "the scans tell what moved"
-                                      : "";
+                                  : kind.ends_with("archive") ? "; unpack it and give the folder"
+                                                              : "";
         throw InputError(data, "",
                          "is " + (kind.empty() ? "a file" : kind) + force +
                              "; expected a bag (.mcap, .bag, .db3), or a folder with "

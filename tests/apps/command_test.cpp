@@ -279,6 +279,9 @@ TEST_F(Command, EvalScoresWithinTheRangeAskedFor) {
 
 TEST_F(Command, UsageErrorsExitWithTwo) {
     EXPECT_EQ(run(""), 2);
+    expect_said("`dynamicfilter --help` lists the commands");
+    EXPECT_EQ(run("run"), 2);
+    expect_said("dynamicfilter: DATA is required; `dynamicfilter run --help` lists the options");
     EXPECT_EQ(run("fly"), 2);
     expect_said("unknown command 'fly'; the commands are: run, eval, simulate, convert");
     EXPECT_EQ(run("rnu data"), 2);
@@ -291,7 +294,6 @@ TEST_F(Command, UsageErrorsExitWithTwo) {
     expect_said("options come after a command");
     EXPECT_EQ(run("run data out"), 2);
     expect_said("unknown argument 'out'; `dynamicfilter run --help` lists the options");
-    EXPECT_EQ(run("run"), 2);
     EXPECT_EQ(run("run " + recording().string() + " --set map.voxle_size=1"), 2);
     expect_said("map.voxel_size");
     EXPECT_EQ(run("run " + recording().string() + " --set map.voxel_size=-1"), 2);
@@ -722,8 +724,14 @@ TEST_F(Command, CheckSaysWhatToTypeAndThatWorks) {
     for (Pose& pose : sequence.T_world_sensor) pose = pose.inverse();
     io::write_poses_kitti(folder_ / "inverse.txt", sequence.T_world_sensor);
     EXPECT_EQ(run("check " + data + " --poses inverse.txt"), 4);
-    expect_said("--pose-fix inverse");
-    EXPECT_EQ(run("check " + data + " --poses inverse.txt --pose-fix inverse"), 0) << said();
+    const std::string fixed = data + " --poses inverse.txt --pose-fix inverse";
+    expect_said("try       dynamicfilter run " + fixed + "\n");
+    EXPECT_EQ(run("check " + fixed), 0) << said();
+    expect_said("next      dynamicfilter run " + fixed + "\n");
+    EXPECT_EQ(run("check " + data + " --pose-fix inverse"), 4);
+    expect_said("the poses are right without --pose-fix inverse");
+    EXPECT_EQ(run("check " + data + " --poses none --pose-fix inverse"), 2);
+    expect_said("no poses to correct");
     EXPECT_EQ(run("run " + data + " --poses inverse.txt -o out"), 0);
     expect_said("warning: the poses are inverse");
 }

@@ -16,6 +16,13 @@ TEST_F(LayoutTest, NothingThere) {
     EXPECT_HAS(open_error(), "no *.bin");
 }
 
+TEST_F(LayoutTest, AnArchiveIsToBeUnpacked) {
+    for (const char* head : {"PK\x03\x04", "\x1F\x8B"}) {
+        const auto file = data.put("recording.zip", std::string(head) + std::string(50, '\0'));
+        EXPECT_HAS(error_of([&] { (void)open_sequence(file); }), "archive; unpack it");
+    }
+}
+
 TEST_F(LayoutTest, TheScanFolderByMistake) {
     put_bins("velodyne", 2);
     data.put("poses.txt", kitti_rows(2));
