@@ -1,4 +1,4 @@
-foreach(unit advice check config_file edits label_store map_files output_folder progress protocols report stage_clock)
+foreach(unit advice config_file edits label_store map_files output_folder progress protocols report stage_clock)
   df_test(apps/${unit} dynamic_filter_app)
 endforeach()
 foreach(unit http_request http_server live_feed page run_view thinned_cloud)

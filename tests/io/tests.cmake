@@ -1,4 +1,4 @@
-foreach(unit bag/bag bag/bag_writers bag/decompress bag/mcap bag/rosbag1 bag/rosbag1_writer bag/rosbag2 bag_scans
+foreach(unit bag/bag bag/chunked_file bag/mcap_writer bag/rosbag2_writer bag/bag_writers bag/decompress bag/mcap bag/rosbag1 bag/rosbag1_writer bag/rosbag2 bag_scans
              benchmark byte_writer cloud cloud_writers field_types file folders frame las layout layouts/apollo
              layouts/argoverse layouts/below layouts/bin_points layouts/drive layouts/glim layouts/kitti_360
              layouts/kitti_raw layouts/matrix layouts/mulran layouts/numbers layouts/nuscenes layouts/pairs
@@ -21,4 +21,5 @@ add_test(NAME io/read_back
                  $<TARGET_FILE:io_read_back_samples>)
 set_tests_properties(io/read_back PROPERTIES SKIP_RETURN_CODE 77)
 
+df_test(io/preflight/preflight dynamic_filter_app)  # on copies of a simulated recording
 df_test(io/motion/recorded_motion dynamic_filter_io dynamic_filter_sim)  # its scans are simulated

@@ -10,12 +10,8 @@ APP = "apps/dynamicfilter"
 COMMAND = "tests/apps/command_test.cpp"  # runs the command as a user does
 OTHERS = {
     "src/io/bag_contents.cpp": "tests/io/bag_scans_test.cpp",
-    "src/io/bag/chunked_file.cpp": "tests/io/bag/bag_test.cpp",
-    "src/io/bag/mcap_writer.cpp": "tests/io/bag/bag_writers_test.cpp",
-    "src/io/bag/rosbag2_writer.cpp": "tests/io/bag/bag_writers_test.cpp",
     "src/io/las_header.cpp": "tests/io/las_test.cpp",
     "src/io/las_writer.cpp": "tests/io/las_test.cpp",
-    "src/io/preflight/preflight.cpp": "tests/apps/check_test.cpp",
     "src/sim/jam_people.cpp": "tests/sim/scene_jam_test.cpp",
     "src/sim/jam_traffic.cpp": "tests/sim/scene_jam_test.cpp",
     "src/sim/platform_people.cpp": "tests/sim/scene_platform_test.cpp",
@@ -30,7 +26,7 @@ OTHERS = {
     f"{APP}/view/shown.cpp": "tests/viewer/report_checks.mjs",
     f"{APP}/view/viewer_page.cpp": "tests/apps/view/page_test.cpp",
     **{f"{APP}/{unit}.cpp": COMMAND for unit in (
-        "compare", "convert", "demo", "evaluate", "frames", "info", "main", "motion", "render", "run", "run_reports",
+        "check", "compare", "convert", "demo", "evaluate", "frames", "info", "main", "motion", "render", "run", "run_reports",
         "run_sequence", "serve", "simulate", "sinks", "draw/animation", "draw/canvas", "draw/cleaning",
         "draw/picture")},
 }

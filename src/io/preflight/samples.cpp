@@ -96,6 +96,12 @@ std::optional<double> began_of(const Cloud& cloud) {
     return began;
 }
 
+/// The points without motion compensation, after which they are seen from several places and
+/// naturally lie behind each other.
+Points as_measured(const Sequence& sequence, const Frame& frame) {
+    return sequence.points_in_world ? frame.points : positions(frame.cloud);
+}
+
 float typical_range(const Points& points) {
     std::vector<float> ranges;
     for (const Point& p : points) {
@@ -107,11 +113,14 @@ float typical_range(const Points& points) {
     return *middle;
 }
 
-Sample sample_of(const Frame& frame) {
+Sample sample_of(const Sequence& sequence, const Frame& frame) {
     const Point said = frame.T_world_sensor.translation().cast<float>();
-    return {upright(frame.points),          frame.T_world_sensor,
-            share_of_doubles(frame.points), count_near(frame.points, Point::Zero()),
-            count_near(frame.points, said), typical_range(frame.points),
+    return {upright(frame.points),
+            frame.T_world_sensor,
+            share_of_doubles(as_measured(sequence, frame)),
+            count_near(frame.points, Point::Zero()),
+            count_near(frame.points, said),
+            typical_range(frame.points),
             began_of(frame.cloud)};
 }
 
@@ -139,7 +148,7 @@ Samples read_samples(const Sequence& sequence, const std::vector<Pair>& pairs,
             const Frame frame = read_frame(sequence, i);
             if (fields.empty()) fields = frame.cloud.fields;
             if (frame.cloud.fields != fields) unusable[i] = kOtherFields;
-            samples.emplace(i, sample_of(frame));
+            samples.emplace(i, sample_of(sequence, frame));
         } catch (const InputError& error) {
             unusable[i] = error.what();
         }

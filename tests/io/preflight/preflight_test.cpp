@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
-// check on copies of a simulated recording, each with a mistake that users make.
-#include <gtest/gtest.h>
+// Copies of a simulated recording, each with a mistake that users make.
+#include "dynamic_filter/io/preflight.hpp"
 
-#include <cstring>
 #include <functional>
 
-#include "dynamic_filter/io/preflight.hpp"
-#include "dynamic_filter/io/writers.hpp"
-#include "support/temporary_folder.hpp"
+#include "io/recording.hpp"
+#include "support/random.hpp"
 #include "write_simulation.hpp"
 
 namespace dynamic_filter::io {
@@ -16,25 +14,25 @@ namespace {
 class Check : public testing::Test {
 protected:
     static void SetUpTestSuite() {
-        folder = std::make_unique<test::TemporaryFolder>();
+        folder = std::make_unique<TemporaryFolder>();
         sim::SimulationOptions options;
         options.scene = "square";
         options.sensor = "vlp16";
         options.frames = 60;
-        app::write_simulation(options, folder->path());
+        app::write_simulation(options, folder->path(), true);
     }
     static void TearDownTestSuite() { folder.reset(); }
 
     static Preflight after(const std::function<void(Sequence&)>& mistake,
-                           const OpenOptions& options = {}) {
-        Sequence sequence = open_sequence(folder->path(), options);
+                           Depth depth = Depth::thorough) {
+        Sequence sequence = open_sequence(folder->path());
         mistake(sequence);
-        return check_recording(sequence, Depth::thorough);
+        return check_recording(sequence, depth);
     }
     /// The recording with other points.
-    static std::unique_ptr<test::TemporaryFolder> write_copy(
+    static std::unique_ptr<TemporaryFolder> write_copy(
         const std::function<Points(const Frame&)>& points_of) {
-        auto copy = std::make_unique<test::TemporaryFolder>();
+        auto copy = std::make_unique<TemporaryFolder>();
         const Sequence sequence = open_sequence(folder->path());
         std::filesystem::create_directories(copy->path() / "velodyne");
         for (std::size_t i = 0; i < sequence.size(); ++i) {
@@ -48,9 +46,9 @@ protected:
     static void change_poses(Sequence& sequence, const std::function<Pose(const Pose&)>& change) {
         for (Pose& pose : sequence.T_world_sensor) pose = change(pose);
     }
-    static std::unique_ptr<test::TemporaryFolder> folder;
+    static std::unique_ptr<TemporaryFolder> folder;
 };
-std::unique_ptr<test::TemporaryFolder> Check::folder;
+std::unique_ptr<TemporaryFolder> Check::folder;
 
 void expect_only(const Preflight& result, const std::string& what, const std::string& advice) {
     ASSERT_EQ(result.findings.size(), 1U) << what;
@@ -63,6 +61,21 @@ TEST_F(Check, FindsNothingInTheOriginal) {
     EXPECT_TRUE(result.findings.empty()) << result.findings[0].what;
     EXPECT_EQ(result.overlays.front().reading, "as given");
     EXPECT_GT(result.overlays.front().share, 0.4);
+}
+
+TEST_F(Check, ReadsScansAtSeveralPlaces) {
+    EXPECT_EQ(after([](Sequence&) {}).scans, 36U);
+    const Preflight quick = after([](Sequence&) {}, Depth::quick);
+    EXPECT_EQ(quick.scans, 12U);
+    EXPECT_TRUE(quick.findings.empty());
+    EXPECT_GT(quick.overlays.front().share, 0.4);
+    const Preflight without = after([](Sequence& sequence) {
+        sequence.has_poses = false;
+        sequence.T_world_sensor.clear();
+    });
+    EXPECT_TRUE(without.overlays.empty());
+    EXPECT_TRUE(without.findings.empty());
+    EXPECT_EQ(without.scans, 36U);
 }
 
 TEST_F(Check, NamesTheReadingOfThePosesThatFits) {
@@ -104,6 +117,46 @@ TEST_F(Check, NamesPosesThatDoNotMoveAndThoseOfAnotherWay) {
                 "do not fit", "--poses");
 }
 
+TEST_F(Check, EqualPosesOfASensorThatStandsStillAreRight) {
+    const auto still = write_copy([first = read_frame(open_sequence(folder->path()), 0)](
+                                      const Frame&) { return first.points; });
+    Sequence sequence = open_sequence(still->path());
+    change_poses(sequence, [](const Pose&) { return Pose(Pose::Identity()); });
+    const Preflight result = check_recording(sequence, Depth::thorough);
+    EXPECT_TRUE(result.findings.empty()) << result.findings[0].what;
+    EXPECT_EQ(result.overlays.front().share, 1.0);
+}
+
+TEST_F(Check, QuicklyFindsWhatIsWrongAsAWholeOnly) {
+    const auto jitter = [](Sequence& sequence) {
+        test::Random random(1);
+        change_poses(sequence, [&](const Pose& pose) { return pose * random.pose(0.1, 0.01); });
+    };
+    expect_only(after(jitter), "jitter", "`run` refines such poses");
+    EXPECT_TRUE(after(jitter, Depth::quick).findings.empty());
+    const auto inverse = [](Sequence& sequence) {
+        change_poses(sequence, [](const Pose& pose) { return pose.inverse(); });
+    };
+    expect_only(after(inverse, Depth::quick), "inverse (T_sensor_world)", "--pose-fix inverse");
+}
+
+TEST_F(Check, NamesMotionThatIsStillInTheScans) {
+    const TemporaryFolder swept;
+    sim::SimulationOptions options;
+    options.scene = "street";
+    options.sensor = "vlp16";
+    options.rate_hz = 5.0;
+    options.frames = 45;
+    options.sweep = true;
+    app::write_simulation(options, swept.path(), true);
+    Sequence sequence = open_sequence(swept.path());
+    expect_only(check_recording(sequence, Depth::thorough), "motion during each scan",
+                "--deskew on");
+    prepare_deskew(sequence);
+    const Preflight undone = check_recording(sequence, Depth::thorough);
+    EXPECT_TRUE(undone.findings.empty()) << undone.findings[0].what;
+}
+
 TEST_F(Check, NamesPointsInTheWorldAndMergedSensors) {
     const auto in_world = write_copy([](const Frame& frame) {
         Points points = frame.points;
@@ -120,6 +173,17 @@ TEST_F(Check, NamesPointsInTheWorldAndMergedSensors) {
         expect_only(check_recording(open_sequence(folder->path(), as_they_are), depth),
                     "in the sensor's frame", "leave out --points-in-world");
     }
+
+    const TemporaryFolder benchmark;  // whose files have points in the world's frame
+    const Sequence original = open_sequence(folder->path());
+    std::filesystem::create_directories(benchmark / "pcd");
+    for (std::size_t i = 0; i < original.size(); ++i) {
+        Cloud cloud = read_frame(original, i).cloud;
+        cloud.viewpoint = original.T_world_sensor[i];
+        write_pcd(benchmark / ("pcd/" + stem(original, i) + ".pcd"), cloud);
+    }
+    expect_only(check_recording(open_sequence(benchmark.path()), Depth::quick),
+                "but this format has them in the world's", "--format folder");
 
     const auto merged = write_copy([](const Frame& frame) {
         Points points = frame.points;
@@ -158,12 +222,12 @@ TEST_F(Check, NamesPosesOfAnotherRecordingWhateverTheirReading) {
 
 TEST_F(Check, ASensorThatHangsUpsideDownOnAStraightPathIsNoticed) {
     // The readings of the quaternion overlay alike there.
-    const test::TemporaryFolder straight;
+    const TemporaryFolder straight;
     sim::SimulationOptions options;
     options.scene = "crowd";
     options.sensor = "vlp16";
     options.frames = 30;
-    app::write_simulation(options, straight.path());
+    app::write_simulation(options, straight.path(), true);
     Sequence sequence = open_sequence(straight.path());
     EXPECT_TRUE(check_recording(sequence, Depth::thorough).findings.empty());
     change_poses(sequence, [](const Pose& pose) { return fixed(PoseFix::xyzw, pose); });
@@ -197,10 +261,69 @@ TEST_F(Check, NamesStampsOfPosesThatAreNotThoseOfTheScans) {
     expect_only(with(1e9, 1e-3, 0.0), "the scans' stamps are in ms", "--time-unit ms");
 }
 
+/// A recording of five scans without structures, of which only the stamps matter.
+class Stamps : public Recording {
+protected:
+    void SetUp() override {
+        put_bins("velodyne", 5);
+        data.put("poses.txt", kitti_rows(5));
+    }
+    [[nodiscard]] Preflight with(double step, double first = 1e9, double pose_shift = 0.0,
+                                 bool measured = true) const {
+        Sequence sequence = open();
+        sequence.measured_stamps = measured;
+        for (std::size_t i = 0; i < 5; ++i) {
+            sequence.stamps[i] = first + step * static_cast<double>(i);
+            if (pose_shift == 0.0) continue;
+            sequence.pose_stamps.push_back(sequence.stamps[i] + pose_shift);
+        }
+        return check_recording(sequence, Depth::quick);
+    }
+};
+
+TEST_F(Stamps, OfUsualScansAreFine) {
+    for (const double step : {0.002, 0.1, 1.0, 19.9}) {
+        EXPECT_TRUE(with(step, 0.0).findings.empty()) << step;
+    }
+    EXPECT_TRUE(with(1e6, 0.0, 0.0, false).findings.empty()) << "assumed stamps";
+    EXPECT_TRUE(with(0.125, 1e9, 0.18).findings.empty()) << "within one and a half scans";
+    EXPECT_TRUE(with(0.125, 1e9, -0.18).findings.empty());
+}
+
+TEST_F(Stamps, InOtherUnitsAreNamedWithTheUnit) {
+    for (const auto& [step, unit] :
+         {std::pair{20.0, "ms"}, {9900.0, "ms"}, {15000.0, "us"}, {9.9e6, "us"}, {1e8, "ns"}}) {
+        expect_only(with(step, 0.0), "not in seconds", "--time-unit " + std::string(unit));
+    }
+    expect_only(with(100.0, 0.0), "scans are 100 apart, which is 0.1 s if the unit is ms", "ms");
+}
+
+TEST_F(Stamps, OfNoUnitAreNamed) {
+    expect_only(with(0.0, 0.0), "scans are 0 s apart", "should be in seconds");
+    expect_only(with(-0.5, 10.0), "scans are -0.5 s apart", "should be in seconds");
+    expect_only(with(0.0009765625, 0.0), "scans are 0.000977 s apart", "should be in seconds");
+    expect_only(with(1e12, 0.0), "scans are 1e+12 s apart", "should be in seconds");
+}
+
+TEST_F(Stamps, OfPosesThatAreNotThoseOfTheScansAreNamed) {
+    expect_only(with(0.125, 1e9, 0.25), "0.25 s after those of the scans, which are 0.125 s apart",
+                "--poses");
+    expect_only(with(0.125, 1e9, -0.1875), "0.188 s before those of the scans", "--poses");
+}
+
+TEST_F(Stamps, OfTwoScansSayNothing) {
+    Sequence sequence = open();
+    sequence.scan_files.resize(2);
+    sequence.T_world_sensor.resize(2);
+    sequence.stamps = {0.0, 1e6};
+    sequence.measured_stamps = true;
+    EXPECT_TRUE(check_recording(sequence, Depth::quick).findings.empty());
+}
+
 /// Scans with absolute times, one every 0.1 s, under the names that `name_of` gives them.
-std::unique_ptr<test::TemporaryFolder> write_timed(
-    const std::function<std::string(std::size_t)>& name_of, double beginning) {
-    auto folder = std::make_unique<test::TemporaryFolder>();
+std::unique_ptr<TemporaryFolder> write_timed(const std::function<std::string(std::size_t)>& name_of,
+                                             double beginning) {
+    auto folder = std::make_unique<TemporaryFolder>();
     std::filesystem::create_directories(folder->path() / "scans");
     for (std::size_t i = 0; i < 12; ++i) {
         Cloud cloud;
@@ -225,7 +348,7 @@ TEST_F(Check, NamesScansWhoseNamesAreInNoOrderOfTime) {
     const auto turned_round = [](std::size_t i) {
         return "scan" + std::to_string(i < 6 ? i + 6 : i - 6);
     };
-    const auto findings = [](const test::TemporaryFolder& recording) {
+    const auto findings = [](const TemporaryFolder& recording) {
         return check_recording(open_sequence(recording.path()), Depth::quick);
     };
     EXPECT_TRUE(findings(*write_timed(in_order, 1.5e9)).findings.empty());
