@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "live/bus.hpp"
+
+namespace dynamic_filter::live {
+
+/// ROS 1, by roscpp: messages as bytes of any type. Survives a master that goes and comes back:
+/// topics are then registered anew. Values below the node's private parameters are parameters of
+/// the configuration; the names that `watched` lists are followed while the node runs.
+class Ros1Bus final : public Bus {
+public:
+    /// Waits until there is a master, but not longer than `wait` [s]; throws Error then.
+    /// `remappings`: as on roscpp's command line (names, "__name", "__ns", "__master"...).
+    Ros1Bus(const std::map<std::string, std::string>& remappings, std::vector<std::string> watched,
+            double wait);
+    ~Ros1Bus() override;
+
+    void advertise(const io::Topic& topic, const Quality& quality) override;
+    [[nodiscard]] bool is_wanted(const std::string& topic) const override;
+    bool publish(const std::string& topic, double stamp, const Bytes& message) override;
+
+    [[nodiscard]] io::MessageEncoding encoding() const override {
+        return io::MessageEncoding::ros1;
+    }
+    [[nodiscard]] std::string description() const override;
+    [[nodiscard]] std::vector<SeenTopic> seen() const override;
+    void subscribe(const io::Topic& topic, const Quality& quality, Receive receive) override;
+    [[nodiscard]] std::uint64_t lost() const override;
+    std::vector<std::string> take_notices() override;
+    std::vector<std::pair<std::string, std::string>> take_parameters() override;
+
+private:
+    struct Engine;
+    std::unique_ptr<Engine> engine_;
+};
+
+}  // namespace dynamic_filter::live
