@@ -11,6 +11,7 @@
 #include "dynamic_filter/io/bag.hpp"
 #include "dynamic_filter/io/poses.hpp"
 #include "io/ros/frame_tree.hpp"
+#include "io/ros/pose_source.hpp"
 
 namespace dynamic_filter::io {
 
@@ -23,10 +24,6 @@ struct CloudTopic {
     Topic topic;
     std::string frame;  // frame of its first message
     std::vector<FoundScan> scans;
-};
-struct PoseTopic {
-    std::string parent, child;
-    Trajectory trajectory;
 };
 
 /// The contents of a bag, and what could not be read.

@@ -14,6 +14,7 @@
 #include "io/rigid.hpp"
 #include "io/ros/messages.hpp"
 #include "io/ros/packets.hpp"
+#include "io/ros/pose_source.hpp"
 
 namespace dynamic_filter::io {
 namespace {
@@ -94,54 +95,6 @@ std::vector<FoundScan> in_order(CloudTopic topic, std::vector<std::string>& note
     std::stable_sort(topic.scans.begin(), topic.scans.end(),
                      [](const FoundScan& a, const FoundScan& b) { return a.stamp < b.stamp; });
     return std::move(topic.scans);
-}
-
-/// Poses of the sensor over time, and the times at which they were published.
-struct PoseSource {
-    std::function<std::optional<Pose>(double stamp)> T_world_sensor;
-    std::vector<double> stamps;
-    bool points_in_world = false;
-    std::string note;
-};
-
-PoseSource from_frames(const FrameTree& frames, const std::string& sensor) {
-    const std::string root = frames.above(sensor).back();
-    return {[&frames, sensor, root](double stamp) { return frames.pose(sensor, root, stamp); },
-            frames.stamps_above(sensor), false,
-            fmt::format("poses from /tf: frame '{}' in '{}'", sensor, root)};
-}
-
-PoseSource from_topic(const std::string& name, const PoseTopic& topic, const FrameTree& frames,
-                      const std::string& sensor) {
-    const Trajectory& trajectory = topic.trajectory;
-    const auto body_pose = [&trajectory](double stamp) {
-        return pose_at(trajectory, stamp, 1.0, 0.2);
-    };
-    if (sensor == topic.parent) {
-        return {body_pose, trajectory.stamps, true,
-                fmt::format("poses from {}; its frame '{}' is also the frame of the points, so the "
-                            "points are transformed into the sensor frame",
-                            name, sensor)};
-    }
-    const bool linked = !topic.child.empty() && sensor != topic.child &&
-                        frames.above(topic.child).back() == frames.above(sensor).back();
-    if (linked) {
-        return {[=, &frames, child = topic.child](double stamp) -> std::optional<Pose> {
-                    const auto T_world_body = body_pose(stamp);
-                    const auto T_body_sensor = frames.pose(sensor, child, stamp);
-                    if (!T_world_body || !T_body_sensor) return std::nullopt;
-                    return *T_world_body * *T_body_sensor;
-                },
-                trajectory.stamps, false,
-                fmt::format("poses from {}, from its frame '{}' to '{}' by /tf", name, topic.child,
-                            sensor)};
-    }
-    const bool same = topic.child.empty() || sensor == topic.child;
-    return {body_pose, trajectory.stamps, false,
-            same ? fmt::format("poses from {}", name)
-                 : fmt::format("poses from {}; no transform links its frame '{}' to the frame '{}' "
-                               "of the scans, so both are assumed to be the same",
-                               name, topic.child, sensor)};
 }
 
 /// Chooses the source of the poses. If there are none, returns nothing, and a note says why.

@@ -56,9 +56,13 @@ const Field* time_field(const Cloud& cloud) {
 }
 
 void put_in_order(Trajectory& trajectory) {
-    std::vector<std::size_t> order(trajectory.stamps.size());
-    std::iota(order.begin(), order.end(), 0U);
     const auto& stamps = trajectory.stamps;
+    const auto not_before = [](double a, double b) { return a >= b; };
+    const bool in_order =
+        std::adjacent_find(stamps.begin(), stamps.end(), not_before) == stamps.end();
+    if (in_order) return;
+    std::vector<std::size_t> order(stamps.size());
+    std::iota(order.begin(), order.end(), 0U);
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return stamps[a] < stamps[b]; });
     Trajectory sorted;

@@ -12,3 +12,7 @@ add_test(NAME apps/kill COMMAND ${CMAKE_CURRENT_LIST_DIR}/kill_test.sh $<TARGET_
 add_test(NAME apps/interrupt COMMAND ${CMAKE_CURRENT_LIST_DIR}/interrupt_test.sh $<TARGET_FILE:dynamicfilter>)
 add_test(NAME apps/completion COMMAND ${CMAKE_CURRENT_LIST_DIR}/completion_test.sh $<TARGET_FILE:dynamicfilter>
   ${PROJECT_SOURCE_DIR}/packaging/dynamicfilter.bash)
+
+foreach(unit dds_bus)
+  df_test(apps/live/${unit} dynamic_filter_live)
+endforeach()

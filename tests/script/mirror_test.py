@@ -10,6 +10,7 @@ APP = "apps/dynamicfilter"
 COMMAND = "tests/apps/command_test.cpp"  # runs the command as a user does
 OTHERS = {
     "src/io/bag_contents.cpp": "tests/io/bag_scans_test.cpp",
+    "src/io/ros/pose_source.cpp": "tests/io/bag_scans_test.cpp",
     "src/io/las_header.cpp": "tests/io/las_test.cpp",
     "src/io/las_writer.cpp": "tests/io/las_test.cpp",
     "src/sim/jam_people.cpp": "tests/sim/scene_jam_test.cpp",
@@ -21,6 +22,7 @@ OTHERS = {
     f"{APP}/edits/edits.cpp": "tests/apps/edits_test.cpp",
     f"{APP}/edits/map_gaps.cpp": "tests/apps/edits_test.cpp",
     f"{APP}/edits/run_edits.cpp": "tests/apps/edits_test.cpp",
+    f"{APP}/live/dds_type.cpp": "tests/apps/live/dds_bus_test.cpp",
     f"{APP}/view/edit_server.cpp": "tests/viewer/edit_checks.mjs",
     f"{APP}/view/live_view.cpp": "tests/viewer/live_checks.mjs",
     f"{APP}/view/shown.cpp": "tests/viewer/report_checks.mjs",

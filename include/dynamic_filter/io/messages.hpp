@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "dynamic_filter/io/bag.hpp"
@@ -43,5 +44,32 @@ std::vector<std::byte> odometry_message(const std::string& parent, const std::st
 /// geometry_msgs/PoseStamped: a pose in `frame`, at `stamp` [s].
 std::vector<std::byte> pose_message(const std::string& frame, const Pose& pose, double stamp,
                                     MessageEncoding encoding);
+
+/// nav_msgs/Path: poses in `frame`, each with its stamp [s]; the arrays are parallel. The message
+/// has the stamp of the last pose.
+std::vector<std::byte> path_message(const std::string& frame, const std::vector<double>& stamps,
+                                    const std::vector<Pose>& poses, MessageEncoding encoding);
+
+/// A box for display, with edges along the axes of its frame.
+struct BoxMarker {
+    Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< [m]
+    Eigen::Vector3d size = Eigen::Vector3d::Ones();    ///< [m]
+};
+
+/// visualization_msgs/MarkerArray at `stamp` [s]: removes all earlier markers, then adds a red,
+/// half-transparent box for each entry. ROS 2: as of Humble.
+std::vector<std::byte> boxes_message(const std::vector<BoxMarker>& boxes, double stamp,
+                                     const std::string& frame, MessageEncoding encoding);
+
+/// A row of diagnostic_msgs/DiagnosticStatus.
+struct DiagnosticStatus {
+    std::uint8_t level = 0;  ///< 0: good, 1: warning, 2: error, 3: no data comes
+    std::string name, message, hardware;
+    std::vector<std::pair<std::string, std::string>> values;
+};
+
+/// diagnostic_msgs/DiagnosticArray at `stamp` [s].
+std::vector<std::byte> diagnostics_message(const std::vector<DiagnosticStatus>& statuses,
+                                           double stamp, MessageEncoding encoding);
 
 }  // namespace dynamic_filter::io

@@ -21,6 +21,19 @@ void FrameTree::put_in_order() {
     for (auto& [child, link] : links_) io::put_in_order(link.T_parent_child);
 }
 
+void FrameTree::forget_before(double stamp) {
+    constexpr std::ptrdiff_t kLeast = 2;
+    for (auto& [child, link] : links_) {
+        auto& [stamps, poses] = link.T_parent_child;
+        const auto old = std::lower_bound(stamps.begin(), stamps.end(), stamp) - stamps.begin();
+        const auto most = static_cast<std::ptrdiff_t>(stamps.size()) - kLeast;
+        const auto gone = std::min(old, most);
+        if (gone <= 0) continue;
+        stamps.erase(stamps.begin(), stamps.begin() + gone);
+        poses.erase(poses.begin(), poses.begin() + gone);
+    }
+}
+
 std::vector<std::string> FrameTree::above(const std::string& frame) const {
     std::vector<std::string> chain{frame};
     for (auto it = links_.find(frame); it != links_.end(); it = links_.find(it->second.parent)) {
@@ -54,6 +67,17 @@ std::optional<Pose> FrameTree::pose(const std::string& of, const std::string& in
 }
 
 bool FrameTree::moves(const std::string& frame) const { return !stamps_above(frame).empty(); }
+
+std::optional<double> FrameTree::newest(const std::string& frame) const {
+    std::optional<double> newest;
+    for (const std::string& child : above(frame)) {
+        const auto link = links_.find(child);
+        if (link == links_.end() || link->second.is_static) continue;
+        const double last = link->second.T_parent_child.stamps.back();
+        newest = newest ? std::min(*newest, last) : last;
+    }
+    return newest;
+}
 
 std::vector<double> FrameTree::stamps_above(const std::string& frame) const {
     std::vector<double> most;

@@ -14,9 +14,13 @@ namespace dynamic_filter::io {
 
 class FrameTree {
 public:
-    /// Adds a link. A frame keeps its first parent.
+    /// Adds a link, or its pose at another time. A frame keeps its first parent; of poses with
+    /// equal stamps, the first one is kept.
     void add(const StampedPose& transform, bool is_static);
-    void put_in_order();  ///< call it after all links are added, before the functions below
+    void put_in_order();  ///< call it after links are added, before the functions below
+    /// Forgets the poses of moving links that are older than `stamp` [s], except the two newest.
+    void forget_before(double stamp);
+    void clear() { links_.clear(); }
 
     /// `frame` and its ancestors; the root is last.
     [[nodiscard]] std::vector<std::string> above(const std::string& frame) const;
@@ -25,6 +29,9 @@ public:
                                            double stamp) const;
     /// True if a link between `frame` and its root changes over time.
     [[nodiscard]] bool moves(const std::string& frame) const;
+    /// The newest time at which all moving links between `frame` and its root are known; empty if
+    /// none of them moves.
+    [[nodiscard]] std::optional<double> newest(const std::string& frame) const;
     /// Stamps of the link above a frame that was published most often.
     [[nodiscard]] std::vector<double> stamps_above(const std::string& frame) const;
 

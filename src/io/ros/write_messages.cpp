@@ -158,4 +158,84 @@ std::vector<std::byte> pose_message(const std::string& frame, const Pose& pose, 
     return out.take();
 }
 
+std::vector<std::byte> path_message(const std::string& frame, const std::vector<double>& stamps,
+                                    const std::vector<Pose>& poses, MessageEncoding encoding) {
+    MessageWriter out(encoding);
+    put_header(out, stamps.empty() ? 0.0 : stamps.back(), frame);
+    out.number(static_cast<std::uint32_t>(poses.size()));
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        put_header(out, stamps[i], frame);
+        put_pose(out, poses[i]);
+    }
+    return out.take();
+}
+
+namespace {
+
+/// One visualization_msgs/Marker: a red box, or the order to delete all markers.
+void put_marker(MessageWriter& out, const std::optional<BoxMarker>& box, std::int32_t id,
+                double stamp, const std::string& frame) {
+    constexpr std::int32_t kCube = 1, kAdd = 0, kDeleteAll = 3;
+    const BoxMarker shown = box.value_or(BoxMarker{});
+    put_header(out, stamp, frame);
+    out.text("removed");
+    out.number(id);
+    out.number(kCube);
+    out.number(box ? kAdd : kDeleteAll);
+    put_pose(out, Pose(Eigen::Translation3d(shown.center)));
+    for (const double value : shown.size) out.number(value);
+    for (const float value : {0.9F, 0.1F, 0.1F, 0.5F}) out.number(value);  // red, half transparent
+    out.number(std::int32_t{1});                                           // lifetime: 1 s
+    out.number(std::uint32_t{0});
+    out.number(std::uint8_t{0});   // not locked to its frame
+    out.number(std::uint32_t{0});  // no points
+    out.number(std::uint32_t{0});  // no colors
+    if (out.is_cdr()) {            // texture_resource, texture, uv_coordinates
+        out.text("");
+        put_header(out, 0.0, "");
+        out.text("");
+        out.number(std::uint32_t{0});
+        out.number(std::uint32_t{0});
+    }
+    out.text("");  // text
+    out.text("");  // mesh_resource
+    if (out.is_cdr()) {
+        out.text("");  // mesh_file
+        out.number(std::uint32_t{0});
+    }
+    out.number(std::uint8_t{0});  // mesh_use_embedded_materials
+}
+
+}  // namespace
+
+std::vector<std::byte> boxes_message(const std::vector<BoxMarker>& boxes, double stamp,
+                                     const std::string& frame, MessageEncoding encoding) {
+    MessageWriter out(encoding);
+    out.number(static_cast<std::uint32_t>(boxes.size() + 1));
+    put_marker(out, std::nullopt, 0, stamp, frame);
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        put_marker(out, boxes[i], static_cast<std::int32_t>(i + 1), stamp, frame);
+    }
+    return out.take();
+}
+
+std::vector<std::byte> diagnostics_message(const std::vector<DiagnosticStatus>& statuses,
+                                           double stamp, MessageEncoding encoding) {
+    MessageWriter out(encoding);
+    put_header(out, stamp, "");
+    out.number(static_cast<std::uint32_t>(statuses.size()));
+    for (const DiagnosticStatus& status : statuses) {
+        out.number(status.level);
+        out.text(status.name);
+        out.text(status.message);
+        out.text(status.hardware);
+        out.number(static_cast<std::uint32_t>(status.values.size()));
+        for (const auto& [key, value] : status.values) {
+            out.text(key);
+            out.text(value);
+        }
+    }
+    return out.take();
+}
+
 }  // namespace dynamic_filter::io

@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: MIT
+#include "dds_bus.hpp"
+
+#include <dds/dds.h>
+#include <fmt/format.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <cstring>
+#include <map>
+#include <mutex>
+#include <thread>
+
+#include "dds_type.hpp"
+#include "dynamic_filter/error.hpp"
+
+namespace dynamic_filter::live {
+
+namespace {
+
+constexpr int kMostDomain = 232;  // beyond it, port numbers end
+
+struct DeleteQos {
+    void operator()(dds_qos_t* qos) const { dds_delete_qos(qos); }
+};
+using Qos = std::unique_ptr<dds_qos_t, DeleteQos>;
+
+Qos qos_of(const Quality& quality) {
+    Qos qos(dds_create_qos());
+    const auto depth = static_cast<std::int32_t>(std::max<std::size_t>(quality.depth, 1));
+    dds_qset_reliability(
+        qos.get(), quality.reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT, 0);
+    dds_qset_durability(qos.get(),
+                        quality.latched ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
+    dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, depth);
+    if (quality.latched) {
+        dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, depth, -1, -1, -1);
+    }
+    dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
+    return qos;
+}
+
+/// The least that a publisher offers; what it does not say is DDS's default.
+Quality quality_of(const dds_qos_t* qos) {
+    Quality quality{.reliable = true, .latched = false, .depth = 1};
+    dds_reliability_kind_t reliability{};
+    dds_duration_t ignored{};
+    if (dds_qget_reliability(qos, &reliability, &ignored)) {
+        quality.reliable = reliability == DDS_RELIABILITY_RELIABLE;
+    }
+    dds_durability_kind_t durability{};
+    if (dds_qget_durability(qos, &durability)) {
+        quality.latched = durability >= DDS_DURABILITY_TRANSIENT_LOCAL;
+    }
+    return quality;
+}
+
+bool is_name_of_interface(const std::string& name) {
+    return !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
+        return std::isalnum(c) != 0 || c == '-' || c == '_' || c == '.' || c == ':';
+    });
+}
+
+void require(dds_return_t code, const std::string& what) {
+    if (code < 0) throw Error(fmt::format("{}: {}", what, dds_strretcode(-code)));
+}
+
+}  // namespace
+
+std::string dds_topic_name(const std::string& topic) {
+    return "rt" + (topic.starts_with('/') ? topic : "/" + topic);
+}
+
+std::string dds_type_name(const std::string& type) {
+    const std::size_t slash = type.find('/');
+    return type.substr(0, slash) + "::msg::dds_::" + type.substr(slash + 1) + "_";
+}
+
+std::string topic_of_dds(const std::string& name) {
+    return name.starts_with("rt/") ? name.substr(2) : "";
+}
+
+std::string type_of_dds(const std::string& name) {
+    constexpr std::string_view kMiddle = "::msg::dds_::";
+    const std::size_t at = name.find(kMiddle);
+    if (at == std::string::npos || !name.ends_with('_')) return "";
+    const std::size_t type = at + kMiddle.size();
+    return name.substr(0, at) + "/" + name.substr(type, name.size() - 1 - type);
+}
+
+std::string dds_configuration(const std::string& network) {
+    std::string interface, discovery;
+    if (network == "localhost") {
+        // Large fragments, because nothing limits packets here; participants find each other at
+        // the addresses that ROS 2 uses when it is limited to this machine.
+        interface =
+            "<Interfaces><NetworkInterface name=\"lo\" multicast=\"false\"/></Interfaces>"
+            "<AllowMulticast>false</AllowMulticast><MaxMessageSize>65500B</MaxMessageSize>"
+            "<FragmentSize>60000B</FragmentSize>";
+        discovery =
+            "<Discovery><ParticipantIndex>auto</ParticipantIndex>"
+            "<MaxAutoParticipantIndex>32</MaxAutoParticipantIndex>"
+            "<Peers><Peer address=\"127.0.0.1\"/></Peers></Discovery>";
+    } else if (network == "all") {
+        interface = "<Interfaces><NetworkInterface autodetermine=\"true\"/></Interfaces>";
+    } else if (is_name_of_interface(network)) {
+        interface =
+            fmt::format("<Interfaces><NetworkInterface name=\"{}\"/></Interfaces>", network);
+    } else {
+        throw ConfigError(fmt::format(
+            "bus.network is '{}'; expected localhost, all, or the name of an interface", network));
+    }
+    // Publishers never wait: each topic keeps so few messages that this mark is not reached.
+    return fmt::format(
+        "<CycloneDDS><Domain id=\"any\"><General>{}</General>{}<Internal>"
+        "<SocketReceiveBufferSize max=\"10MB\"/><Watermarks><WhcHigh>1GB</WhcHigh></Watermarks>"
+        "</Internal></Domain></CycloneDDS>",
+        interface, discovery);
+}
+
+struct DdsBus::Engine {
+    struct Reader {
+        io::Topic topic;
+        dds_entity_t entity = 0;
+        Receive receive;
+    };
+    DdsOptions options;
+    dds_entity_t domain = 0, participant = 0, publications = 0, waitset = 0, stop = 0;
+    dds_guid_t own{};
+    mutable std::mutex lock;                     // guards the members below
+    std::map<std::string, dds_entity_t> topics;  // keys: name and type on the wire
+    std::map<std::string, dds_entity_t> writers;
+    std::map<std::string, std::shared_ptr<Reader>> readers;
+    std::uint64_t lost_before = 0;  // by readers that were replaced
+    std::thread thread;
+
+    dds_entity_t topic_for(const io::Topic& topic) {
+        const std::string name = dds_topic_name(topic.name), type = dds_type_name(topic.type);
+        dds_entity_t& entity = topics[name + " " + type];
+        if (entity <= 0) {
+            entity = create_topic_of_bytes(participant, name, type);
+            require(entity, "topic " + topic.name);
+        }
+        return entity;
+    }
+
+    static std::uint64_t lost_by(dds_entity_t reader) {
+        dds_sample_lost_status_t status{};
+        return dds_get_sample_lost_status(reader, &status) == 0 ? status.total_count : 0;
+    }
+
+    std::shared_ptr<Reader> reader_of(dds_entity_t entity) const {
+        const std::lock_guard hold(lock);
+        for (const auto& [name, reader] : readers) {
+            if (reader->entity == entity) return reader;
+        }
+        return nullptr;
+    }
+
+    void run() {
+        constexpr std::size_t kMost = 64;
+        std::array<dds_attach_t, kMost> ready{};
+        while (true) {
+            const auto count = dds_waitset_wait(waitset, ready.data(), kMost, DDS_SECS(1));
+            bool stopped = false;
+            dds_read_guardcondition(stop, &stopped);
+            if (stopped) return;
+            for (int i = 0; i < std::min<int>(count, kMost); ++i) {
+                const auto reader =
+                    reader_of(static_cast<dds_entity_t>(ready[static_cast<std::size_t>(i)]));
+                // One message of each topic at a time, so that no topic holds up the others.
+                if (!reader) continue;
+                if (const auto message = take_bytes(reader->entity)) {
+                    reader->receive(reader->topic, *message);
+                }
+            }
+        }
+    }
+};
+
+DdsBus::DdsBus(const DdsOptions& options) : engine_(std::make_unique<Engine>()) {
+    Engine& e = *engine_;
+    e.options = options;
+    if (options.domain < 0 || options.domain > kMostDomain) {
+        throw ConfigError(
+            fmt::format("bus.domain is {}; expected 0 to {}", options.domain, kMostDomain));
+    }
+    const char* const uri = std::getenv("CYCLONEDDS_URI");
+    const bool by_user = options.network.empty() && uri != nullptr && *uri != '\0';
+    const auto id = static_cast<dds_domainid_t>(options.domain);
+    if (!by_user) {
+        if (e.options.network.empty()) e.options.network = "localhost";
+        e.domain = dds_create_domain(id, dds_configuration(e.options.network).c_str());
+        // Another bus of this process has made it.
+        if (e.domain == DDS_RETCODE_PRECONDITION_NOT_MET) e.domain = 0;
+        require(e.domain, fmt::format("cannot join DDS domain {} on network '{}'", options.domain,
+                                      e.options.network));
+    }
+    e.participant = dds_create_participant(id, nullptr, nullptr);
+    require(e.participant, fmt::format("cannot join DDS domain {}", options.domain));
+    dds_get_guid(e.participant, &e.own);
+    e.publications =
+        dds_create_reader(e.participant, DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr);
+    require(e.publications, "cannot look for publishers");
+    e.waitset = dds_create_waitset(e.participant);
+    e.stop = dds_create_guardcondition(e.participant);
+    require(dds_waitset_attach(e.waitset, e.stop, e.stop), "cannot wait for messages");
+    e.thread = std::thread([&e] { e.run(); });
+}
+
+DdsBus::~DdsBus() {
+    dds_set_guardcondition(engine_->stop, true);
+    engine_->thread.join();
+    dds_delete(engine_->participant);
+    if (engine_->domain > 0) dds_delete(engine_->domain);
+}
+
+std::string DdsBus::description() const {
+    const std::string& network = engine_->options.network;
+    return fmt::format("ROS 2, DDS domain {}, {}", engine_->options.domain,
+                       network.empty()          ? "network as CYCLONEDDS_URI says"
+                       : network == "localhost" ? "this machine only"
+                       : network == "all"       ? "all networks"
+                                                : "network " + network);
+}
+
+void DdsBus::advertise(const io::Topic& topic, const Quality& quality) {
+    const std::lock_guard hold(engine_->lock);
+    const dds_entity_t writer = dds_create_writer(engine_->participant, engine_->topic_for(topic),
+                                                  qos_of(quality).get(), nullptr);
+    require(writer, "cannot publish " + topic.name);
+    const auto [it, fresh] = engine_->writers.emplace(topic.name, writer);
+    if (!fresh) dds_delete(std::exchange(it->second, writer));
+}
+
+bool DdsBus::is_wanted(const std::string& topic) const {
+    const std::lock_guard hold(engine_->lock);
+    const auto writer = engine_->writers.find(topic);
+    dds_publication_matched_status_t status{};
+    return writer != engine_->writers.end() &&
+           dds_get_publication_matched_status(writer->second, &status) == 0 &&
+           status.current_count > 0;
+}
+
+bool DdsBus::publish(const std::string& topic, double, const Bytes& message) {
+    dds_entity_t writer = 0;
+    {
+        const std::lock_guard hold(engine_->lock);
+        const auto found = engine_->writers.find(topic);
+        if (found == engine_->writers.end()) return false;
+        writer = found->second;
+    }
+    return write_bytes(writer, message) == 0;
+}
+
+std::vector<SeenTopic> DdsBus::seen() const {
+    std::map<std::pair<std::string, std::string>, SeenTopic> topics;
+    constexpr std::size_t kMost = 1024;  // publishers
+    std::vector<void*> samples(kMost, nullptr);
+    std::vector<dds_sample_info_t> infos(kMost);
+    const auto count =
+        dds_read_mask(engine_->publications, samples.data(), infos.data(), kMost, kMost,
+                      DDS_ANY_SAMPLE_STATE | DDS_ANY_VIEW_STATE | DDS_ALIVE_INSTANCE_STATE);
+    for (std::size_t i = 0; count > 0 && i < static_cast<std::size_t>(count); ++i) {
+        const auto& found = *static_cast<const dds_builtintopic_endpoint_t*>(samples[i]);
+        const bool is_own =
+            std::memcmp(&found.participant_key, &engine_->own, sizeof engine_->own) == 0;
+        if (!infos[i].valid_data || is_own) continue;
+        const std::string name = topic_of_dds(found.topic_name),
+                          type = type_of_dds(found.type_name);
+        if (name.empty() || type.empty()) continue;
+        const Quality offered = quality_of(found.qos);
+        SeenTopic& topic =
+            topics.try_emplace({name, type}, SeenTopic{name, type, 0, offered}).first->second;
+        ++topic.publishers;
+        topic.offered.reliable = topic.offered.reliable && offered.reliable;
+        topic.offered.latched = topic.offered.latched && offered.latched;
+    }
+    if (count > 0) dds_return_loan(engine_->publications, samples.data(), count);
+    std::vector<SeenTopic> list;
+    for (auto& [key, topic] : topics) list.push_back(std::move(topic));
+    return list;
+}
+
+void DdsBus::subscribe(const io::Topic& topic, const Quality& quality, Receive receive) {
+    Engine& e = *engine_;
+    const std::lock_guard hold(e.lock);
+    auto reader = std::make_shared<Engine::Reader>();
+    reader->topic = topic;
+    reader->receive = std::move(receive);
+    reader->entity =
+        dds_create_reader(e.participant, e.topic_for(topic), qos_of(quality).get(), nullptr);
+    require(reader->entity, "cannot subscribe to " + topic.name);
+    dds_set_status_mask(reader->entity, DDS_DATA_AVAILABLE_STATUS);
+    const auto old = e.readers.find(topic.name);
+    if (old != e.readers.end()) {
+        e.lost_before += Engine::lost_by(old->second->entity);
+        dds_waitset_detach(e.waitset, old->second->entity);
+        dds_delete(old->second->entity);
+    }
+    e.readers[topic.name] = reader;
+    const dds_entity_t condition = dds_create_readcondition(reader->entity, DDS_ANY_STATE);
+    require(dds_waitset_attach(e.waitset, condition, reader->entity), "cannot wait for messages");
+}
+
+std::uint64_t DdsBus::lost() const {
+    const std::lock_guard hold(engine_->lock);
+    std::uint64_t lost = engine_->lost_before;
+    for (const auto& [name, reader] : engine_->readers) lost += Engine::lost_by(reader->entity);
+    return lost;
+}
+
+}  // namespace dynamic_filter::live
