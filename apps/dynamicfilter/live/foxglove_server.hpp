@@ -38,6 +38,8 @@ public:
     [[nodiscard]] std::uint16_t port() const;
     [[nodiscard]] std::string url() const;  ///< such as "ws://127.0.0.1:8765"
     [[nodiscard]] std::size_t clients() const;
+    /// Problems since the last call that the user should know of: web pages that were refused.
+    std::vector<std::string> take_notices();
 
 private:
     struct Engine;
