@@ -110,20 +110,18 @@ bool is_allowed_origin(std::string_view origin, const std::vector<std::string>& 
            std::any_of(more.begin(), more.end(), is_it);
 }
 
-std::string refusal(int status, std::string_view why) {
-    return fmt::format(
+Handshake refused(int status, std::string_view why) {
+    std::string response = fmt::format(
         "HTTP/1.1 {} {}\r\nContent-Type: text/plain; charset=utf-8\r\nContent-Length: {}\r\n"
         "{}Connection: close\r\nX-Content-Type-Options: nosniff\r\n\r\n{}\n",
         status, reason_of(status), why.size() + 1,
         status == 426 ? "Upgrade: websocket\r\nSec-WebSocket-Version: 13\r\n" : "", why);
+    return {.request = {}, .refusal = std::move(response), .origin = {}};
 }
 
 Handshake judge_handshake(std::string_view head, const std::vector<std::string>& origins) {
     std::string_view line = take(head, "\r\n");
     const bool is_get = take(line, " ") == "GET" && take(line, " ").starts_with('/');
-    const auto refused = [](int status, std::string_view why) {
-        return Handshake{.request = {}, .refusal = refusal(status, why), .origin = {}};
-    };
     if (!is_get || line != "HTTP/1.1") return refused(400, "expected GET / HTTP/1.1");
     Headers headers = headers_of(head);
     const std::string& origin = headers["origin"];

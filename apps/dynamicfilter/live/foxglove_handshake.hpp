@@ -32,7 +32,7 @@ bool is_allowed_origin(std::string_view origin, const std::vector<std::string>& 
 /// Judges a request: request line and headers, with the empty line at the end. Any bytes are taken.
 Handshake judge_handshake(std::string_view head, const std::vector<std::string>& origins);
 
-/// A response that refuses a request, with a reason for the user.
-std::string refusal(int status, std::string_view why);
+/// Refuses a request with a status of HTTP and a reason for the user.
+Handshake refused(int status, std::string_view why);
 
 }  // namespace dynamic_filter::live

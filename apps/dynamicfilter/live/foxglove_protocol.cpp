@@ -35,7 +35,7 @@ std::optional<std::uint32_t> id_of(const json& value) {
     return static_cast<std::uint32_t>(id);
 }
 
-/// A member of an object; null if there is none.
+/// A member of an object; null if there is none, or if it is no object.
 const json& member(const json& object, const char* name) {
     static const json kNone;
     const auto found = object.find(name);
@@ -108,7 +108,7 @@ std::string message_head(std::uint32_t subscription, std::int64_t nanoseconds) {
 
 FoxgloveRequest parse_request(std::string_view text) {
     const json message = json::parse(text, nullptr, false);
-    const json& op = message.is_object() ? member(message, "op") : message;
+    const json& op = member(message, "op");
     if (!op.is_string()) return wrong("a JSON object with op");
     const auto& name = op.get_ref<const std::string&>();
     if (name == "subscribe") return subscribe_of(message);

@@ -246,11 +246,10 @@ bool FoxgloveServer::Engine::read_handshake(lws* wsi) {
     client.head.append(bytes.data(), static_cast<std::size_t>(count));
     const std::size_t end = client.head.find("\r\n\r\n");
     if (end == std::string::npos && client.head.size() <= kLongestHandshake) return true;
-    if (end == std::string::npos) {
-        send_refusal(client.socket, refusal(431, "the request is too long"));
-        return false;
-    }
-    const Handshake result = judge(client.head);
+    const Handshake result = end == std::string::npos ? refused(431, "the request is too long")
+                             : end + 4 < client.head.size()
+                                 ? refused(400, "expected nothing more before the answer")
+                                 : judge(client.head);
     if (result.request.empty()) {
         send_refusal(client.socket, result.refusal);
         return false;
@@ -271,7 +270,7 @@ Handshake FoxgloveServer::Engine::judge(const std::string& head) {
                         result.origin));
     }
     if (!result.request.empty() && clients.size() + accepted.size() >= options.clients) {
-        result = {.request = {}, .refusal = refusal(503, "too many clients"), .origin = {}};
+        return refused(503, "too many clients");
     }
     return result;
 }
