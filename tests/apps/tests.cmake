@@ -13,6 +13,6 @@ add_test(NAME apps/interrupt COMMAND ${CMAKE_CURRENT_LIST_DIR}/interrupt_test.sh
 add_test(NAME apps/completion COMMAND ${CMAKE_CURRENT_LIST_DIR}/completion_test.sh $<TARGET_FILE:dynamicfilter>
   ${PROJECT_SOURCE_DIR}/packaging/dynamicfilter.bash)
 
-foreach(unit dds_bus)
+foreach(unit dds_bus foxglove_handshake foxglove_protocol foxglove_queue foxglove_server)
   df_test(apps/live/${unit} dynamic_filter_live)
 endforeach()

@@ -9,51 +9,10 @@ const { Bag } = require("@foxglove/rosbag");
 const { FileReader } = require("@foxglove/rosbag/node");
 const { parse, md5 } = require("@foxglove/rosmsg");
 const { MessageReader } = require("@foxglove/rosmsg2-serialization");
-const fnv1a = require("./fnv1a.cjs");
-
-/// x, y, z and intensity of each point.
-function pointValues(cloud) {
-  const view = new DataView(cloud.data.buffer, cloud.data.byteOffset, cloud.data.byteLength);
-  const values = [];
-  for (let row = 0; row < cloud.height; ++row) {
-    for (let i = 0; i < cloud.width; ++i) {
-      for (const name of ["x", "y", "z", "intensity"]) {
-        const field = cloud.fields.find((f) => f.name === name);
-        const at = row * cloud.row_step + i * cloud.point_step + field.offset;
-        values.push(field.datatype === 8 ? view.getFloat64(at, true) : view.getFloat32(at, true));
-      }
-    }
-  }
-  return values;
-}
-
-const poseValues = (at, turn) => [at.x, at.y, at.z, turn.x, turn.y, turn.z, turn.w];
-
-function valuesOf(type, message) {
-  switch (type) {
-    case "sensor_msgs/PointCloud2":
-      return pointValues(message);
-    case "nav_msgs/Odometry":
-      return poseValues(message.pose.pose.position, message.pose.pose.orientation);
-    case "geometry_msgs/PoseStamped":
-      return poseValues(message.pose.position, message.pose.orientation);
-    case "tf2_msgs/TFMessage": {
-      const { translation, rotation } = message.transforms[0].transform;
-      return poseValues(translation, rotation);
-    }
-    default:
-      throw new Error(`unexpected type ${type}`);
-  }
-}
-
-const nanoseconds = (t) => BigInt(t.sec) * 1000000000n + BigInt(t.nsec ?? t.nanosec);
+const { describe, nanoseconds } = require("./message_values.cjs");
 
 function print(topic, type, recorded, message) {
-  const header = (message.transforms?.[0] ?? message).header;
-  const values = valuesOf(type, message);
-  const frame = header.frame_id;
-  const stamp = nanoseconds(header.stamp);
-  console.log(`${topic} ${type} ${recorded} ${stamp} ${frame} ${values.length} ${fnv1a(values)}`);
+  console.log(describe(topic, type, recorded, message));
 }
 
 /// Both ways through the file: by its index, and from front to back with all checksums.

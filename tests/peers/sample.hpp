@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// What write_bags and write_clouds have in common: random points, and how values are printed.
+/// What the programs here have in common: random points, and how values are printed.
 #pragma once
 
 #include <cstring>
@@ -43,6 +43,29 @@ inline void fill(Cloud& cloud, std::size_t points, test::Random& random) {
             if (field.type == FieldType::u8) std::memcpy(to, &sign, sizeof sign);
         }
     }
+}
+
+inline Cloud random_cloud(std::size_t points, FieldType type, test::Random& random) {
+    Cloud cloud = sample_fields(type);
+    fill(cloud, points, random);
+    return cloud;
+}
+
+inline std::vector<double> point_values(const Cloud& cloud) {
+    std::vector<double> all;
+    for (const char* name : {"x", "y", "z", "intensity"}) {
+        const std::vector<double> column = values(cloud, *cloud.find(name));
+        all.resize(4 * column.size());
+        const auto first = static_cast<std::size_t>(name[0] == 'i' ? 3 : name[0] - 'x');
+        for (std::size_t i = 0; i < column.size(); ++i) all[4 * i + first] = column[i];
+    }
+    return all;
+}
+
+inline std::vector<double> pose_values(const Pose& pose) {
+    const Eigen::Quaterniond turn(pose.linear());
+    const Eigen::Vector3d at = pose.translation();
+    return {at.x(), at.y(), at.z(), turn.x(), turn.y(), turn.z(), turn.w()};
 }
 
 }  // namespace dynamic_filter::io

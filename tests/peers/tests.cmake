@@ -29,3 +29,13 @@ endforeach()
 foreach(kind npy bin)
   df_peer(numpy/${kind} write_clouds ${kind} ${DF_PYTHON} read_cloud.py)
 endforeach()
+
+add_executable(serve_foxglove ${CMAKE_CURRENT_LIST_DIR}/serve_foxglove.cpp)
+target_include_directories(serve_foxglove PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+target_link_libraries(serve_foxglove PRIVATE dynamic_filter_live dynamic_filter_flags fmt::fmt)
+add_dependencies(tests_without_simulator serve_foxglove)
+foreach(encoding ros1 cdr)
+  add_test(NAME peers/foxglove/${encoding}
+           COMMAND ${CMAKE_CURRENT_LIST_DIR}/foxglove.sh $<TARGET_FILE:serve_foxglove> ${encoding})
+  set_tests_properties(peers/foxglove/${encoding} PROPERTIES SKIP_RETURN_CODE 77)
+endforeach()

@@ -12,29 +12,6 @@
 namespace dynamic_filter::io {
 namespace {
 
-Cloud random_cloud(std::size_t points, FieldType type, test::Random& random) {
-    Cloud cloud = sample_fields(type);
-    fill(cloud, points, random);
-    return cloud;
-}
-
-std::vector<double> point_values(const Cloud& cloud) {
-    std::vector<double> all;
-    for (const char* name : {"x", "y", "z", "intensity"}) {
-        const std::vector<double> column = values(cloud, *cloud.find(name));
-        all.resize(4 * column.size());
-        const auto first = static_cast<std::size_t>(name[0] == 'i' ? 3 : name[0] - 'x');
-        for (std::size_t i = 0; i < column.size(); ++i) all[4 * i + first] = column[i];
-    }
-    return all;
-}
-
-std::vector<double> pose_values(const Pose& pose) {
-    const Eigen::Quaterniond turn(pose.linear());
-    const Eigen::Vector3d at = pose.translation();
-    return {at.x(), at.y(), at.z(), turn.x(), turn.y(), turn.z(), turn.w()};
-}
-
 void write(const std::filesystem::path& path) {
     const auto writer = BagWriter::create(path);
     const MessageEncoding encoding = writer->encoding();
