@@ -21,6 +21,10 @@
 #include "raw_message.hpp"
 #include "ros_node.hpp"
 
+namespace ros::master {
+void init(const M_string& remappings);  // in the library, but in none of its headers
+}
+
 namespace dynamic_filter::live {
 
 namespace {
@@ -108,10 +112,15 @@ struct Ros1Bus::Engine {
         queue.disable();
         if (watching.joinable()) watching.join();
         if (receiving.joinable()) receiving.join();
+        if (!ros::isStarted()) return;
+        if (!RosClient(master).call("getPid", {itself.name})) {
+            // roscpp would wait without an end for a master that hangs; nobody listens here.
+            ros::master::init({{"__master", "http://127.0.0.1:1"}});
+        }
         subscriptions.clear();
         publishers.clear();
         node.reset();
-        if (ros::isStarted()) ros::shutdown();
+        ros::shutdown();
     }
 
     void join_ros(const std::map<std::string, std::string>& remappings) {

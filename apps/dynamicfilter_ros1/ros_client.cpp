@@ -6,6 +6,8 @@
 #include <xmlrpcpp/XmlRpcClient.h>
 #include <xmlrpcpp/XmlRpcException.h>
 
+#include <chrono>
+
 #include "dynamic_filter/error.hpp"
 
 namespace dynamic_filter::live {
@@ -22,6 +24,7 @@ class RosClient::Connection final : XmlRpc::XmlRpcClient {
 public:
     using XmlRpcClient::XmlRpcClient;
 
+    /// False if there is no answer, or a fault.
     bool call(const char* method, const XmlRpcValue& arguments, XmlRpcValue& result) {
         if (!executeNonBlock(method, arguments)) return false;
         _disp.work(kLongestCall);
@@ -56,13 +59,15 @@ std::optional<XmlRpcValue> RosClient::call_any(const std::string& method,
     if (!was_open) {
         connection_ = std::make_unique<Connection>(host_.c_str(), static_cast<int>(port_), "/");
     }
+    const auto start = std::chrono::steady_clock::now();
     try {
         if (connection_->call(method.c_str(), list, answer)) return answer;
     } catch (const XmlRpc::XmlRpcException&) {  // the answer is no XML-RPC
     }
     connection_.reset();
     // The other side may have closed the connection since the last call, or be a new process.
-    return was_open ? call_any(method, arguments) : std::nullopt;
+    const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - start;
+    return was_open && waited.count() < kLongestCall ? call_any(method, arguments) : std::nullopt;
 }
 
 std::vector<XmlRpcValue> list_of(const XmlRpcValue& value) {

@@ -94,18 +94,19 @@ std::vector<SeenTopic> topics_of_others(RosClient& master, const RosNode& node,
 
 bool register_anew(RosClient& master, const RosNode& node) {
     RosClient itself(node.uri);
-    bool is_complete = true;
     for (const auto& [topic, type] : pairs_of(itself.call("getPublications", {node.name}))) {
-        is_complete &=
-            is_done(master.call("registerPublisher", {node.name, topic, type, node.uri}));
+        if (!is_done(master.call("registerPublisher", {node.name, topic, type, node.uri}))) {
+            return false;
+        }
     }
     for (const auto& [topic, type] : pairs_of(itself.call("getSubscriptions", {node.name}))) {
         const auto reply = master.call("registerSubscriber", {node.name, topic, type, node.uri});
-        is_complete &= is_done(reply);
-        if (!is_done(reply) || list_of(reply->value).empty()) continue;
+        if (!is_done(reply)) return false;
+        // An empty list would end the connections to publishers that are not registered yet.
+        if (list_of(reply->value).empty()) continue;
         itself.call("publisherUpdate", {node.name, topic, reply->value});
     }
-    return is_complete;
+    return true;
 }
 
 std::map<int, std::uint64_t> dropped_messages(RosClient& itself, const RosNode& node) {

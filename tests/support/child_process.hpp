@@ -38,6 +38,8 @@ public:
         waitpid(pid_, nullptr, 0);
     }
 
+    void send(int signal) const { kill(pid_, signal); }
+
 private:
     pid_t pid_ = -1;
 };

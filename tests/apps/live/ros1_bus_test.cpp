@@ -174,7 +174,10 @@ struct Ros1 : testing::Test {
         bus->advertise(cloud_topic("/filter/cloud"), {.latched = true});
     }
     static void TearDownTestSuite() {
+        master->send(SIGSTOP);
+        alarm(60);  // ends the test if the bus waits for a master that hangs
         bus.reset();
+        alarm(0);
         peer.reset();
         master.reset();
         folder.reset();
@@ -275,7 +278,7 @@ TEST_F(Ros1, ReceivesWhatRosbagPlays) {
     Inbox inbox;
     bus->subscribe({"/tf", "tf2_msgs/TFMessage", io::MessageEncoding::ros1}, {.depth = 10},
                    inbox.receive());
-    const ChildProcess player({"/usr/lib/rosbag/play", "--quiet", "--delay=1", file}, log());
+    const ChildProcess player({"/usr/lib/rosbag/play", "--quiet", "--wait-for-subscribers", file}, log());
     EXPECT_TRUE(eventually([&] { return inbox.size() == written.size(); }))
         << inbox.size() << slurp(log());
     const auto received = inbox.all();
@@ -351,7 +354,7 @@ TEST_F(Ros1, TrafficIsBackAfterTheMasterWasAway) {
     EXPECT_TRUE(bus->publish("/filter/cloud", 0.0, cloud_with_labels()));
     peer.reset();  // to be sure that nothing comes by old connections
     ASSERT_TRUE(start_master());
-    ASSERT_TRUE(eventually([] { return notices_contain("is back"); }, 5.0));
+    ASSERT_TRUE(eventually([] { return notices_contain("is back"); }));
     peer = start_peer("another");
     EXPECT_TRUE(eventually([&] { return inbox.size() > 0; })) << "subscribed meanwhile";
     EXPECT_TRUE(eventually([&] {
