@@ -6,6 +6,7 @@
 #include <ros/network.h>
 #include <ros/ros.h>
 #include <ros/xmlrpc_manager.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -271,11 +272,16 @@ void Ros1Bus::advertise(const io::Topic& topic, const Quality& quality) {
 }
 
 bool Ros1Bus::is_wanted(const std::string& topic) const {
-    const std::lock_guard hold(engine_->lock);
-    const auto publisher = engine_->publishers.find(topic);
-    if (publisher == engine_->publishers.end()) return false;
-    const std::uint32_t own = engine_->subscriptions.contains(topic) ? 1 : 0;
-    return publisher->second.getNumSubscribers() > own;
+    ros::Publisher publisher;
+    std::uint32_t own = 0;
+    {
+        const std::lock_guard hold(engine_->lock);
+        const auto found = engine_->publishers.find(topic);
+        if (found == engine_->publishers.end()) return false;
+        publisher = found->second;
+        own = engine_->subscriptions.contains(topic) ? 1 : 0;
+    }
+    return publisher.getNumSubscribers() > own;
 }
 
 bool Ros1Bus::publish(const std::string& topic, double, const Bytes& message) {

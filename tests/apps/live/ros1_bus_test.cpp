@@ -8,9 +8,9 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <csignal>
-#include <cstring>
 #include <mutex>
 #include <random>
 #include <thread>
@@ -278,7 +278,8 @@ TEST_F(Ros1, ReceivesWhatRosbagPlays) {
     Inbox inbox;
     bus->subscribe({"/tf", "tf2_msgs/TFMessage", io::MessageEncoding::ros1}, {.depth = 10},
                    inbox.receive());
-    const ChildProcess player({"/usr/lib/rosbag/play", "--quiet", "--wait-for-subscribers", file}, log());
+    const ChildProcess player({"/usr/lib/rosbag/play", "--quiet", "--wait-for-subscribers", file},
+                              log());
     EXPECT_TRUE(eventually([&] { return inbox.size() == written.size(); }))
         << inbox.size() << slurp(log());
     const auto received = inbox.all();
