@@ -1,6 +1,6 @@
 # What is installed: the command (component `command`); the libraries, their headers and
 # DynamicFilterConfig.cmake (`dev`); shared libraries (`library`), if BUILD_SHARED_LIBS is set; the
-# Python package (`python`).
+# Python package (`python`); the ROS 1 node (`ros`).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(DF_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/DynamicFilter)
@@ -46,6 +46,17 @@ install(FILES ${PROJECT_BINARY_DIR}/DynamicFilterConfig.cmake ${PROJECT_BINARY_D
 
 install(TARGETS dynamicfilter RUNTIME COMPONENT command)
 
+# Where roslaunch looks for what belongs to a package of ROS.
+if(TARGET dynamicfilter_ros1)
+  set(ros ${CMAKE_INSTALL_DATADIR}/dynamicfilter_ros)
+  configure_file(packaging/ros1/package.xml.in ${PROJECT_BINARY_DIR}/packaging/package.xml @ONLY)
+  file(CREATE_LINK ../../bin/dynamicfilter_ros1 ${PROJECT_BINARY_DIR}/packaging/dynamicfilter_ros1 SYMBOLIC)
+  install(TARGETS dynamicfilter_ros1 RUNTIME COMPONENT ros)
+  install(FILES ${PROJECT_BINARY_DIR}/packaging/package.xml ${PROJECT_BINARY_DIR}/packaging/dynamicfilter_ros1
+          DESTINATION ${ros} COMPONENT ros)
+  install(FILES packaging/ros1/dynamicfilter.launch DESTINATION ${ros}/launch COMPONENT ros)
+endif()
+
 set(DF_PYTHON_DIR lib/python3/dist-packages)  # the folder below /usr in which Debian's Python looks
 if(DF_BUILD_PYTHON)
   install(TARGETS _dynamicfilter LIBRARY DESTINATION ${DF_PYTHON_DIR}/dynamicfilter COMPONENT python)
@@ -57,6 +68,9 @@ endif()
 if(BUILD_SHARED_LIBS)
   set_target_properties(${DF_LIBRARIES} PROPERTIES INSTALL_RPATH $ORIGIN)
   set_target_properties(dynamicfilter PROPERTIES INSTALL_RPATH $ORIGIN/../${CMAKE_INSTALL_LIBDIR})
+  if(TARGET dynamicfilter_ros1)
+    set_target_properties(dynamicfilter_ros1 PROPERTIES INSTALL_RPATH $ORIGIN/../${CMAKE_INSTALL_LIBDIR})
+  endif()
   if(DF_BUILD_PYTHON)
     set_target_properties(_dynamicfilter PROPERTIES INSTALL_RPATH $ORIGIN/../../../../${CMAKE_INSTALL_LIBDIR})
   endif()

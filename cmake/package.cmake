@@ -1,13 +1,17 @@
 # Debian packages, and a tarball that runs from any folder; script/package builds them.
 set(DF_DEBIAN ${PROJECT_SOURCE_DIR}/packaging/debian)
 set(DF_PREPARED ${PROJECT_BINARY_DIR}/packaging)
-foreach(plain ${DF_DEBIAN}/changelog ${PROJECT_SOURCE_DIR}/packaging/dynamicfilter.1 ${PROJECT_SOURCE_DIR}/CHANGELOG.md)
+foreach(plain ${DF_DEBIAN}/changelog ${PROJECT_SOURCE_DIR}/packaging/dynamicfilter.1
+        ${PROJECT_SOURCE_DIR}/packaging/dynamicfilter_ros1.1 ${PROJECT_SOURCE_DIR}/CHANGELOG.md)
   cmake_path(GET plain FILENAME name)
   file(MAKE_DIRECTORY ${DF_PREPARED})
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${plain})
   execute_process(COMMAND gzip -9nc ${plain} OUTPUT_FILE ${DF_PREPARED}/${name}.gz COMMAND_ERROR_IS_FATAL ANY)
 endforeach()
 install(FILES ${DF_PREPARED}/dynamicfilter.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT command)
+if(TARGET dynamicfilter_ros1)
+  install(FILES ${DF_PREPARED}/dynamicfilter_ros1.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT ros)
+endif()
 install(FILES packaging/dynamicfilter.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
         RENAME dynamicfilter COMPONENT command)
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libdynamicfilter-dev COMPONENT dev)
@@ -22,6 +26,11 @@ set(CPACK_COMPONENTS_ALL library dev command python)
 set(DF_LIBRARY_PACKAGE libdynamicfilter${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 set(packages ${DF_LIBRARY_PACKAGE} libdynamicfilter-dev dynamicfilter python3-dynamicfilter)
 set(sections libs libdevel science python)
+if(TARGET dynamicfilter_ros1)
+  list(APPEND CPACK_COMPONENTS_ALL ros)
+  list(APPEND packages dynamicfilter-ros)
+  list(APPEND sections science)
+endif()
 foreach(component package section IN ZIP_LISTS CPACK_COMPONENTS_ALL packages sections)
   set(doc ${CMAKE_INSTALL_DATADIR}/doc/${package})
   install(FILES ${DF_DEBIAN}/copyright DESTINATION ${doc} COMPONENT ${component})
@@ -55,6 +64,7 @@ set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS ON)
 set(CPACK_COMPONENT_DEV_DEPENDS library)
 set(CPACK_COMPONENT_COMMAND_DEPENDS library)
 set(CPACK_COMPONENT_PYTHON_DEPENDS library)
+set(CPACK_COMPONENT_ROS_DEPENDS library)
 
 foreach(library IN LISTS DF_LIBRARIES)
   get_target_property(soversion ${library} SOVERSION)
@@ -76,6 +86,11 @@ set(CPACK_COMPONENT_COMMAND_DESCRIPTION "remove moving objects from LiDAR scans 
 Labels every point of a recording as static, dynamic or unknown, from scans
 and poses alone, and writes the map without what moves. Reads ROS bags, KITTI
 and folders of clouds.")
+# roslaunch brings the master.
+set(CPACK_DEBIAN_ROS_PACKAGE_RECOMMENDS python3-roslaunch)
+set(CPACK_COMPONENT_ROS_DESCRIPTION "remove moving objects from LiDAR scans, node of ROS 1
+Filters the scans of a running sensor: subscribes to its clouds and poses,
+and publishes the clouds without what moves. With a launch file.")
 # The module works with one minor version of Python only.
 math(EXPR next_python "${Python3_VERSION_MINOR} + 1")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3-numpy, \

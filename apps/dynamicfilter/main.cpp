@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <malloc.h>
 
 #include <CLI/CLI.hpp>
 
@@ -12,6 +11,7 @@
 #include "commands.hpp"
 #include "dynamic_filter/edit_distance.hpp"
 #include "dynamic_filter/error.hpp"
+#include "freed_memory.hpp"
 #include "protocols.hpp"
 
 namespace {
@@ -392,16 +392,6 @@ std::string usage_error(const CLI::App* app, const CLI::Error& error) {
 int failed(ExitCode code, const std::exception& error) {
     fmt::print(stderr, "dynamicfilter: {}\n", error.what());
     return code;
-}
-
-/// The buffers of a scan come and go with every scan. What is freed stays with the process, and
-/// with all of its threads, or the kernel would have to clear new pages again and again.
-void keep_freed_memory() {
-#ifdef __GLIBC__
-    mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the most that is allowed
-    mallopt(M_TRIM_THRESHOLD, 256 << 20);
-    mallopt(M_ARENA_MAX, 2);
-#endif
 }
 
 }  // namespace

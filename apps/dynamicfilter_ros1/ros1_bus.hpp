@@ -13,10 +13,16 @@ namespace dynamic_filter::live {
 /// ROS 1, by roscpp: messages as bytes of any type. Survives a master that goes and comes back:
 /// topics are then registered anew. Values below the node's private parameters are parameters of
 /// the configuration; the names that `watched` lists are followed while the node runs.
+///
+/// A publisher whose type is not the one of its subscription is a notice, and its messages are
+/// dropped. When ROS ends the node (`rosnode kill`, or another node of its name), that is a notice,
+/// and SIGTERM for this process; the bus goes on until it is destroyed. A process can have one bus
+/// in its life, because roscpp cannot start twice.
 class Ros1Bus final : public Bus {
 public:
     /// Waits until there is a master, but not longer than `wait` [s]; throws Error then.
-    /// `remappings`: as on roscpp's command line (names, "__name", "__ns", "__master"...).
+    /// `remappings`: as on roscpp's command line (names, "__name", "__ns", "__master"...). Throws
+    /// ConfigError if one of them or ROS_MASTER_URI is wrong.
     Ros1Bus(const std::map<std::string, std::string>& remappings, std::vector<std::string> watched,
             double wait);
     ~Ros1Bus() override;

@@ -16,3 +16,7 @@ add_test(NAME apps/completion COMMAND ${CMAKE_CURRENT_LIST_DIR}/completion_test.
 foreach(unit dds_bus foxglove_handshake foxglove_protocol foxglove_queue foxglove_server)
   df_test(apps/live/${unit} dynamic_filter_live)
 endforeach()
+if(TARGET dynamic_filter_ros1)
+  df_test(apps/live/ros1_bus dynamic_filter_ros1)
+  target_compile_definitions(apps_live_ros1_bus_test PRIVATE ROS1_PEER="${CMAKE_CURRENT_LIST_DIR}/live/ros1_peer.py")
+endif()

@@ -14,8 +14,9 @@ library=$(echo "$packages"/libdynamicfilter"$soversion"_*.deb)
 dev=$(echo "$packages"/libdynamicfilter-dev_*.deb)
 command=$(echo "$packages"/dynamicfilter_*.deb)
 python=$(echo "$packages"/python3-dynamicfilter_*.deb)
+ros=$(echo "$packages"/dynamicfilter-ros_*.deb)
 if command -v lintian > /dev/null; then
-    lintian --allow-root --fail-on error "$library" "$dev" "$command" "$python"
+    lintian --allow-root --fail-on error "$library" "$dev" "$command" "$python" "$ros"
 else
     echo "lintian is missing: the packages are not checked by it"
 fi
@@ -57,6 +58,11 @@ holds "$command" bin/dynamicfilter share/man/man1/dynamicfilter.1.gz share/bash-
     share/doc/dynamicfilter/copyright share/doc/dynamicfilter/changelog.Debian.gz
 holds_none '/(include|lib)/'
 needs "$command" "$ours" 'libc6 .*' 'libfmt9 .*'
+if grep ros depends; then echo "$command depends on ROS"; exit 1; fi
+holds "$ros" bin/dynamicfilter_ros1 share/man/man1/dynamicfilter_ros1.1.gz share/dynamicfilter_ros/package.xml \
+    share/dynamicfilter_ros/dynamicfilter_ros1 share/dynamicfilter_ros/launch/dynamicfilter.launch
+holds_none '/(include|lib)/'
+needs "$ros" "$ours" 'libroscpp4d .*'
 modules=lib/python3/dist-packages
 holds "$python" $modules/dynamicfilter/__init__.py $modules/dynamicfilter/__init__.pyi $modules/dynamicfilter/py.typed \
     "$modules/dynamicfilter/_dynamicfilter\\..*\\.so" "$modules/dynamicfilter-$version.dist-info/METADATA"
@@ -64,14 +70,15 @@ holds_none '/(include|bin)/'
 needs "$python" "$ours" python3-numpy 'python3 \(>= 3\.[0-9]+\)' 'python3 \(<< 3\.[0-9]+\)'
 
 # Unpacked: all the packages in one root, and the tarball somewhere else. Each finds its own libraries.
-for package in "$library" "$dev" "$command" "$python"; do
+for package in "$library" "$dev" "$command" "$python" "$ros"; do
     dpkg-deb -x "$package" root
 done
 tar -xzf "$packages"/dynamicfilter-*.tar.gz -C anywhere --strip-components 1
 "$source/script/lib/code_of" python "$source/README.md" > lines.py
 for prefix in "$work/root/usr" "$work/anywhere"; do
     "$prefix/bin/dynamicfilter" --version | grep -qF "$version"
-    for program in "$prefix"/bin/dynamicfilter "$prefix/$modules"/dynamicfilter/_*.so; do
+    "$prefix/bin/dynamicfilter_ros1" --version | grep -qF "$version"
+    for program in "$prefix"/bin/dynamicfilter* "$prefix/$modules"/dynamicfilter/_*.so; do
         [ "$(ldd "$program" | grep -c "libdynamic_filter.* => $prefix")" -eq 4 ] ||
             { echo "$program finds not its own libraries"; exit 1; }
     done
