@@ -54,6 +54,7 @@ struct RunOptions {
     std::uint16_t port = 0;  ///< of the view; 0: any
     bool quiet = false;      ///< says only what is wrong
     bool catches = true;     ///< interrupts; otherwise the caller does
+    std::string after;       ///< stage of timing.json for what the process did before; may be empty
 };
 
 /// Which points are scored, by their distance from the sensor [m]. Both bounds are included.

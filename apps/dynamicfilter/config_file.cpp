@@ -34,16 +34,15 @@ void set_noting(Config& config, const Assigned& setting, const std::string& valu
     }
 }
 
-void apply_table(Config& config, const toml::table& table, const std::string& prefix,
-                 std::vector<Assigned>& assigned, std::vector<std::string>& errors) {
+void list_settings(const toml::table& table, const std::string& prefix,
+                   std::vector<FileSetting>& settings) {
     for (const auto& [key, node] : table) {
         const std::string name = prefix + std::string(key.str());
         if (const auto* section = node.as_table()) {
-            apply_table(config, *section, name + ".", assigned, errors);
-            continue;
+            list_settings(*section, name + ".", settings);
+        } else {
+            settings.push_back({name, text_of(node), node.source().begin.line});
         }
-        const std::string where = fmt::format("line {}", node.source().begin.line);
-        set_noting(config, {name, where}, text_of(node), assigned, errors);
     }
 }
 
@@ -58,16 +57,25 @@ std::string read_shallow(const std::filesystem::path& file) {
 
 }  // namespace
 
-std::vector<Assigned> apply_toml(Config& config, const std::filesystem::path& file) {
-    std::vector<std::string> errors;
-    std::vector<Assigned> assigned;
+std::vector<FileSetting> settings_of_toml(const std::filesystem::path& file) {
+    std::vector<FileSetting> settings;
     try {
-        apply_table(config, toml::parse(read_shallow(file)), "", assigned, errors);
+        list_settings(toml::parse(read_shallow(file)), "", settings);
     } catch (const toml::parse_error& error) {
         throw ConfigError(fmt::format("{} (line {}): not TOML: {}", file.string(),
                                       error.source().begin.line, error.description()));
     } catch (const InputError& error) {
         throw ConfigError(error.what());  // a missing configuration is a usage error
+    }
+    return settings;
+}
+
+std::vector<Assigned> apply_toml(Config& config, const std::filesystem::path& file) {
+    std::vector<std::string> errors;
+    std::vector<Assigned> assigned;
+    for (const FileSetting& setting : settings_of_toml(file)) {
+        set_noting(config, {setting.key, fmt::format("line {}", setting.line)}, setting.value,
+                   assigned, errors);
     }
     if (!errors.empty()) {
         throw ConfigError(fmt::format("{}: {}", file.string(), fmt::join(errors, "\n  ")));

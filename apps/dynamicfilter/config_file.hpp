@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -18,6 +19,15 @@ Config load_config(const ConfigOptions& options);
 struct Assigned {
     std::string key, where;
 };
+
+/// A value in a TOML file, as text.
+struct FileSetting {
+    std::string key, value;  ///< key with its section: "map.voxel_size"
+    std::uint32_t line = 0;
+};
+
+/// All values of a TOML file. Throws ConfigError if it cannot be read or is not TOML.
+std::vector<FileSetting> settings_of_toml(const std::filesystem::path& file);
 
 /// Applies a TOML file; returns what it sets. Errors name the file, the line and, for unknown keys,
 /// the nearest one.

@@ -12,6 +12,8 @@
 #include "dynamic_filter/edit_distance.hpp"
 #include "dynamic_filter/error.hpp"
 #include "freed_memory.hpp"
+#include "live/live_command.hpp"
+#include "live/live_options.hpp"
 #include "protocols.hpp"
 
 namespace {
@@ -135,6 +137,14 @@ void add_run(CLI::App& app, std::function<int()>& chosen) {
     c.add_flag("!--no-report", o->report, "do not write report.html")->excludes(view);
     c.add_flag("-q,--quiet", o->quiet, "print only warnings and errors");
     c.callback([o, &chosen] { chosen = [o] { return run(*o); }; });
+}
+
+void add_live(CLI::App& app, std::function<int()>& chosen) {
+    auto o = std::make_shared<live::LiveOptions>();
+    CLI::App& c = *app.add_subcommand(
+        "live", "Filter what a robot's LiDAR publishes by ROS 2, and publish the result");
+    live::add_live_options(c, *o);
+    c.callback([o, &chosen] { chosen = [o] { return live::live_on_dds(*o); }; });
 }
 
 void add_eval(CLI::App& app, std::function<int()>& chosen) {
@@ -405,6 +415,7 @@ int main(int argc, char** argv) {
     app.failure_message(usage_error);
     std::function<int()> chosen;
     add_run(app, chosen);
+    add_live(app, chosen);
     add_eval(app, chosen);
     add_simulate(app, chosen);
     add_convert(app, chosen);

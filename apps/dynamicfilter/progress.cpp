@@ -25,7 +25,7 @@ extern "C" void note_signal(int number) {
     clock_gettime(CLOCK_MONOTONIC, &now);
     if (signal_seen == 0) {
         first_signal = now;
-        signal_seen = 1;
+        signal_seen = number;
         return;
     }
     const double since = static_cast<double>(now.tv_sec - first_signal.tv_sec) +
@@ -84,5 +84,6 @@ void catch_interrupts(bool a_later_one_kills) {
 }
 
 bool interrupted() { return signal_seen != 0; }
+bool terminated() { return signal_seen == SIGTERM; }
 
 }  // namespace dynamic_filter::app

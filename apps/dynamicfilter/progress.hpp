@@ -30,5 +30,6 @@ private:
 /// a second later kills as usual, if that is wanted.
 void catch_interrupts(bool a_later_one_kills = true);
 bool interrupted();
+bool terminated();  ///< interrupted by SIGTERM: a supervisor wants the process to end at once
 
 }  // namespace dynamic_filter::app

@@ -76,6 +76,7 @@ void tell(const std::vector<std::string>& notes, bool quiet) {
 
 int run(const RunOptions& o) {
     StageClock clock;
+    if (!o.after.empty()) clock.finish(o.after);
     Config config = load_config(o.config);
     io::Sequence sequence = open(o.data);
     const bool named = o.output.has_value();

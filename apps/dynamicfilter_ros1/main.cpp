@@ -8,6 +8,7 @@
 #include "commands.hpp"
 #include "dynamic_filter/error.hpp"
 #include "freed_memory.hpp"
+#include "live/live_config.hpp"
 #include "live/live_options.hpp"
 #include "ros1_bus.hpp"
 
@@ -17,9 +18,6 @@ using namespace dynamic_filter;
 using namespace dynamic_filter::app;
 
 constexpr double kLongestStart = 10.0;  // [s] that a master may need, which roslaunch starts, too
-
-/// What `rosparam set` changes while the node runs.
-const std::vector<std::string> kFollowed{"map.rate"};
 
 struct Arguments {
     std::vector<std::string> own;                   ///< in reverse, as CLI11 takes them
@@ -63,13 +61,13 @@ int main(int argc, char** argv) {
     app.footer(
         "Arguments of ROS such as points:=/velodyne_points and __name:=filter may be added. "
         "Private\n"
-        "parameters of the node are settings, too: ~map/rate is map.rate.");
+        "parameters of the node are settings, too: ~output/map_rate is output.map_rate.");
     live::LiveOptions options;
     live::add_live_options(app, options);
     try {
         Arguments arguments = split(argc, argv);
         app.parse(std::move(arguments.own));
-        live::Ros1Bus bus(arguments.remappings, kFollowed, kLongestStart);
+        live::Ros1Bus bus(arguments.remappings, live::changing_settings(), kLongestStart);
         return live::live(bus, options);
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? kDone : kUsage;

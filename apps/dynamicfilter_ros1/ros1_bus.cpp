@@ -328,6 +328,18 @@ void Ros1Bus::subscribe(const io::Topic& topic, const Quality& quality, Receive 
     }
 }
 
+void Ros1Bus::stop() {
+    const std::lock_guard change(engine_->changing);
+    std::map<std::string, Engine::Subscription> ended;
+    {
+        const std::lock_guard hold(engine_->lock);
+        ended.swap(engine_->subscriptions);
+    }
+    for (auto& [topic, subscription] : ended) {
+        subscription.subscriber.shutdown();  // waits for its last call
+    }
+}
+
 /// Messages that came faster than they were taken. What was lost before is not known: publishers
 /// do not tell, and header.seq has gaps of its own, for instance in bags that were cut.
 std::uint64_t Ros1Bus::lost() const {

@@ -28,7 +28,8 @@ struct Verdict {
     Labels labels;          ///< one per point
     /// One per point: probability 0..1 that its voxel is occupied, or 0 where the label is unknown.
     /// A point that stands on a static surface may be dynamic although its voxel is probably
-    /// occupied. Empty in instant verdicts.
+    /// occupied. In instant verdicts: in steps of 1/255, as of the moment when the label of the
+    /// voxel was decided; empty with the methods "submaps" and "removert".
     std::vector<float> probability;
     /// Only in final verdicts with `map.time` = latest, otherwise empty: true for dynamic points
     /// that were still in their place when the place was last seen.

@@ -37,21 +37,6 @@ Labels intensity_truth(const Cloud& cloud, const std::filesystem::path& file) {
     return truth;
 }
 
-/// Transforms world coordinates into the sensor frame, in double because the world may be far from
-/// its origin.
-Points into_sensor(const Cloud& cloud, const Pose& T_world_sensor) {
-    const Pose T_sensor_world = T_world_sensor.inverse();
-    const std::array<std::vector<double>, 3> world = {values(cloud, *cloud.find("x")),
-                                                      values(cloud, *cloud.find("y")),
-                                                      values(cloud, *cloud.find("z"))};
-    Points points(cloud.size());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const Eigen::Vector3d p(world[0][i], world[1][i], world[2][i]);
-        points[i] = (T_sensor_world * p).cast<float>();
-    }
-    return points;
-}
-
 Labels truth_of(const Sequence& sequence, std::size_t i, const Cloud& cloud) {
     if (sequence.intensity_is_truth) return intensity_truth(cloud, sequence.scan_files[i]);
     if (sequence.label_files.empty() || sequence.label_files[i].empty()) return {};
@@ -89,6 +74,19 @@ void refuse_absurd(const Pose& T_world_sensor, const std::filesystem::path& file
 }
 
 }  // namespace
+
+Points into_sensor(const Cloud& cloud, const Pose& T_world_sensor) {
+    const Pose T_sensor_world = T_world_sensor.inverse();
+    const std::array<std::vector<double>, 3> world = {values(cloud, *cloud.find("x")),
+                                                      values(cloud, *cloud.find("y")),
+                                                      values(cloud, *cloud.find("z"))};
+    Points points(cloud.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Eigen::Vector3d p(world[0][i], world[1][i], world[2][i]);
+        points[i] = (T_sensor_world * p).cast<float>();
+    }
+    return points;
+}
 
 Labels read_labels(const std::filesystem::path& file) {
     const std::vector<std::byte> bytes = read_bytes(file);

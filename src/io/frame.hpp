@@ -11,6 +11,10 @@ namespace dynamic_filter::io {
 /// The point cloud of scan i without its pose. Throws InputError.
 Cloud read_scan(const Sequence& sequence, std::size_t i);
 
+/// Transforms the points of a cloud in world coordinates into the sensor frame; in double, because
+/// the world may be far from its origin.
+Points into_sensor(const Cloud& cloud, const Pose& T_world_sensor);
+
 /// Throws InputError if the size of the file alone shows that it holds no cloud.
 void refuse_bad_size(const std::filesystem::path& file);
 

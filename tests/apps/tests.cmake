@@ -13,10 +13,14 @@ add_test(NAME apps/interrupt COMMAND ${CMAKE_CURRENT_LIST_DIR}/interrupt_test.sh
 add_test(NAME apps/completion COMMAND ${CMAKE_CURRENT_LIST_DIR}/completion_test.sh $<TARGET_FILE:dynamicfilter>
   ${PROJECT_SOURCE_DIR}/packaging/dynamicfilter.bash)
 
-foreach(unit dds_bus foxglove_handshake foxglove_protocol foxglove_queue foxglove_server)
+foreach(unit dds_bus diagnosis foxglove_handshake foxglove_protocol foxglove_queue foxglove_server intake live_config outputs subscriptions)
   df_test(apps/live/${unit} dynamic_filter_live)
 endforeach()
 if(TARGET dynamic_filter_ros1)
   df_test(apps/live/ros1_bus dynamic_filter_ros1)
   target_compile_definitions(apps_live_ros1_bus_test PRIVATE ROS1_PEER="${CMAKE_CURRENT_LIST_DIR}/live/ros1_peer.py")
 endif()
+add_executable(live_player ${CMAKE_CURRENT_LIST_DIR}/live/player.cpp)
+set_target_properties(live_player PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+target_link_libraries(live_player PRIVATE dynamic_filter_live dynamic_filter_flags CLI11::CLI11)
+add_test(NAME apps/live/live COMMAND ${CMAKE_CURRENT_LIST_DIR}/live/live_test.sh $<TARGET_FILE:dynamicfilter> $<TARGET_FILE:live_player>)

@@ -24,10 +24,11 @@ TEST(InstantVerdicts, AskedWithoutReserveAreThoseOfTheEvidenceSoFar) {
         const PointVoxels voxels = map.insert(s.scan, times);
         const Verdict verdict = instant.judge(s.scan.index, voxels, map.grid());
         EXPECT_EQ(verdict.index, s.scan.index);
-        EXPECT_TRUE(verdict.probability.empty());
+        ASSERT_EQ(verdict.probability.size(), voxels.size());
         for (std::size_t i = 0; i < voxels.size(); i += 17) {
             const auto occupancy = occupancy_of(map.grid(), {&voxels[i], 1}, config.scans);
             EXPECT_EQ(verdict.labels[i], label_of(occupancy[0], config.map.occupancy_threshold));
+            EXPECT_NEAR(verdict.probability[i], occupancy[0].value_or(0.0F), 0.5F / 255.0F + 1e-6F);
             known += occupancy[0] ? 1 : 0;
         }
         map.observe_elsewhere(times);

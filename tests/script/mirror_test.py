@@ -23,6 +23,8 @@ OTHERS = {
     f"{APP}/edits/map_gaps.cpp": "tests/apps/edits_test.cpp",
     f"{APP}/edits/run_edits.cpp": "tests/apps/edits_test.cpp",
     f"{APP}/live/dds_type.cpp": "tests/apps/live/dds_bus_test.cpp",
+    **{f"{APP}/live/{unit}.cpp": "tests/apps/live/live_test.sh" for unit in (
+        "dry_run", "live", "live_command", "recorder", "session")},
     f"{APP}/view/edit_server.cpp": "tests/viewer/edit_checks.mjs",
     f"{APP}/view/live_view.cpp": "tests/viewer/live_checks.mjs",
     f"{APP}/view/shown.cpp": "tests/viewer/report_checks.mjs",

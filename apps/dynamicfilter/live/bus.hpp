@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "dynamic_filter/io/bag.hpp"
@@ -65,6 +66,8 @@ public:
     [[nodiscard]] virtual std::vector<SeenTopic> seen() const = 0;
     /// Receives a topic. Replaces an earlier subscription of the same topic.
     virtual void subscribe(const io::Topic& topic, const Quality& quality, Receive receive) = 0;
+    /// Ends all subscriptions: once it has returned, nothing is received any more.
+    virtual void stop() = 0;
     /// Number of messages that were lost on their way to this process, as far as the bus knows.
     [[nodiscard]] virtual std::uint64_t lost() const = 0;
     /// Problems since the last call that the user should know of, such as a lost master.

@@ -208,9 +208,14 @@ DdsBus::DdsBus(const DdsOptions& options) : engine_(std::make_unique<Engine>()) 
     e.thread = std::thread([&e] { e.run(); });
 }
 
-DdsBus::~DdsBus() {
+void DdsBus::stop() {
+    if (!engine_->thread.joinable()) return;
     dds_set_guardcondition(engine_->stop, true);
     engine_->thread.join();
+}
+
+DdsBus::~DdsBus() {
+    stop();
     dds_delete(engine_->participant);
     if (engine_->domain > 0) dds_delete(engine_->domain);
 }

@@ -17,7 +17,8 @@ struct LiveOptions {
     std::string preset = "default";
     std::optional<std::filesystem::path> record;  ///< output folder, completed at the end
     bool dry_run = false, overwrite = false, quiet = false;
-    double look = 5.0;  ///< [s] of listening in a dry run
+    double look = 5.0;      ///< [s] of listening in a dry run
+    bool settings = false;  ///< only prints the settings in force
 };
 
 /// Filters what the bus delivers until SIGINT or SIGTERM; in a dry run, says what is there, what

@@ -2,6 +2,7 @@
 /// Instant verdicts: verdicts from the evidence up to the newest scan.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -29,6 +30,7 @@ private:
         // Score at the latest verdict; 2 is above all scores, so it means "never judged".
         float score = 2.0F;
         Label label = Label::unknown;
+        std::uint8_t probability = 0;  // of being occupied, in 1/255
     };
     [[nodiscard]] bool is_due(const Said& said, const EvidenceGrid::State& state) const;
 

@@ -12,7 +12,7 @@ void FrameTree::add(const StampedPose& transform, bool is_static) {
         link.parent = transform.parent;
         link.is_static = is_static;
     }
-    if (link.parent != transform.parent) return;
+    if (link.parent != transform.parent || (link.is_static && !fresh)) return;
     link.T_parent_child.stamps.push_back(transform.stamp);
     link.T_parent_child.poses.push_back(transform.T_parent_child);
 }
@@ -32,6 +32,10 @@ void FrameTree::forget_before(double stamp) {
         stamps.erase(stamps.begin(), stamps.begin() + gone);
         poses.erase(poses.begin(), poses.begin() + gone);
     }
+}
+
+void FrameTree::forget_moving() {
+    std::erase_if(links_, [](const auto& link) { return !link.second.is_static; });
 }
 
 std::vector<std::string> FrameTree::above(const std::string& frame) const {

@@ -14,13 +14,16 @@ namespace dynamic_filter::io {
 
 class FrameTree {
 public:
-    /// Adds a link, or its pose at another time. A frame keeps its first parent; of poses with
-    /// equal stamps, the first one is kept.
+    /// Adds a link, or its pose at another time. A frame keeps its first parent, and a static link
+    /// its first pose; of poses with equal stamps, the first one is kept.
     void add(const StampedPose& transform, bool is_static);
     void put_in_order();  ///< call it after links are added, before the functions below
     /// Forgets the poses of moving links that are older than `stamp` [s], except the two newest.
     void forget_before(double stamp);
-    void clear() { links_.clear(); }
+    /// Forgets all links that move, because the clock was set back.
+    void forget_moving();
+    [[nodiscard]] std::size_t size() const { return links_.size(); }  ///< number of links
+    [[nodiscard]] bool knows(const std::string& frame) const { return links_.contains(frame); }
 
     /// `frame` and its ancestors; the root is last.
     [[nodiscard]] std::vector<std::string> above(const std::string& frame) const;

@@ -15,13 +15,15 @@ namespace {
 
 MessageHeader take_header(MessageReader& in, MessageEncoding encoding) {
     if (encoding == MessageEncoding::ros1) in.number<std::uint32_t>();  // seq
-    const auto seconds = encoding == MessageEncoding::ros1
-                             ? static_cast<double>(in.number<std::uint32_t>())
-                             : static_cast<double>(in.number<std::int32_t>());
+    const std::int64_t seconds = encoding == MessageEncoding::ros1
+                                     ? std::int64_t{in.number<std::uint32_t>()}
+                                     : std::int64_t{in.number<std::int32_t>()};
     const auto nanoseconds = in.number<std::uint32_t>();
     std::string frame = in.text();
     if (frame.starts_with('/')) frame.erase(0, 1);  // names before tf2 begin with a slash
-    return {seconds + 1e-9 * nanoseconds, std::move(frame)};
+    constexpr std::int64_t kSecond = 1'000'000'000;
+    return {static_cast<double>(seconds) + 1e-9 * nanoseconds, std::move(frame),
+            seconds * kSecond + nanoseconds};
 }
 
 Pose take_pose(MessageReader& in) {
@@ -126,15 +128,6 @@ void check(const WireCloud& wire) {
     }
 }
 
-/// Copies one value in the byte order of this machine.
-void put_value(std::byte* to, const std::byte* from, std::size_t size, bool swap) {
-    if (swap) {
-        std::reverse_copy(from, from + size, to);
-    } else {
-        std::memcpy(to, from, size);
-    }
-}
-
 /// Makes names unique by adding a number; fields with an empty name or "_" are padding.
 std::vector<WireField> named_fields(const WireCloud& wire) {
     std::vector<WireField> fields;
@@ -151,6 +144,39 @@ std::vector<WireField> named_fields(const WireCloud& wire) {
         fields.push_back(std::move(field));
     }
     return fields;
+}
+
+/// Bytes of a point that are copied together.
+struct Run {
+    std::size_t offset = 0, bytes = 0;
+};
+
+std::vector<Run> runs_of(const std::vector<WireField>& fields) {
+    std::vector<Run> runs;
+    for (const WireField& field : fields) {
+        const std::size_t bytes = field.count * size_of(field_type(field));
+        const bool follows =
+            !runs.empty() && runs.back().offset + runs.back().bytes == field.offset;
+        if (follows) {
+            runs.back().bytes += bytes;
+        } else {
+            runs.push_back({field.offset, bytes});
+        }
+    }
+    return runs;
+}
+
+/// Returns where the next point goes.
+std::byte* copy_swapped(std::byte* to, const std::byte* from,
+                        const std::vector<WireField>& fields) {
+    for (const WireField& field : fields) {
+        const std::size_t size = size_of(field_type(field));
+        const std::byte* value = from + field.offset;
+        for (std::uint32_t k = 0; k < field.count; ++k, to += size, value += size) {
+            std::reverse_copy(value, value + size, to);
+        }
+    }
+    return to;
 }
 
 Cloud unpack_cloud(const WireCloud& wire) {
@@ -170,16 +196,21 @@ Cloud unpack_cloud(const WireCloud& wire) {
     std::byte* to = cloud.data.data();
     // A claim of 4 billion empty rows means no rows.
     const std::uint32_t rows = wire.width == 0 ? 0 : wire.height;
+    const std::vector<Run> runs = runs_of(fields);
+    const bool is_packed = !wire.big_endian && runs.size() == 1 && runs[0].bytes == wire.point_step;
     for (std::uint32_t row = 0; row < rows; ++row) {
         const std::byte* from = wire.data.data() + std::size_t{wire.row_step} * row;
+        if (is_packed) {
+            const std::size_t bytes = std::size_t{wire.point_step} * wire.width;
+            to = std::copy_n(from, bytes, to);
+            continue;
+        }
         for (std::uint32_t i = 0; i < wire.width; ++i, from += wire.point_step) {
-            for (const WireField& field : fields) {
-                const std::size_t size = size_of(field_type(field));
-                const std::byte* value = from + field.offset;
-                for (std::uint32_t k = 0; k < field.count; ++k, to += size, value += size) {
-                    put_value(to, value, size, wire.big_endian);
-                }
+            if (wire.big_endian) {
+                to = copy_swapped(to, from, fields);
+                continue;
             }
+            for (const Run& run : runs) to = std::copy_n(from + run.offset, run.bytes, to);
         }
     }
     return cloud;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,6 +18,7 @@ namespace dynamic_filter::io {
 struct MessageHeader {
     double stamp = 0.0;  ///< [s]
     std::string frame;   ///< without a leading slash
+    std::int64_t stamp_ns = 0;  ///< [ns] the same stamp, exactly
 };
 
 enum class MessageKind { other, cloud, livox, odometry, pose, transforms };

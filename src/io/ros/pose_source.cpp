@@ -5,8 +5,9 @@
 
 namespace dynamic_filter::io {
 
-PoseSource from_frames(const FrameTree& frames, const std::string& sensor) {
-    const std::string root = frames.above(sensor).back();
+PoseSource from_frames(const FrameTree& frames, const std::string& sensor,
+                       const std::string& world) {
+    const std::string root = world.empty() ? frames.above(sensor).back() : world;
     return {[&frames, sensor, root](double stamp) { return frames.pose(sensor, root, stamp); },
             frames.stamps_above(sensor), false, root,
             fmt::format("poses from /tf: frame '{}' in '{}'", sensor, root)};

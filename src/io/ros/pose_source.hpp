@@ -27,8 +27,10 @@ struct PoseSource {
     std::string note;              ///< one sentence for the user
 };
 
-/// Poses from /tf: of the frame `sensor` in its root. The result refers to `frames`.
-PoseSource from_frames(const FrameTree& frames, const std::string& sensor);
+/// Poses from /tf: of the frame `sensor` in the frame `world` (empty: its root). The result refers
+/// to `frames`.
+PoseSource from_frames(const FrameTree& frames, const std::string& sensor,
+                       const std::string& world = {});
 
 /// Poses of the topic `name`. If /tf links its frame to the frame `sensor`, that transform is
 /// applied. The result refers to `topic` and `frames`.

@@ -1,0 +1,83 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# `dynamicfilter live` on ROS 2's wire, as a process: what it says to a drive is what `run` says to the bag of it, and
+# each mistake that people make is named.
+#   live_test.sh COMMAND PLAYER
+set -euo pipefail
+command=$1 player=$2
+work=$(mktemp -d)
+live=
+trap '[ -z "$live" ] || kill -9 "$live" 2> /dev/null || true; rm -rf "$work"' EXIT
+export ROS_DOMAIN_ID=93
+unset CYCLONEDDS_URI
+fail() { echo "live_test: $1" >&2; cat "$work"/*.err >&2 || true; exit 1; }
+cd "$work"
+
+start() { # start NAME OPTION...
+    local name=$1
+    shift
+    "$command" live "$@" > "$name.log" 2> "$name.err" &
+    live=$!
+    for _ in $(seq 200); do
+        grep -q '^listens' "$name.err" && return
+        sleep 0.05
+    done
+    fail "$name does not listen"
+}
+stop() { # stop SIGNAL
+    kill "-$1" "$live"
+    local code=0
+    wait "$live" || code=$?
+    live=
+    [ "$code" = 0 ] || fail "ended with $code after $1"
+}
+
+"$command" simulate crowd --sensor vlp16 --frames 40 --rate 10 -o recording -q
+rm -r recording/labels # so that the bag has a single topic of points
+"$command" convert recording drive.mcap > /dev/null 2>&1
+
+# A drive, recorded: instant labels are the library's, and the folder is that of `run --online`.
+start drive --record out
+"$player" drive.mcap --domain $ROS_DOMAIN_ID --all --check > player.json || fail "labels are missing: $(cat player.json)"
+grep -q '"differing": 0' player.json || fail "labels differ: $(cat player.json)"
+for topic in static dynamic map removed path; do
+    grep -q "\"/dynamicfilter/$topic\"" player.json || fail "nothing on $topic: $(cat player.json)"
+done
+grep -q '"/diagnostics"' player.json || fail "no diagnostics"
+stop INT
+grep -q '^input    40 scans received; 40 taken' drive.log || fail "counters: $(cat drive.log)"
+"$command" run drive.mcap -o ref -q --refine off --deskew off --online --speed 0 --no-report
+diff -r ref/labels out/labels || fail "labels of the folder differ from those of run"
+cmp ref/static_map.pcd out/static_map.pcd || fail "maps differ"
+[ -s out/report.html ] || fail "no report"
+
+# SIGTERM ends at once, and the recording is complete.
+start term --record gone
+"$player" drive.mcap --domain $ROS_DOMAIN_ID > /dev/null || fail "labels are missing"
+stop TERM
+[ -s gone.mcap ] && [ ! -e gone ] || fail "SIGTERM leaves the recording alone"
+"$command" info gone.mcap | grep -q '40' || fail "the recording is not complete"
+
+# Wrong settings, and what is there already.
+expect() { # expect CODE TEXT OPTION...
+    local code=0 wanted=$1 text=$2
+    shift 2
+    timeout 60 "$command" live "$@" > wrong.log 2> wrong.err || code=$?
+    [ "$code" = "$wanted" ] || fail "live $*: code $code instead of $wanted"
+    cat wrong.log wrong.err | grep -q -- "$text" || fail "live $*: does not say '$text'"
+}
+expect 2 "did you mean 'input.cloud'" --set input.clod=/points
+expect 2 'out.mcap: exists' --record out.mcap
+expect 2 'exists; choose another --record' --record out
+expect 1 'cannot join DDS domain' --set bus.network=nosuchdevice
+expect 4 'nothing is published that could be used' --dry-run --look 1
+
+# A dry run while something is published.
+"$player" drive.mcap --domain $ROS_DOMAIN_ID --passes 100 > /dev/null 2>&1 &
+player_id=$!
+expect 4 'nobody publishes scans on /point; there are: /points; did you mean /points' --dry-run --look 3 --set input.cloud=/point
+expect 4 'nothing was received on /odom' --dry-run --look 3 --set input.pose=/odom
+expect 0 'fits ' --dry-run --look 4
+grep -q "poses    poses of 'lidar' in 'map' from /tf" wrong.log || fail "does not name the poses: $(cat wrong.log)"
+kill "$player_id" 2> /dev/null || true
+wait "$player_id" 2> /dev/null || true
