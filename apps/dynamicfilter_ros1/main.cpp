@@ -49,11 +49,7 @@ int failed(ExitCode code, const std::exception& error) {
     return code;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-    keep_freed_memory();
-    std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error like a full disk
+int filter(int argc, char** argv) {
     CLI::App app("Removes moving objects from the LiDAR scans of ROS 1, as they come.",
                  "dynamicfilter_ros1");
     app.set_version_flag("--version", DYNAMIC_FILTER_VERSION);
@@ -64,13 +60,23 @@ int main(int argc, char** argv) {
         "parameters of the node are settings, too: ~output/map_rate is output.map_rate.");
     live::LiveOptions options;
     live::add_live_options(app, options);
+    Arguments arguments = split(argc, argv);
     try {
-        Arguments arguments = split(argc, argv);
         app.parse(std::move(arguments.own));
-        live::Ros1Bus bus(arguments.remappings, live::changing_settings(), kLongestStart);
-        return live::live(bus, options);
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? kDone : kUsage;
+    }
+    live::Ros1Bus bus(arguments.remappings, live::changing_settings(), kLongestStart);
+    return live::live(bus, options);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    keep_freed_memory();
+    std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error like a full disk
+    try {
+        return filter(argc, argv);
     } catch (const ConfigError& error) {
         return failed(kUsage, error);
     } catch (const InputError& error) {

@@ -38,9 +38,10 @@ constexpr double kLongestRegistration = 1.0;  // [s] that roscpp may wait for a 
 /// roscpp ends the process if the address is missing or wrong.
 std::string master_uri(const std::map<std::string, std::string>& remappings) {
     setenv("ROS_MASTER_URI", "http://localhost:11311", 0);
+    const char* const by_user = std::getenv("ROS_MASTER_URI");
     const auto remapped = remappings.find("__master");
-    const std::string uri =
-        remapped != remappings.end() ? remapped->second : std::getenv("ROS_MASTER_URI");
+    std::string uri = by_user == nullptr ? "" : by_user;
+    if (remapped != remappings.end()) uri = remapped->second;
     std::string host;
     std::uint32_t port = 0;
     if (ros::network::splitURI(uri, host, port)) return uri;

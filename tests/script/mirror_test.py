@@ -23,6 +23,7 @@ OTHERS = {
     f"{APP}/edits/map_gaps.cpp": "tests/apps/edits_test.cpp",
     f"{APP}/edits/run_edits.cpp": "tests/apps/edits_test.cpp",
     f"{APP}/live/dds_type.cpp": "tests/apps/live/dds_bus_test.cpp",
+    f"{APP}/live/foxglove_socket.cpp": "tests/apps/live/foxglove_server_test.cpp",
     **{f"{APP}/live/{unit}.cpp": "tests/apps/live/live_test.sh" for unit in (
         "dry_run", "live", "live_command", "recorder", "session")},
     f"{APP}/view/edit_server.cpp": "tests/viewer/edit_checks.mjs",
