@@ -95,7 +95,7 @@ struct FoxgloveServer::Engine {
     std::vector<std::string> notices;
 
     // Only for the service thread:
-    int listener = -1;
+    int listener = -1;  // libwebsockets closes it
     std::map<lws*, Handshaking> handshakes;
     std::vector<Accepted> accepted;
     std::vector<unsigned char> fragment = std::vector<unsigned char>(LWS_PRE + kFragment);
@@ -113,7 +113,7 @@ struct FoxgloveServer::Engine {
     bool read_handshake(lws* wsi);
     Handshake judge(const std::string& head);
 
-    bool add_client(lws* wsi);
+    void add_client(lws* wsi);
     void remove_client(lws* wsi);
     bool receive(lws* wsi, std::string_view bytes);
     void answer(Client& client, const FoxgloveRequest& request);
@@ -132,7 +132,7 @@ void say(FoxgloveQueue& queue, FoxgloveLevel level, const std::string& message) 
     if (queue.texts() < kMostTexts) queue.put_text(status(level, message));
 }
 
-/// False if the client cannot be sent the response at once; it is short.
+/// It is short, so that a new connection takes it at once.
 void send_refusal(int socket, const std::string& response) {
     [[maybe_unused]] const auto sent =
         ::send(socket, response.data(), response.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
@@ -140,8 +140,6 @@ void send_refusal(int socket, const std::string& response) {
 }
 
 }  // namespace
-
-// ------------------------------------------------------------------------------ life and thread
 
 void FoxgloveServer::Engine::open() {
     listener = listen_at(options.address, options.port);
@@ -158,11 +156,11 @@ void FoxgloveServer::Engine::open() {
     info.protocols = kProtocols;
     info.user = this;
     // Its tables are as large as this, or as the number of files that the system allows.
-    info.fd_limit_per_thread =
-        static_cast<unsigned>(options.clients + 2 * kMostHandshakes + kMostHandshakes);
+    info.fd_limit_per_thread = static_cast<unsigned>(options.clients + 4 * kMostHandshakes);
     context = lws_create_context(&info);
     host = context == nullptr ? nullptr : lws_create_vhost(context, &info);
-    if (host == nullptr || !adopt_file(listener)) {
+    if (host == nullptr) close(listener);
+    if (host == nullptr || adopt_file(listener) == nullptr) {
         throw OutputError(address_text(options.address, port),
                           "cannot listen: libwebsockets does not start; is there memory left?");
     }
@@ -177,10 +175,9 @@ FoxgloveServer::Engine::~Engine() {
     }
     for (const auto& [socket, request] : accepted) close(socket);
     if (context != nullptr) lws_context_destroy(context);
-    if (listener >= 0) close(listener);
 }
 
-/// Has libwebsockets poll a file. Nullptr if it cannot.
+/// Has libwebsockets poll a file, and close it in the end. Nullptr if it cannot; then it is closed.
 lws* FoxgloveServer::Engine::adopt_file(int file) {
     lws_sock_file_fd_type adopted{};
     adopted.filefd = file;
@@ -198,8 +195,6 @@ void FoxgloveServer::Engine::adopt_accepted() {
                                        client.request.size());
     }
 }
-
-// --------------------------------------------------------------------------- before the handshake
 
 int FoxgloveServer::Engine::on_file(lws* wsi, lws_callback_reasons reason, void*, void*,
                                     std::size_t) {
@@ -226,11 +221,12 @@ int FoxgloveServer::Engine::on_file(lws* wsi, lws_callback_reasons reason, void*
 
 void FoxgloveServer::Engine::accept_all() {
     for (int socket = accept_at(listener); socket >= 0; socket = accept_at(listener)) {
-        lws* const wsi = handshakes.size() < kMostHandshakes ? adopt_file(socket) : nullptr;
-        if (wsi == nullptr) {
+        if (handshakes.size() >= kMostHandshakes) {
             close(socket);
             continue;
         }
+        lws* const wsi = adopt_file(socket);
+        if (wsi == nullptr) continue;
         handshakes.emplace(wsi, Handshaking{socket});
         lws_set_timeout(wsi, PENDING_TIMEOUT_USER_OK, kHandshakeSeconds);
     }
@@ -275,8 +271,6 @@ Handshake FoxgloveServer::Engine::judge(const std::string& head) {
     return result;
 }
 
-// ------------------------------------------------------------------------------- clients
-
 int FoxgloveServer::Engine::on_websocket(lws* wsi, lws_callback_reasons reason, void*, void* in,
                                          std::size_t size) {
     auto& engine = *static_cast<Engine*>(lws_context_user(lws_get_context(wsi)));
@@ -291,7 +285,8 @@ int FoxgloveServer::Engine::handle_websocket(lws* wsi, lws_callback_reasons reas
                                              const void* bytes, std::size_t size) {
     switch (reason) {
         case LWS_CALLBACK_ESTABLISHED:
-            return add_client(wsi) ? 0 : -1;
+            add_client(wsi);
+            return 0;
         case LWS_CALLBACK_RECEIVE:
             return receive(wsi, {static_cast<const char*>(bytes), size}) ? 0 : -1;
         case LWS_CALLBACK_SERVER_WRITEABLE:
@@ -310,13 +305,12 @@ std::vector<FoxgloveChannel> FoxgloveServer::Engine::described() const {
     return list;
 }
 
-bool FoxgloveServer::Engine::add_client(lws* wsi) {
+void FoxgloveServer::Engine::add_client(lws* wsi) {
     const std::lock_guard hold(lock);
     Client& client = clients.try_emplace(wsi, options.client_bytes).first->second;
     client.queue.put_text(server_info(session));
     client.queue.put_text(advertisement(described()));
     lws_callback_on_writable(wsi);
-    return true;
 }
 
 void FoxgloveServer::Engine::remove_client(lws* wsi) {
@@ -436,8 +430,6 @@ bool FoxgloveServer::Engine::send_fragment(lws* wsi, Client& client) {
     if (last == all) client.sending.reset();
     return true;
 }
-
-// -------------------------------------------------------------------------------- the interface
 
 FoxgloveServer::FoxgloveServer(io::MessageEncoding encoding, const FoxgloveOptions& options)
     : engine_(std::make_unique<Engine>(encoding, options)) {

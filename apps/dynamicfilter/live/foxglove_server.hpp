@@ -23,8 +23,10 @@ struct FoxgloveOptions {
 };
 
 /// Sends the messages of advertised topics to the clients that subscribed to them. Clients cannot
-/// publish. For a client that is too slow, the oldest waiting message of a topic is dropped. The
-/// last message of a latched topic is sent to new subscribers. One thread of its own. Thread-safe.
+/// publish. A client that is too slow misses messages: of each topic, the newest wait for it, as
+/// many as the topic's depth, and as many as fit into `client_bytes` together with those of other
+/// topics. The last message of a latched topic is sent to new subscribers. One thread of its own.
+/// Thread-safe.
 class FoxgloveServer final : public Publisher {
 public:
     /// `encoding` is that of all messages. Throws OutputError if it cannot listen.
