@@ -44,13 +44,14 @@ std::string scans(std::uint64_t count) {
 class Chores {
 public:
     Chores(Bus& bus, LiveConfig& config, Intake& intake, Subscriptions& subscriptions,
-           Session& session, Outputs& outputs, bool quiet)
+           Session& session, Outputs& outputs, FoxgloveServer* foxglove, bool quiet)
         : bus_(bus),
           config_(config),
           intake_(intake),
           subscriptions_(subscriptions),
           session_(session),
           outputs_(outputs),
+          foxglove_(foxglove),
           quiet_(quiet) {}
 
     void run() {
@@ -61,6 +62,7 @@ public:
         subscriptions_.update();
         take_parameters();
         tell(bus_.take_notices());
+        if (foxglove_ != nullptr) tell(foxglove_->take_notices());
         tell(subscriptions_.take_notices());
         tell(intake_.take_notices());
         tell(session_.take_notices());
@@ -156,6 +158,7 @@ private:
     Subscriptions& subscriptions_;
     Session& session_;
     Outputs& outputs_;
+    FoxgloveServer* foxglove_;  // may be null
     bool quiet_;
     Figures before_;
     bool silent_ = false;
@@ -192,18 +195,16 @@ int live(Bus& bus, const LiveOptions& o) {
         recorder.emplace(*bag);
     }
     const auto foxglove = serve(config, bus.encoding());
-    std::vector<Publisher*> publishers{&bus};
-    if (foxglove) publishers.push_back(foxglove.get());
     if (!o.quiet) {
         fmt::print(stderr, "listens  {}\n", bus.description());
         if (foxglove) fmt::print(stderr, "foxglove {}\n", foxglove->url());
     }
     app::catch_interrupts();
     Intake intake(config, bus.encoding());
-    Outputs outputs(config, bus.encoding(), publishers);
+    Outputs outputs(config, bus.encoding(), bus, foxglove.get());
     Session session(config, outputs, recorder ? &*recorder : nullptr);
     Subscriptions subscriptions(bus, config, intake);
-    Chores chores(bus, config, intake, subscriptions, session, outputs, o.quiet);
+    Chores chores(bus, config, intake, subscriptions, session, outputs, foxglove.get(), o.quiet);
     while (!app::interrupted()) {
         chores.run();
         if (session.is_busy()) {

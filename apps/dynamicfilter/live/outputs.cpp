@@ -140,28 +140,29 @@ std::vector<Output> OutputTopics::all() const {
     return {still, dynamic, labels, corrections, map, removed, path, diagnostics, transform};
 }
 
-Outputs::Outputs(const LiveConfig& config, io::MessageEncoding encoding,
-                 std::vector<Publisher*> publishers)
+Outputs::Outputs(const LiveConfig& config, io::MessageEncoding encoding, Publisher& bus,
+                 Publisher* display)
     : config_(config),
       encoding_(encoding),
       topics_(config, encoding),
-      publishers_(std::move(publishers)) {
+      bus_(bus),
+      display_(display) {
     for (const Output& output : topics_.all()) {
-        for (Publisher* publisher : publishers_) {
-            publisher->advertise(output.topic, output.quality);
-        }
+        bus_.advertise(output.topic, output.quality);
+        if (display_ != nullptr) display_->advertise(output.topic, output.quality);
     }
 }
 
 bool Outputs::is_wanted(const Output& output) const {
-    return std::any_of(publishers_.begin(), publishers_.end(),
-                       [&](const Publisher* p) { return p->is_wanted(output.topic.name); });
+    return bus_.is_wanted(output.topic.name) ||
+           (display_ != nullptr && display_->is_wanted(output.topic.name));
 }
 
 /// A latched message is given to all, for those who come later.
 void Outputs::publish(const Output& output, double stamp, std::vector<std::byte> message) {
     const Bytes bytes = std::make_shared<const std::vector<std::byte>>(std::move(message));
-    for (Publisher* publisher : publishers_) {
+    for (Publisher* publisher : {&bus_, display_}) {
+        if (publisher == nullptr) continue;
         if (!output.quality.latched && !publisher->is_wanted(output.topic.name)) continue;
         if (!publisher->publish(output.topic.name, stamp, bytes)) ++not_taken_;
     }
@@ -195,6 +196,7 @@ JudgedScan Outputs::judged(const LiveScan& scan, const Verdict& verdict) {
         verdict.tracked ? verdict.tracked->T_world_sensor : scan.T_world_sensor;
     const std::string& world = scan.has_pose ? scan.world : config_.output.map_frame;
     if (!scan.has_pose) publish_transform(scan, T_world_sensor);
+    display_pose(scan, T_world_sensor, world);
     const bool in_world = scan.has_pose && scan.frame == scan.world;
     publish_removed(scan.stamp, points, verdict.labels,
                     in_world ? Pose::Identity() : T_world_sensor, world);
@@ -256,10 +258,21 @@ void Outputs::publish_path(double stamp, const Pose& T_world_sensor, const std::
 void Outputs::publish_transform(const LiveScan& scan, const Pose& T_map_sensor) {
     const std::string& map = config_.output.map_frame;
     if (!config_.output.transform || !scan.T_root_sensor || scan.root == map) return;
-    if (!is_wanted(topics_.transform)) return;
+    if (!bus_.is_wanted(topics_.transform.topic.name)) return;
     const Pose T_map_root = T_map_sensor * scan.T_root_sensor->inverse();
-    publish(topics_.transform, scan.stamp,
-            io::transform_message(map, scan.root, T_map_root, scan.stamp, encoding_));
+    auto message = io::transform_message(map, scan.root, T_map_root, scan.stamp, encoding_);
+    const bool taken = bus_.publish(topics_.transform.topic.name, scan.stamp,
+                                    std::make_shared<const std::vector<std::byte>>(message));
+    not_taken_ += taken ? 0U : 1U;
+}
+
+void Outputs::display_pose(const LiveScan& scan, const Pose& T_world_sensor,
+                           const std::string& world) {
+    const std::string& topic = topics_.transform.topic.name;
+    if (display_ == nullptr || !display_->is_wanted(topic) || scan.frame == world) return;
+    auto message = io::transform_message(world, scan.frame, T_world_sensor, scan.stamp, encoding_);
+    display_->publish(topic, scan.stamp,
+                      std::make_shared<const std::vector<std::byte>>(std::move(message)));
 }
 
 std::vector<io::BoxMarker> boxes_around(const Points& points, const Labels& labels,

@@ -39,9 +39,10 @@ struct JudgedScan {
 /// in different threads at the same time, but each function has a single caller.
 class Outputs {
 public:
-    /// Announces the topics. The publishers must outlive this object.
-    Outputs(const LiveConfig& config, io::MessageEncoding encoding,
-            std::vector<Publisher*> publishers);
+    /// Announces the topics. `display` (may be null) also gets the pose of the sensor, because it
+    /// hears of nothing else. Both publishers must outlive this object.
+    Outputs(const LiveConfig& config, io::MessageEncoding encoding, Publisher& bus,
+            Publisher* display = nullptr);
 
     /// Static and dynamic points with their fields, labels, boxes around dynamic points, the path
     /// so far, and the transform of the world frame if the poses are the filter's own. Returns what
@@ -65,11 +66,13 @@ private:
                          const Pose& T_world_points, const std::string& world);
     void publish_path(double stamp, const Pose& T_world_sensor, const std::string& world);
     void publish_transform(const LiveScan& scan, const Pose& T_map_sensor);
+    void display_pose(const LiveScan& scan, const Pose& T_world_sensor, const std::string& world);
 
     const LiveConfig& config_;
     io::MessageEncoding encoding_;
     OutputTopics topics_;
-    std::vector<Publisher*> publishers_;
+    Publisher& bus_;
+    Publisher* display_;
     std::deque<double> path_stamps_;
     std::deque<Pose> path_;
     std::string path_world_;

@@ -59,7 +59,7 @@ class OutputsInBothEncodings : public testing::TestWithParam<io::MessageEncoding
 TEST_P(OutputsInBothEncodings, PointsKeepAllFieldsAndTheExactStamp) {
     Published p;
     p.bus.used = GetParam();
-    Outputs outputs(p.config, p.bus.used, {&p.bus});
+    Outputs outputs(p.config, p.bus.used, p.bus);
     outputs.judged(scan_of_four(), verdict_on_four());
     EXPECT_EQ(p.column("/static", "number"), (std::vector<double>{0, 2, 3}))
         << "unknown points stay";
@@ -79,7 +79,7 @@ INSTANTIATE_TEST_SUITE_P(, OutputsInBothEncodings,
 TEST(Outputs, UnknownPointsGoIfTheMapDoesNotKeepThem) {
     Published p;
     p.config.filter.map.keep_unknown = false;
-    Outputs outputs(p.config, p.bus.used, {&p.bus});
+    Outputs outputs(p.config, p.bus.used, p.bus);
     outputs.judged(scan_of_four(), verdict_on_four());
     EXPECT_EQ(p.column("/static", "number"), (std::vector<double>{0, 3}));
 }
@@ -87,7 +87,7 @@ TEST(Outputs, UnknownPointsGoIfTheMapDoesNotKeepThem) {
 TEST(Outputs, WhatNobodyWantsIsNotMade) {
     Published p;
     p.bus.wanted = false;
-    Outputs outputs(p.config, p.bus.used, {&p.bus});
+    Outputs outputs(p.config, p.bus.used, p.bus);
     outputs.judged(scan_of_four(), verdict_on_four());
     EXPECT_TRUE(p.bus.published("/dynamicfilter/static").empty());
     EXPECT_TRUE(p.bus.published("/dynamicfilter/labels").empty());
@@ -96,7 +96,7 @@ TEST(Outputs, WhatNobodyWantsIsNotMade) {
 
 TEST(Outputs, CorrectionsHoldThePointsThatChanged) {
     Published p;
-    Outputs outputs(p.config, p.bus.used, {&p.bus});
+    Outputs outputs(p.config, p.bus.used, p.bus);
     const JudgedScan judged = outputs.judged(scan_of_four(), verdict_on_four());
     Verdict later = verdict_on_four();
     later.labels[2] = Label::dynamic;
@@ -110,7 +110,7 @@ TEST(Outputs, CorrectionsHoldThePointsThatChanged) {
 
 TEST(Outputs, TheMapIsLatchedAndInTheWorldFrame) {
     Published p;
-    Outputs outputs(p.config, p.bus.used, {&p.bus});
+    Outputs outputs(p.config, p.bus.used, p.bus);
     EXPECT_TRUE(p.bus.advertised.at("/dynamicfilter/map").latched);
     p.bus.wanted = false;
     outputs.map({{Eigen::Vector3d(1, 2, 3), 0.75F}}, "map", 5.0);
@@ -120,7 +120,7 @@ TEST(Outputs, TheMapIsLatchedAndInTheWorldFrame) {
 
 TEST(Outputs, TheOwnOdometryLinksItsWorldToTheRootOfTf) {
     Published p;
-    Outputs outputs(p.config, p.bus.used, {&p.bus});
+    Outputs outputs(p.config, p.bus.used, p.bus);
     LiveScan scan = scan_of_four();
     scan.has_pose = false;
     scan.root = "odom";
@@ -139,9 +139,24 @@ TEST(Outputs, TheOwnOdometryLinksItsWorldToTheRootOfTf) {
     EXPECT_NEAR(transforms[0].T_parent_child.translation().x(), 2.0, 1e-9);
 }
 
+TEST(Outputs, ADisplayGetsThePoseOfTheSensor) {
+    Published p;
+    FakeBus display;
+    Outputs outputs(p.config, p.bus.used, p.bus, &display);
+    outputs.judged(scan_of_four(), verdict_on_four());
+    EXPECT_EQ(display.published("/dynamicfilter/labels").size(), 1U);
+    const auto messages = display.published("/tf");
+    ASSERT_EQ(messages.size(), 1U);
+    const io::Topic topic{"/tf", "tf2_msgs/TFMessage", p.bus.used};
+    const auto transforms = io::read_transforms({topic, 0, {}, *messages[0]});
+    EXPECT_EQ(transforms.at(0).parent, "map");
+    EXPECT_EQ(transforms.at(0).child, "lidar");
+    EXPECT_NEAR(transforms.at(0).T_parent_child.translation().x(), 10.0, 1e-9);
+}
+
 TEST(Outputs, GivenPosesAreNotPublishedAgain) {
     Published p;
-    Outputs outputs(p.config, p.bus.used, {&p.bus});
+    Outputs outputs(p.config, p.bus.used, p.bus);
     outputs.judged(scan_of_four(), verdict_on_four());
     EXPECT_TRUE(p.bus.published("/tf").empty());
 }
@@ -149,7 +164,7 @@ TEST(Outputs, GivenPosesAreNotPublishedAgain) {
 TEST(Outputs, MessagesThatAreNotTakenAreCounted) {
     Published p;
     p.bus.takes = false;
-    Outputs outputs(p.config, p.bus.used, {&p.bus});
+    Outputs outputs(p.config, p.bus.used, p.bus);
     outputs.judged(scan_of_four(), verdict_on_four());
     EXPECT_GE(outputs.not_taken(), 3U);
 }
