@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Vectors of sixteen floats for the kernels; the compiler splits them if the machine has shorter
-/// vectors. All functions are inlined, so that the code of one instruction-set level is not linked
-/// into another one.
+/// Vectors of floats for the kernels, as long as the registers of the instruction-set level. All
+/// functions are inlined, so that the code of one level is not linked into another one.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +8,15 @@
 
 namespace dynamic_filter::kernel::DYNAMIC_FILTER_LEVEL {
 
-constexpr int kLanes = 16;
+// As many as fit into a register: gcc 12 splits longer vectors badly.
+#if defined(__AVX512F__)
+#define DF_LANES 16
+#elif defined(__AVX2__)
+#define DF_LANES 8
+#else
+#define DF_LANES 4
+#endif
+constexpr int kLanes = DF_LANES;
 
 using Floats = float __attribute__((vector_size(4 * kLanes)));
 // Masks: 0 is false, -1 is true.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Reads the beams around sixteen places from the image. Only sight_kernel.cpp includes this file,
-/// once per instruction-set level.
+/// Reads the beams around a vector of places from the image. Only sight_kernel.cpp includes this
+/// file, once per instruction-set level.
 #pragma once
 
 #include <numbers>
@@ -32,8 +32,8 @@ DF_INLINE Floats cosine(Floats x) {
     return 1.0F + s * (-0.5F + s * (1.0F / 24.0F + s * (-1.0F / 720.0F + s * (1.0F / 40320.0F))));
 }
 
-/// Sixteen places, and the distance within which beams matter to each. Lengths are in pixels unless
-/// stated otherwise.
+/// A vector of places, and the distance within which beams matter to each. Lengths are in pixels
+/// unless stated otherwise.
 struct Places {
     Ints in_range;
     Floats range, touch;               // [m]
@@ -103,8 +103,22 @@ DF_INLINE Ints pixels_at(const SightArgs& args, Ints first) {
 struct Section {
     Ints pixels[4];
 };
+using Four = std::int32_t __attribute__((vector_size(16)));
+/// In registers: a detour through memory would wait for its own stores.
+DF_INLINE Ints joined(const Four (&four)[kLanes / 4]) {
+#if DF_LANES == 4
+    return four[0];
+#else
+    const auto low = __builtin_shufflevector(four[0], four[1], 0, 1, 2, 3, 4, 5, 6, 7);
+#if DF_LANES == 8
+    return low;
+#else
+    const auto high = __builtin_shufflevector(four[2], four[3], 0, 1, 2, 3, 4, 5, 6, 7);
+    return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+#endif
+#endif
+}
 DF_INLINE Section section_at(const SightArgs& args, Ints first) {
-    using Four = std::int32_t __attribute__((vector_size(16)));
     Four turned[4][kLanes / 4];
     for (int k = 0; k < kLanes; k += 4) {
         Four in[4];
@@ -119,14 +133,7 @@ DF_INLINE Section section_at(const SightArgs& args, Ints first) {
         turned[3][k / 4] = __builtin_shufflevector(high01, high23, 2, 3, 6, 7);
     }
     Section out;
-    for (int i = 0; i < 4; ++i) {
-        const auto low =
-            __builtin_shufflevector(turned[i][0], turned[i][1], 0, 1, 2, 3, 4, 5, 6, 7);
-        const auto high =
-            __builtin_shufflevector(turned[i][2], turned[i][3], 0, 1, 2, 3, 4, 5, 6, 7);
-        out.pixels[i] = __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12,
-                                                13, 14, 15);
-    }
+    for (int i = 0; i < 4; ++i) out.pixels[i] = joined(turned[i]);
     return out;
 }
 

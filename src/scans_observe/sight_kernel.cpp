@@ -104,9 +104,9 @@ DF_INLINE Around nothing_around() {
     return around;
 }
 
-/// Sixteen places are processed with the widest of their windows, so places with windows of similar
-/// size are grouped. Most places are so far away that their window is 3 x 3 pixels: the first
-/// group.
+/// The places of a vector are processed with the widest of their windows, so places with windows of
+/// similar size are grouped. Most places are so far away that their window is 3 x 3 pixels: the
+/// first group.
 constexpr int kWindows = 6;
 DF_INLINE Ints window_of(const Places& p) {
     const Floats reach = p.reach_columns;
@@ -203,16 +203,16 @@ DF_INLINE Ints judge(const SightArgs& args, const Places& p, const Around& aroun
            (((around.touched | on) & 1) | (free & 2) | (weak & 4) | (free & passed & 8));
 }
 
-/// Numbers of places that are collected until there are sixteen of them.
+/// Numbers of places that are collected until they fill a vector.
 struct Pending {
     std::size_t index[2 * kLanes] = {};
     int count = 0;
 };
-/// Up to sixteen places, filled up with places at range 0, which are not judged.
-struct Sixteen {
+/// A vector of places, filled up with places at range 0, which are not judged.
+struct Group {
     float azimuth[kLanes] = {}, elevation[kLanes] = {}, range[kLanes] = {};
 };
-DF_INLINE void put(Sixteen& into, int k, const SightArgs& args, std::size_t index) {
+DF_INLINE void put(Group& into, int k, const SightArgs& args, std::size_t index) {
     into.azimuth[k] = args.azimuth[index];
     into.elevation[k] = args.elevation[index];
     into.range[k] = args.range[index];
@@ -220,9 +220,9 @@ DF_INLINE void put(Sixteen& into, int k, const SightArgs& args, std::size_t inde
 /// Not inlined: otherwise the compiler unrolls the loops around it, and the code does not fit into
 /// the instruction cache.
 template <bool small>
-__attribute__((noinline)) void judge_sixteen(const SightArgs& args, Pending& w) {
+__attribute__((noinline)) void judge_group(const SightArgs& args, Pending& w) {
     const int done = w.count < kLanes ? w.count : kLanes;
-    Sixteen places;
+    Group places;
     for (int k = 0; k < done; ++k) put(places, k, args, w.index[k]);
     const Places p = places_at(args, places.azimuth, places.elevation, places.range);
     const Ints sight = judge(args, p, small ? beams_around_small(args, p) : beams_around(args, p));
@@ -232,8 +232,8 @@ __attribute__((noinline)) void judge_sixteen(const SightArgs& args, Pending& w) 
 }
 
 DF_INLINE void judge_alike(const SightArgs& args, Pending (&pending)[kWindows], int window) {
-    if (window == 0) return judge_sixteen<true>(args, pending[window]);
-    judge_sixteen<false>(args, pending[window]);
+    if (window == 0) return judge_group<true>(args, pending[window]);
+    judge_group<false>(args, pending[window]);
 }
 
 }  // namespace
@@ -245,7 +245,7 @@ void check_lines_of_sight(const SightArgs& args) {
         const int count = left < kLanes ? static_cast<int>(left) : kLanes;
         const float *azimuth = args.azimuth + begin, *elevation = args.elevation + begin;
         const float* range = args.range + begin;
-        Sixteen last;
+        Group last;
         if (count < kLanes) {
             for (int k = 0; k < count; ++k) put(last, k, args, begin + static_cast<std::size_t>(k));
             azimuth = last.azimuth;

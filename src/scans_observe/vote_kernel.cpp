@@ -10,9 +10,15 @@ namespace {
 
 constexpr float kReach = 2.0F;  // cells
 
-DF_INLINE float sum(Floats v) {
+// Sixteen sums at all levels, because the result depends on their number.
+constexpr int kSums = 16, kParts = kSums / kLanes;
+using Sums = Floats[kParts];
+
+DF_INLINE float sum(const Sums& sums) {
     float total = 0.0F;
-    for (int k = 0; k < kLanes; ++k) total += v[k];
+    for (const Floats& part : sums) {
+        for (int k = 0; k < kLanes; ++k) total += part[k];
+    }
     return total;
 }
 
@@ -20,25 +26,27 @@ DF_INLINE float sum(Floats v) {
 
 float vote(const VoteArgs& args) {
     const Floats zero{};
-    Floats company{}, companions{}, around{}, neighbors{};
-    for (std::size_t i = 0; i < args.count; i += kLanes) {
-        const Floats distance = larger(magnitude(load(args.x + i) - args.own_x),
-                                       larger(magnitude(load(args.y + i) - args.own_y),
-                                              magnitude(load(args.z + i) - args.own_z)));
-        const Ints votes = (distance > 0.5F) & (distance <= kReach);
-        const Floats score = load(args.score + i);
-        const Floats first = load(args.first + i), last = load(args.last + i);
-        const Floats both =
-            smaller(last, zero + args.own_last) - larger(first, zero + args.own_first) + 1.0F;
-        const Floats either =
-            larger(last, zero + args.own_last) - smaller(first, zero + args.own_first) + 1.0F;
-        const Floats together = (votes & (both > 0.0F)) ? both / either : zero;
-        const Floats weight = load(args.weight + i);
-        company += together * score;
-        companions += together * weight;
-        const Floats share = votes ? (distance > 1.5F ? zero + args.far : zero + 1.0F) : zero;
-        around += share * score;
-        neighbors += share * weight;
+    Sums company{}, companions{}, around{}, neighbors{};
+    for (std::size_t i = 0; i < args.count; i += kSums) {
+        for (int part = 0; part < kParts; ++part) {
+            const std::size_t at = i + static_cast<std::size_t>(part * kLanes);
+            const Floats distance = larger(magnitude(load(args.x + at) - args.own_x),
+                                           larger(magnitude(load(args.y + at) - args.own_y),
+                                                  magnitude(load(args.z + at) - args.own_z)));
+            const Ints votes = (distance > 0.5F) & (distance <= kReach);
+            const Floats score = load(args.score + at), weight = load(args.weight + at);
+            const Floats first = load(args.first + at), last = load(args.last + at);
+            const Floats both =
+                smaller(last, zero + args.own_last) - larger(first, zero + args.own_first) + 1.0F;
+            const Floats either =
+                larger(last, zero + args.own_last) - smaller(first, zero + args.own_first) + 1.0F;
+            const Floats together = (votes & (both > 0.0F)) ? both / either : zero;
+            company[part] += together * score;
+            companions[part] += together * weight;
+            const Floats share = votes ? (distance > 1.5F ? zero + args.far : zero + 1.0F) : zero;
+            around[part] += share * score;
+            neighbors[part] += share * weight;
+        }
     }
     return args.company * sum(company) / (sum(companions) + args.alone) +
            args.neighborhood * sum(around) / (sum(neighbors) + args.alone);

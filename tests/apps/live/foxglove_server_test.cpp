@@ -351,7 +351,7 @@ TEST(FoxgloveServer, APortInUseIsAClearError) {
     } catch (const OutputError& error) {
         const std::string what = error.what();
         EXPECT_NE(what.find(fmt::format("127.0.0.1:{}", first.port())), std::string::npos) << what;
-        EXPECT_NE(what.find("choose another port"), std::string::npos) << what;
+        EXPECT_NE(what.find("choose another foxglove.port"), std::string::npos) << what;
     }
     EXPECT_THROW(FoxgloveServer(io::MessageEncoding::cdr,
                                 {.address = "192.0.2.1", .port = 0, .origins = {}}),
