@@ -126,7 +126,8 @@ Handshake judge_handshake(std::string_view head, const std::vector<std::string>&
     Headers headers = headers_of(head);
     const std::string& origin = headers["origin"];
     if (!is_allowed_origin(origin, origins)) {
-        Handshake stranger = refused(403, "pages of this origin may not connect; see foxglove.origins");
+        Handshake stranger =
+            refused(403, "pages of this origin may not connect; see foxglove.origins");
         stranger.origin = origin;
         return stranger;
     }

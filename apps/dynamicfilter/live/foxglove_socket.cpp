@@ -37,9 +37,10 @@ Addresses resolve(const std::string& address, std::uint16_t port) {
 }
 
 std::string advice_for(int error) {
-    return error == EADDRINUSE ? "stop the program that listens there, or choose another foxglove.port"
-           : error == EACCES   ? "choose a port above 1023"
-                               : "choose an address of this machine, such as 127.0.0.1";
+    return error == EADDRINUSE
+               ? "stop the program that listens there, or choose another foxglove.port"
+           : error == EACCES ? "choose a port above 1023"
+                             : "choose an address of this machine, such as 127.0.0.1";
 }
 
 void set(int socket, int level, int option, int value) {

@@ -183,8 +183,6 @@ void Outputs::publish_part(const Output& output, const LiveScan& scan, const Lab
 }
 
 JudgedScan Outputs::judged(const LiveScan& scan, const Verdict& verdict) {
-    publish_part(topics_.still, scan, verdict.labels, false);
-    publish_part(topics_.dynamic, scan, verdict.labels, true);
     const Points points = io::positions(scan.cloud);
     if (is_wanted(topics_.labels)) {
         auto message =
@@ -192,6 +190,8 @@ JudgedScan Outputs::judged(const LiveScan& scan, const Verdict& verdict) {
         restamp(message, scan.stamp_ns);
         publish(topics_.labels, scan.stamp, std::move(message));
     }
+    publish_part(topics_.still, scan, verdict.labels, false);
+    publish_part(topics_.dynamic, scan, verdict.labels, true);
     const Pose T_world_sensor =
         verdict.tracked ? verdict.tracked->T_world_sensor : scan.T_world_sensor;
     const std::string& world = scan.has_pose ? scan.world : config_.output.map_frame;
@@ -205,7 +205,6 @@ JudgedScan Outputs::judged(const LiveScan& scan, const Verdict& verdict) {
 }
 
 void Outputs::settled(const JudgedScan& scan, const Verdict& verdict) {
-    if (!is_wanted(topics_.corrections)) return;
     const double stamp = 1e-9 * static_cast<double>(scan.stamp_ns);
     auto message = io::cloud_message(correction_cloud(scan, verdict), stamp, scan.frame, encoding_);
     restamp(message, scan.stamp_ns);

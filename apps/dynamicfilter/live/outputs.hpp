@@ -54,6 +54,7 @@ public:
     void diagnostics(const std::vector<io::DiagnosticStatus>& statuses, double stamp);
 
     [[nodiscard]] bool wants_map() const { return is_wanted(topics_.map); }
+    [[nodiscard]] bool wants_corrections() const { return is_wanted(topics_.corrections); }
     /// Number of messages that were not taken, because a receiver is too slow.
     [[nodiscard]] std::uint64_t not_taken() const { return not_taken_; }
 

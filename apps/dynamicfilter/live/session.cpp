@@ -16,10 +16,19 @@ OnlineOptions options_of(const LiveConfig& config) {
             .overload = Overload::drop_oldest,
             .horizon = config.limits.horizon,
             .max_bytes = static_cast<std::size_t>(config.limits.map_mib) << 20,
-            .settle_after = config.filter.method == Method::scans
-                                ? static_cast<std::size_t>(config.output.settle_after)
-                                : 0,
+            .settle_after = 0,  // scans are settled here, and only if somebody wants corrections
             .threads = config.limits.threads};
+}
+
+/// The scan as the filter saw it.
+Scan scan_of(const LiveScan& scan, const Verdict& verdict) {
+    Scan seen{scan.points, scan.T_world_sensor, scan.stamp, verdict.index, true, {}};
+    if (!verdict.tracked) return seen;
+    seen.T_world_sensor = verdict.tracked->T_world_sensor;
+    if (!scan.times.empty()) {
+        seen.points = undo_motion(seen.points, scan.times, verdict.tracked->velocity);
+    }
+    return seen;
 }
 
 }  // namespace
@@ -65,16 +74,13 @@ void Session::fail(std::exception_ptr error) {
 
 OnlineCallbacks Session::callbacks() {
     return {.instant = [this](const Verdict& verdict) { take_instant(verdict); },
-            .settled =
-                [this](const Verdict& verdict) {
-                    put({nullptr, verdict, true});
-                },
+            .settled = {},
             .notice = [this](const Notice& notice) { take_notice(notice); }};
 }
 
 void Session::push(LiveScan scan) {
-    Scan core{std::move(scan.points), scan.T_world_sensor, scan.stamp,
-              next_index_++,          scan.has_pose,       std::move(scan.times)};
+    Scan core{scan.points,   scan.T_world_sensor, scan.stamp,
+              next_index_++, scan.has_pose,       scan.times};
     {
         const std::lock_guard hold(lock_);
         if (failure_) std::rethrow_exception(failure_);
@@ -105,7 +111,7 @@ void Session::take_instant(const Verdict& verdict) {
         }
         if (!scan->has_pose) newest_->world = config_.output.map_frame;
     }
-    put({std::move(scan), verdict, false});
+    put({std::move(scan), verdict});
 }
 
 /// The scan of all notices but those of new maps gets no verdict.
@@ -125,7 +131,7 @@ void Session::put(Work work) {
         if (stopping_) return;
         work_.push_back(std::move(work));
         if (work_.size() > kMostWork) {
-            unpublished_ += work_.front().settled ? 0 : 1;
+            ++unpublished_;
             work_.pop_front();
         }
     }
@@ -149,20 +155,17 @@ void Session::publish_work() {
 }
 
 void Session::publish(Work& work) {
-    if (work.settled) {
-        const auto scan = unsettled_.find(work.verdict.index);
-        if (scan == unsettled_.end()) return;
-        outputs_.settled(scan->second, work.verdict);
-        // Those before it were dropped on the way here.
-        unsettled_.erase(unsettled_.begin(), std::next(scan));
-        return;
-    }
     JudgedScan judged = outputs_.judged(*work.scan, work.verdict);
     note_latency(*work.scan);
     ++published_;
     if (recorder_ != nullptr) recorder_->add(*work.scan);
-    if (config_.output.settle_after > 0 && filter_->judges_each_scan()) {
-        unsettled_.emplace(work.verdict.index, std::move(judged));
+    if (config_.output.settle_after == 0 || !filter_->judges_each_scan()) return;
+    unsettled_.push_back({std::move(judged), scan_of(*work.scan, work.verdict)});
+    if (unsettled_.size() <= static_cast<std::size_t>(config_.output.settle_after)) return;
+    const Unsettled due = std::move(unsettled_.front());
+    unsettled_.pop_front();
+    if (outputs_.wants_corrections()) {
+        outputs_.settled(due.judged, filter_->settled(due.scan));
     }
 }
 

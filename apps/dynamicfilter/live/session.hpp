@@ -60,7 +60,10 @@ private:
     struct Work {
         std::shared_ptr<LiveScan> scan;
         Verdict verdict;
-        bool settled = false;
+    };
+    struct Unsettled {
+        JudgedScan judged;
+        Scan scan;
     };
     OnlineCallbacks callbacks();
     void take_instant(const Verdict& verdict);
@@ -93,7 +96,7 @@ private:
     bool stopping_ = false;
     std::exception_ptr failure_;  // of publishing
 
-    std::map<std::size_t, JudgedScan> unsettled_;  // of the publishing thread; keys: Scan::index
+    std::deque<Unsettled> unsettled_;  // of the publishing thread
     std::atomic<std::uint64_t> published_{0}, unpublished_{0};
     std::size_t next_index_ = 0;
     std::unique_ptr<OnlineFilter> filter_;
