@@ -19,6 +19,8 @@ endforeach()
 if(TARGET dynamic_filter_ros1)
   df_test(apps/live/ros1_bus dynamic_filter_ros1)
   target_compile_definitions(apps_live_ros1_bus_test PRIVATE ROS1_PEER="${CMAKE_CURRENT_LIST_DIR}/live/ros1_peer.py")
+  add_test(NAME apps/live/live_ros1 COMMAND ${CMAKE_CURRENT_LIST_DIR}/live/live_ros1_test.sh $<TARGET_FILE:dynamicfilter>
+    $<TARGET_FILE:dynamicfilter_ros1>)
 endif()
 add_executable(live_player ${CMAKE_CURRENT_LIST_DIR}/live/player.cpp)
 set_target_properties(live_player PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)

@@ -251,6 +251,8 @@ bool Intake::must_wait_for_pose(const LiveScan& scan, SteadyTime now) const {
     if (origin_ == PoseOrigin::odometry) return false;
     if (seconds_between(scan.arrived, now) >= config_.input.wait) return false;
     if (origin_ == PoseOrigin::undecided) return true;
+    // A single transform does not tell whether it will change.
+    if (origin_ == PoseOrigin::frames && !frames_.moves(scan.frame)) return true;
     const auto newest = newest_pose(scan.frame);
     return !newest || *newest < scan.stamp + static_cast<double>(latest(scan.times));
 }

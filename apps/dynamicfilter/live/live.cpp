@@ -138,7 +138,7 @@ private:
         if (missing == 0 || Clock::now() < next_missing_) return;
         next_missing_ = Clock::now() + kPause;
         told_missing_ = now.intake.without_pose;
-        warn(fmt::format("{} have no pose: {}", scans(missing), intake_.last_missing()));
+        warn(fmt::format("no pose for {}: {}", scans(missing), intake_.last_missing()));
     }
 
     void watch_speed(const Figures& now) {
@@ -167,15 +167,19 @@ private:
                       next_dropped_ = start_;
 };
 
-/// What --record would write over.
-void refuse_existing(const LiveOptions& o, const fs::path& bag) {
-    if (o.overwrite) return;
-    for (const fs::path& path : {*o.record, bag}) {
-        const bool taken = fs::is_directory(path) ? !fs::is_empty(path) : fs::exists(path);
-        if (taken) {
-            throw ConfigError(path.string() + ": exists; choose another --record, or --overwrite");
-        }
+/// The folders that `run` makes of the bags; not for a supervisor that wants the process to end.
+int finish(Recorder& recorder, const LiveOptions& o, const LiveConfig& config, bool own_poses) {
+    int worst = app::kDone;
+    const std::vector<fs::path> folders = recorder.commit();
+    if (folders.empty()) fmt::print(stderr, "note: no scan was judged, so nothing is recorded\n");
+    for (const fs::path& folder : folders) {
+        const fs::path bag = recorder.bag_of(folder);
+        fmt::print(stderr, "recorded {}\n", bag.string());
+        if (app::terminated()) continue;
+        worst =
+            std::max(worst, finish_recording(bag, folder, config, own_poses, o.overwrite, o.quiet));
     }
+    return worst;
 }
 
 }  // namespace
@@ -187,13 +191,8 @@ int live(Bus& bus, const LiveOptions& o) {
         return app::kDone;
     }
     if (o.dry_run) return dry_run(bus, config, o.look);
-    std::optional<fs::path> bag;
     std::optional<Recorder> recorder;
-    if (o.record) {
-        bag = recording_of(*o.record, bus.encoding());
-        refuse_existing(o, *bag);
-        recorder.emplace(*bag);
-    }
+    if (o.record) recorder.emplace(*o.record, bus.encoding(), o.overwrite);
     const auto foxglove = serve(config, bus.encoding());
     if (!o.quiet) {
         fmt::print(stderr, "listens  {}\n", bus.description());
@@ -219,20 +218,7 @@ int live(Bus& bus, const LiveOptions& o) {
     const Figures figures = chores.figures_now();
     if (!o.quiet) fmt::print("{}", to_text(figures));
     if (!recorder) return app::kDone;
-    if (figures.published == 0) {
-        fmt::print(stderr, "note: no scan was judged, so nothing is recorded\n");
-        return app::kDone;
-    }
-    recorder->commit();
-    recorder.reset();
-    const bool own_poses = figures.origin == PoseOrigin::odometry;
-    if (app::terminated()) {
-        fmt::print(stderr, "recorded {}; `dynamicfilter run` makes a map and a report of it\n",
-                   bag->string());
-        return app::kDone;
-    }
-    if (!o.quiet) fmt::print("recorded {}\n", bag->string());
-    return finish_recording(*bag, *o.record, config, own_poses, o.overwrite, o.quiet);
+    return finish(*recorder, o, config, figures.origin == PoseOrigin::odometry);
 }
 
 }  // namespace dynamic_filter::live

@@ -1,42 +1,91 @@
 // SPDX-License-Identifier: MIT
 #include "recorder.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
 #include "commands.hpp"
+#include "dynamic_filter/error.hpp"
 #include "dynamic_filter/io/messages.hpp"
 
 namespace dynamic_filter::live {
 
-std::filesystem::path recording_of(const std::filesystem::path& output,
-                                   io::MessageEncoding encoding) {
-    std::filesystem::path bag = output.lexically_normal();
-    if (bag.filename().empty()) bag = bag.parent_path();  // "out/"
-    bag += encoding == io::MessageEncoding::ros1 ? ".bag" : ".mcap";
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path without_slash(const fs::path& folder) {
+    const fs::path path = folder.lexically_normal();
+    return path.filename().empty() ? path.parent_path() : path;
+}
+
+}  // namespace
+
+Recorder::Recorder(const fs::path& output, io::MessageEncoding encoding, bool overwrite)
+    : output_(without_slash(output)), encoding_(encoding), overwrite_(overwrite) {
+    if (overwrite_ || !is_taken(output_)) return;
+    throw ConfigError(fmt::format("{} or {}: exists; choose another --record, or --overwrite",
+                                  output_.string(), bag_of(output_).string()));
+}
+
+fs::path Recorder::bag_of(const fs::path& output) const {
+    fs::path bag = output;
+    bag += encoding_ == io::MessageEncoding::ros1 ? ".bag" : ".mcap";
     return bag;
 }
 
-Recorder::Recorder(const std::filesystem::path& bag) : writer_(io::BagWriter::create(bag)) {}
+bool Recorder::is_taken(const fs::path& output) const {
+    const bool has_folder = fs::is_directory(output) ? !fs::is_empty(output) : fs::exists(output);
+    return has_folder || fs::exists(bag_of(output));
+}
+
+void Recorder::begin() {
+    current_ = output_;
+    const auto is_used = [&] {
+        const bool own = std::find(written_.begin(), written_.end(), current_) != written_.end();
+        return own || (!overwrite_ && is_taken(current_));
+    };
+    for (int n = 2; is_used(); ++n) {
+        current_ = output_;
+        current_ += fmt::format("-{}", n);
+    }
+    writer_ = io::BagWriter::create(bag_of(current_));
+    written_.push_back(current_);
+    last_scan_ = last_pose_ = -std::numeric_limits<double>::infinity();
+}
 
 void Recorder::add(const LiveScan& scan) {
-    const io::MessageEncoding encoding = writer_->encoding();
-    const auto write_pose = [&](double stamp, const Pose& pose) {
-        if (stamp <= last_pose_) return;
-        last_pose_ = stamp;
-        // Points in the world's frame have no frame of the sensor.
-        const std::string child = scan.frame == scan.world ? "sensor" : scan.frame;
-        writer_->write({"/odometry", "nav_msgs/Odometry", encoding}, io::to_nanoseconds(stamp),
-                       io::odometry_message(scan.world, child, pose, stamp, encoding));
-    };
-    writer_->write({"/points", "sensor_msgs/PointCloud2", encoding}, scan.stamp_ns,
-                   io::cloud_message(scan.cloud, scan.stamp, scan.frame, encoding));
+    if (writer_ != nullptr && scan.stamp <= last_scan_) {
+        writer_->commit();
+        writer_.reset();
+    }
+    if (writer_ == nullptr) begin();
+    last_scan_ = scan.stamp;
+    writer_->write({"/points", "sensor_msgs/PointCloud2", encoding_}, scan.stamp_ns,
+                   io::cloud_message(scan.cloud, scan.stamp, scan.frame, encoding_));
     if (!scan.has_pose) return;
-    if (last_pose_ > scan.stamp + 1.0) last_pose_ = -1.0;  // the clock was set back
-    write_pose(scan.stamp, scan.T_world_sensor);
+    write_pose(scan, scan.stamp, scan.T_world_sensor);
     for (std::size_t i = 0; i < scan.trajectory.stamps.size(); ++i) {
-        write_pose(scan.trajectory.stamps[i], scan.trajectory.poses[i]);
+        write_pose(scan, scan.trajectory.stamps[i], scan.trajectory.poses[i]);
     }
 }
 
-void Recorder::commit() { writer_->commit(); }
+void Recorder::write_pose(const LiveScan& scan, double stamp, const Pose& T_world_sensor) {
+    if (stamp <= last_pose_) return;
+    last_pose_ = stamp;
+    // Points in the world's frame have no frame of the sensor.
+    const std::string child = scan.frame == scan.world ? "sensor" : scan.frame;
+    writer_->write({"/odometry", "nav_msgs/Odometry", encoding_}, io::to_nanoseconds(stamp),
+                   io::odometry_message(scan.world, child, T_world_sensor, stamp, encoding_));
+}
+
+std::vector<fs::path> Recorder::commit() {
+    if (writer_ != nullptr) writer_->commit();
+    writer_.reset();
+    return written_;
+}
 
 int finish_recording(const std::filesystem::path& bag, const std::filesystem::path& output,
                      const LiveConfig& config, bool without_poses, bool overwrite, bool quiet) {

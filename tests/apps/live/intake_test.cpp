@@ -88,6 +88,17 @@ TEST(Intake, AScanWaitsForALatePose) {
     EXPECT_NEAR(scan->T_world_sensor.translation().x(), 1.0, 1e-6);
 }
 
+TEST(Intake, AScanWaitsForTheSecondTransform) {
+    IntakeOf intake("input.wait", "5");
+    intake->put(kTf, false, link("map", "lidar", at(1.0), 100.0));
+    intake->put(kPoints, false, cloud_at(100.0));
+    EXPECT_FALSE(intake->take(0.05)) << "it is not known yet whether the frame moves";
+    intake->put(kTf, false, link("map", "lidar", at(2.0), 100.1));
+    const auto scan = intake.take();
+    ASSERT_TRUE(scan);
+    EXPECT_NEAR(scan->T_world_sensor.translation().x(), 1.0, 1e-6);
+}
+
 TEST(Intake, ScansWithoutPosesAreCountedAndExplained) {
     IntakeOf intake("input.pose", "/tf");
     intake->put(kPoints, false, cloud_at(100.0));

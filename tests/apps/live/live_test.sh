@@ -67,7 +67,7 @@ expect() { # expect CODE TEXT OPTION...
     cat wrong.log wrong.err | grep -q -- "$text" || fail "live $*: does not say '$text'"
 }
 expect 2 "did you mean 'input.cloud'" --set input.clod=/points
-expect 2 'out.mcap: exists' --record out.mcap
+expect 2 'exists; choose another --record' --record out.mcap
 expect 2 'exists; choose another --record' --record out
 expect 1 'cannot join DDS domain' --set bus.network=nosuchdevice
 expect 4 'nothing is published that could be used' --dry-run --look 1
