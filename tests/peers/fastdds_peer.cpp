@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Another implementation of DDS, eProsima's Fast DDS, at the other end of the wire:
 //   fastdds_peer publish|relay|subscribe|decode OPTION=VALUE...
-// publish sends count= messages of sizes=, a list with commas, at rate= per second, once match=
-// subscribers are there, and prints the size and the FNV-1a hash of each; relay sends the messages
-// of standard input, each behind its size in four bytes. subscribe prints the size and the hash of
-// what it gets, decode the fields. All end with their standard input. See Options for the rest.
-
-#include <poll.h>
-#include <unistd.h>
+// publish reads lines "COUNT RATE SIZE..." from standard input, sends so many messages of these
+// sizes in turn, at so many per second, and prints the size and the FNV-1a hash of each, and
+// "done". relay sends the messages of standard input, each behind its size in four bytes. subscribe
+// prints the size and the hash of what it gets, decode the fields. All end with their standard
+// input. See Options for the rest.
 
 #include <chrono>
 #include <cstdio>
@@ -20,6 +18,8 @@
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
+#include <iostream>
+#include <iterator>
 #include <random>
 #include <sstream>
 #include <stdexcept>
@@ -56,12 +56,8 @@ Bytes random_message(std::size_t size, unsigned seed) {
     return message;
 }
 
-/// True once standard input has ended, or after the time.
-bool input_ended(int milliseconds) {
-    pollfd input{STDIN_FILENO, POLLIN, 0};
-    if (poll(&input, 1, milliseconds) <= 0) return false;
-    char ignored = 0;
-    return read(STDIN_FILENO, &ignored, 1) <= 0;
+void wait_for_end_of_input() {
+    while (std::getc(stdin) != EOF) continue;
 }
 
 void require(bool done, const char* what) {
@@ -131,31 +127,26 @@ void subscribe(const Options& options, bool decodes) {
     require(subscriber->create_datareader(p.topic, options.reader(), &listener) != nullptr,
             "a reader");
     say("ready");
-    while (!input_ended(-1)) continue;
+    wait_for_end_of_input();
     p.participant->delete_contained_entities();  // before the listener ends
 }
 
-/// False if standard input ended before there were so many subscribers.
-bool wait_for_subscribers(dds::DataWriter& writer, int count) {
-    dds::PublicationMatchedStatus status;
-    while (writer.get_publication_matched_status(status) == ReturnCode_t::RETCODE_OK &&
-           status.current_count < count) {
-        if (input_ended(5)) return false;
-    }
-    return true;
-}
-
-void publish_random(const Options& options, dds::DataWriter& writer) {
-    std::vector<std::size_t> sizes;
-    std::istringstream list(options.text("sizes", "100"));
-    for (std::string size; std::getline(list, size, ',');) sizes.push_back(std::stoul(size));
-    const std::chrono::duration<double> pause(1.0 / options.number("rate", 1000));
-    const auto count = static_cast<std::size_t>(options.number("count", 1));
-    for (std::size_t i = 0; i < count; ++i) {
-        Bytes message = random_message(sizes[i % sizes.size()], static_cast<unsigned>(i + 1));
-        require(writer.write(&message), "room for a message");
-        say("sent " + size_and_hash(message));
-        std::this_thread::sleep_for(pause);
+void publish_random(dds::DataWriter& writer) {
+    unsigned seed = 0;
+    for (std::string line; std::getline(std::cin, line);) {
+        std::istringstream words(line);
+        std::size_t count = 0;
+        double rate = 0;
+        words >> count >> rate;
+        const std::vector<std::size_t> sizes{std::istream_iterator<std::size_t>(words), {}};
+        require(rate > 0 && !sizes.empty(), "sense of a line");
+        for (std::size_t i = 0; i < count; ++i) {
+            Bytes message = random_message(sizes[i % sizes.size()], ++seed);
+            require(writer.write(&message), "room for a message");
+            say("sent " + size_and_hash(message));
+            std::this_thread::sleep_for(std::chrono::duration<double>(1 / rate));
+        }
+        say("done");
     }
 }
 
@@ -175,16 +166,13 @@ void publish(const Options& options, bool relays) {
     dds::DataWriter* const writer = publisher->create_datawriter(p.topic, options.writer());
     require(writer != nullptr, "a writer");
     say("ready");
-    if (!wait_for_subscribers(*writer, static_cast<int>(options.number("match", 1)))) return;
     if (relays) {
         publish_input(*writer);
     } else {
-        publish_random(options, *writer);
+        publish_random(*writer);
     }
     constexpr int kPatience = 20;  // [s]
     writer->wait_for_acknowledgments({kPatience, 0});
-    say("done");
-    while (!relays && !input_ended(-1)) continue;
 }
 
 int run(int count, char** arguments) {
