@@ -13,6 +13,11 @@ add_test(NAME apps/interrupt COMMAND ${CMAKE_CURRENT_LIST_DIR}/interrupt_test.sh
 add_test(NAME apps/completion COMMAND ${CMAKE_CURRENT_LIST_DIR}/completion_test.sh $<TARGET_FILE:dynamicfilter>
   ${PROJECT_SOURCE_DIR}/packaging/dynamicfilter.bash)
 
-foreach(unit dds_bus)
+df_test(apps/live/dds_bus dynamic_filter_live)
+foreach(unit dds_cdr dds_fuzz dds_peer)
   df_test(apps/live/${unit} dynamic_filter_live)
+  target_include_directories(apps_live_${unit}_test PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  target_compile_definitions(apps_live_${unit}_test PRIVATE FASTDDS_PEER="$<TARGET_FILE:fastdds_peer>")
+  add_dependencies(apps_live_${unit}_test fastdds_peer)
 endforeach()
+target_sources(apps_live_dds_fuzz_test PRIVATE ${CMAKE_CURRENT_LIST_DIR}/live/largest_allocation.cpp)

@@ -29,3 +29,10 @@ endforeach()
 foreach(kind npy bin)
   df_peer(numpy/${kind} write_clouds ${kind} ${DF_PYTHON} read_cloud.py)
 endforeach()
+
+# Another implementation of DDS, for the tests of the live filter.
+find_package(fastcdr REQUIRED)
+find_package(fastrtps REQUIRED)
+add_executable(fastdds_peer ${CMAKE_CURRENT_LIST_DIR}/fastdds_peer.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/fastdds_options.cpp ${CMAKE_CURRENT_LIST_DIR}/cdr_text.cpp)
+target_link_libraries(fastdds_peer PRIVATE fastrtps fastcdr dynamic_filter_flags)
