@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "dds_configuration.hpp"
+#include "dds_log.hpp"
 #include "dds_type.hpp"
 #include "dynamic_filter/error.hpp"
 
@@ -72,8 +73,15 @@ Quality quality_of(const dds_qos_t* qos) {
     return quality;
 }
 
+std::vector<std::string> reasons_of(dds_return_t code) {
+    std::vector<std::string> reasons = take_dds_log();
+    if (reasons.empty()) reasons.emplace_back(dds_strretcode(-code));
+    return reasons;
+}
+
 void require(dds_return_t code, const std::string& what) {
-    if (code < 0) throw Error(fmt::format("{}: {}", what, dds_strretcode(-code)));
+    if (code >= 0) return;
+    throw Error(fmt::format("{}: {}", what, fmt::join(reasons_of(code), "; ")));
 }
 
 /// A domain of DDS exists once in a process, whichever bus has made it, and has the configuration
@@ -214,6 +222,7 @@ DdsBus::DdsBus(const DdsOptions& options) : engine_(std::make_unique<Engine>()) 
         throw ConfigError(
             fmt::format("bus.domain is {}; expected 0 to {}", options.domain, kMostDomain));
     }
+    keep_dds_log();
     const char* const uri = std::getenv("CYCLONEDDS_URI");
     const bool by_user = options.network.empty() && uri != nullptr && *uri != '\0';
     if (!by_user) {
@@ -323,6 +332,12 @@ void DdsBus::subscribe(const io::Topic& topic, const Quality& quality, Receive r
         dds_delete(current->entity);
     }
     current = std::move(reader);
+}
+
+std::vector<std::string> DdsBus::take_notices() {
+    std::vector<std::string> notices = take_dds_log();
+    for (std::string& notice : notices) notice.insert(0, "DDS: ");
+    return notices;
 }
 
 std::uint64_t DdsBus::lost() const {

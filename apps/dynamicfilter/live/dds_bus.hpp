@@ -34,7 +34,7 @@ public:
     [[nodiscard]] std::vector<SeenTopic> seen() const override;
     void subscribe(const io::Topic& topic, const Quality& quality, Receive receive) override;
     [[nodiscard]] std::uint64_t lost() const override;
-    std::vector<std::string> take_notices() override { return {}; }
+    std::vector<std::string> take_notices() override;
     std::vector<std::pair<std::string, std::string>> take_parameters() override { return {}; }
 
 private:

@@ -89,12 +89,9 @@ std::string dds_configuration(const std::string& network, int domain) {
         throw ConfigError(fmt::format(
             "bus.network is '{}'; expected localhost, all, or the name of an interface", network));
     }
-    // Without its warnings: one of them says at each start that loopback is used for multicast.
     return fmt::format(
         "<CycloneDDS><Domain id=\"any\"><General>{}</General><Discovery>{}</Discovery><Internal>"
-        "<SocketReceiveBufferSize "
-        "max=\"10MB\"/></Internal><Tracing><Category>fatal,error</Category>"
-        "<OutputFile>stderr</OutputFile></Tracing></Domain></CycloneDDS>",
+        "<SocketReceiveBufferSize max=\"10MB\"/></Internal></Domain></CycloneDDS>",
         general, discovery);
 }
 

@@ -202,5 +202,105 @@ TEST_F(DdsFuzz, MessagesWithoutHeader) {
     }));
 }
 
+/// The UDP packets of a capture of Cyclone DDS.
+std::vector<Message> packets_in(const std::filesystem::path& capture) {
+    constexpr std::size_t kFileHead = 24, kPacketHead = 16, kIpAndUdpHead = 28;
+    std::ifstream in(capture, std::ios::binary);
+    in.ignore(kFileHead);
+    std::vector<Message> packets;
+    std::uint32_t head[kPacketHead / sizeof(std::uint32_t)];
+    while (in.read(reinterpret_cast<char*>(head), sizeof head)) {
+        Message packet(head[2]);
+        in.read(reinterpret_cast<char*>(packet.data()),
+                static_cast<std::streamsize>(packet.size()));
+        if (!in || packet.size() <= kIpAndUdpHead) continue;
+        packet.erase(packet.begin(), packet.begin() + kIpAndUdpHead);
+        packets.push_back(std::move(packet));
+    }
+    return packets;
+}
+
+/// Sends packets to a port of this machine.
+class Sender {
+public:
+    explicit Sender(int port) : socket_(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
+        sockaddr_in address{};
+        address.sin_family = AF_INET;
+        address.sin_port = htons(static_cast<std::uint16_t>(port));
+        address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        (void)connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address);
+    }
+    Sender(const Sender&) = delete;
+    Sender& operator=(const Sender&) = delete;
+    ~Sender() { close(socket_); }
+    void send(const Message& packet) const {
+        (void)::send(socket_, packet.data(), packet.size(), 0);
+    }
+
+private:
+    int socket_;
+};
+
+/// What two buses in two processes would say to each other, by a peer that comes and goes.
+std::vector<Message> captured_packets(int domain) {
+    const test::TemporaryFolder folder;
+    const std::string start = "</Internal>";
+    std::string configuration = dds_configuration("localhost", domain);
+    configuration.insert(configuration.find(start) + start.size(),
+                         "<Tracing><PacketCaptureFile>" + (folder / "packets").string() +
+                             "</PacketCaptureFile></Tracing>");
+    setenv("CYCLONEDDS_URI", configuration.c_str(), 1);
+    {
+        const io::Topic topic{"/points", "sensor_msgs/PointCloud2", kCdr};
+        DdsBus bus({.domain = domain, .network = {}});
+        Inbox inbox;
+        bus.subscribe(topic, {}, inbox.receive());
+        bus.advertise({"/out", topic.type, kCdr}, {});
+        const std::string number = "domain=" + std::to_string(domain);
+        PeerProcess publisher({FASTDDS_PEER, "publish", number});
+        PeerProcess subscriber({FASTDDS_PEER, "subscribe", number, "topic=rt/out"});
+        EXPECT_TRUE(eventually([&] {
+            publisher.write("1 1000 100 200000\n");
+            bus.publish("/out", 0.0, std::make_shared<const Message>(200000, std::byte{1}));
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+            return inbox.size() > 3 && subscriber.said("got").size() > 3;
+        }));
+    }
+    unsetenv("CYCLONEDDS_URI");
+    return packets_in(folder / "packets");
+}
+
+TEST(DdsPackets, FaultyPacketsDoNotStopReception) {
+    const ReservedDomain domain;
+    const std::vector<Message> packets = captured_packets(domain.number());
+    ASSERT_GT(packets.size(), 50U);
+    // Only by loopback, because faulty addresses must not be answered.
+    DdsBus bus({.domain = domain.number(), .network = "lo"});
+    Inbox inbox;
+    bus.subscribe({"/points", "sensor_msgs/PointCloud2", kCdr}, {}, inbox.receive());
+    const int first = 7400 + 250 * domain.number() + 10;
+    const Sender discovery(first), data(first + 1);
+    Mutator mutator(1);
+    constexpr std::size_t kProtocol = 4, kHead20 = 20, kCount = 20000;
+    for (std::size_t i = 0; i < kCount; ++i) {
+        Message packet = packets[mutator.below(packets.size())];
+        if (i % 10 == 0) {
+            packet.resize(kHead20 + mutator.below(1000));
+            for (std::size_t at = kProtocol; at < packet.size(); ++at) {
+                packet[at] = static_cast<std::byte>(mutator.below(256));
+            }
+        }
+        packet = mutator.mutate(std::move(packet), i % 3 == 0 ? kProtocol : kHead20);
+        (i % 2 == 0 ? discovery : data).send(packet);
+        if (i % 100 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    PeerProcess peer({FASTDDS_PEER, "publish", "domain=" + std::to_string(domain.number())});
+    EXPECT_TRUE(eventually([&] {
+        peer.write("1 1000 100000\n");
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        return inbox.size() > 0;
+    }));
+}
+
 }  // namespace
 }  // namespace dynamic_filter::live
