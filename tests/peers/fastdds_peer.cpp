@@ -7,6 +7,7 @@
 // prints the size and the hash of what it gets, decode the fields. All end with their standard
 // input. See Options for the rest.
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
@@ -47,12 +48,13 @@ std::string size_and_hash(const Bytes& message) {
     return out.str();
 }
 
-/// Random bytes behind a CDR header in little endian.
+/// Random bytes behind a CDR header in little endian, which has four bytes.
 Bytes random_message(std::size_t size, unsigned seed) {
+    constexpr std::size_t kHead = 4;
     std::minstd_rand random(seed);
-    Bytes message(size);
+    Bytes message(std::max(size, kHead));
     for (unsigned char& byte : message) byte = static_cast<unsigned char>(random() >> 8);
-    for (std::size_t i = 0; i < 4; ++i) message[i] = i == 1 ? 1 : 0;
+    for (std::size_t i = 0; i < kHead; ++i) message[i] = i == 1 ? 1 : 0;
     return message;
 }
 

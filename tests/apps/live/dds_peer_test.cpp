@@ -143,7 +143,7 @@ TEST_F(DdsPeer, SmallReliableMessagesArriveExactly) {
 TEST_F(DdsPeer, LargeReliableMessagesArriveExactly) {
     const auto peer = start("publish", {"depth=0"});
     bus.subscribe(cloud, kReliable, inbox.receive());
-    expect_exact(*peer, 10, "20 4000000 65536 4000001 1 70000");
+    expect_exact(*peer, 10, "20 4000000 65536 4000001 5 70000");
 }
 
 TEST_F(DdsPeer, BestEffortMessagesArriveWhole) {
