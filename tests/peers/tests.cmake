@@ -39,3 +39,12 @@ foreach(encoding ros1 cdr)
            COMMAND ${CMAKE_CURRENT_LIST_DIR}/foxglove.sh $<TARGET_FILE:serve_foxglove> ${encoding})
   set_tests_properties(peers/foxglove/${encoding} PROPERTIES SKIP_RETURN_CODE 77)
 endforeach()
+# Another implementation of DDS, for the tests of the live filter.
+find_package(fastcdr REQUIRED)
+find_package(fastrtps REQUIRED)
+add_executable(fastdds_peer ${CMAKE_CURRENT_LIST_DIR}/fastdds_peer.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/fastdds_options.cpp ${CMAKE_CURRENT_LIST_DIR}/cdr_text.cpp)
+target_link_libraries(fastdds_peer PRIVATE fastrtps fastcdr dynamic_filter_flags)
+# Fast DDS deletes objects with another size than they were made with, which sanitizers object to.
+target_compile_options(fastdds_peer PRIVATE -fno-sanitize=all)
+target_link_options(fastdds_peer PRIVATE -fno-sanitize=all)

@@ -22,6 +22,8 @@ OTHERS = {
     f"{APP}/edits/edits.cpp": "tests/apps/edits_test.cpp",
     f"{APP}/edits/map_gaps.cpp": "tests/apps/edits_test.cpp",
     f"{APP}/edits/run_edits.cpp": "tests/apps/edits_test.cpp",
+    f"{APP}/live/dds_configuration.cpp": "tests/apps/live/dds_peer_test.cpp",
+    f"{APP}/live/dds_log.cpp": "tests/apps/live/dds_bus_test.cpp",
     f"{APP}/live/dds_type.cpp": "tests/apps/live/dds_bus_test.cpp",
     f"{APP}/live/foxglove_socket.cpp": "tests/apps/live/foxglove_server_test.cpp",
     **{f"{APP}/live/{unit}.cpp": "tests/apps/live/live_test.sh" for unit in (

@@ -56,7 +56,7 @@ public:
 /// A bus of messages. Thread-safe.
 class Bus : public Publisher {
 public:
-    /// Called in threads of the bus, one message of a topic after the other.
+    /// Called in threads of the bus, one message of a topic after the other. Must not throw.
     using Receive = std::function<void(const io::Topic& topic, const Bytes& message)>;
 
     [[nodiscard]] virtual io::MessageEncoding encoding() const = 0;
@@ -64,7 +64,8 @@ public:
     [[nodiscard]] virtual std::string description() const = 0;
     /// What others publish now.
     [[nodiscard]] virtual std::vector<SeenTopic> seen() const = 0;
-    /// Receives a topic. Replaces an earlier subscription of the same topic.
+    /// Receives a topic. Replaces an earlier subscription of the same topic; that one may still be
+    /// busy with a message when this returns.
     virtual void subscribe(const io::Topic& topic, const Quality& quality, Receive receive) = 0;
     /// Ends all subscriptions: once it has returned, nothing is received any more.
     virtual void stop() = 0;

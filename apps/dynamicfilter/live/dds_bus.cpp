@@ -4,13 +4,15 @@
 #include <dds/dds.h>
 #include <fmt/format.h>
 
-#include <atomic>
 #include <cstdlib>
 #include <cstring>
 #include <map>
 #include <mutex>
 #include <thread>
+#include <utility>
 
+#include "dds_configuration.hpp"
+#include "dds_log.hpp"
 #include "dds_type.hpp"
 #include "dynamic_filter/error.hpp"
 
@@ -40,6 +42,22 @@ Qos qos_of(const Quality& quality) {
     return qos;
 }
 
+Qos qos_of_writer(const Quality& quality) {
+    Qos qos = qos_of(quality);
+    constexpr dds_data_representation_id_t kSent = DDS_DATA_REPRESENTATION_XCDR1;
+    dds_qset_data_representation(qos.get(), 1, &kSent);
+    return qos;
+}
+
+/// Whoever sends version 2 of CDR is received, too.
+Qos qos_of_reader(const Quality& quality) {
+    Qos qos = qos_of(quality);
+    constexpr std::array<dds_data_representation_id_t, 2> kRead = {DDS_DATA_REPRESENTATION_XCDR1,
+                                                                   DDS_DATA_REPRESENTATION_XCDR2};
+    dds_qset_data_representation(qos.get(), kRead.size(), kRead.data());
+    return qos;
+}
+
 /// The least that a publisher offers; what it does not say is DDS's default.
 Quality quality_of(const dds_qos_t* qos) {
     Quality quality{.reliable = true, .latched = false, .depth = 1};
@@ -55,14 +73,50 @@ Quality quality_of(const dds_qos_t* qos) {
     return quality;
 }
 
-bool is_name_of_interface(const std::string& name) {
-    return !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
-        return std::isalnum(c) != 0 || c == '-' || c == '_' || c == '.' || c == ':';
-    });
+std::vector<std::string> reasons_of(dds_return_t code) {
+    std::vector<std::string> reasons = take_dds_log();
+    if (reasons.empty()) reasons.emplace_back(dds_strretcode(-code));
+    return reasons;
 }
 
 void require(dds_return_t code, const std::string& what) {
-    if (code < 0) throw Error(fmt::format("{}: {}", what, dds_strretcode(-code)));
+    if (code >= 0) return;
+    throw Error(fmt::format("{}: {}", what, fmt::join(reasons_of(code), "; ")));
+}
+
+/// A domain of DDS exists once in a process, whichever bus has made it, and has the configuration
+/// that it was made with.
+class SharedDomains {
+public:
+    /// Returns an error code below 0 if the domain cannot be made.
+    dds_return_t join(int id, const std::string& configuration) {
+        const std::lock_guard hold(lock_);
+        Domain& domain = domains_[id];
+        if (domain.users == 0) {
+            domain.entity =
+                dds_create_domain(static_cast<dds_domainid_t>(id), configuration.c_str());
+        }
+        if (domain.entity >= 0) ++domain.users;
+        return domain.entity;
+    }
+    void leave(int id) {
+        const std::lock_guard hold(lock_);
+        Domain& domain = domains_[id];
+        if (--domain.users == 0) dds_delete(domain.entity);
+    }
+
+private:
+    struct Domain {
+        dds_entity_t entity = 0;
+        int users = 0;
+    };
+    std::mutex lock_;
+    std::map<int, Domain> domains_;
+};
+
+SharedDomains& shared_domains() {
+    static SharedDomains domains;
+    return domains;
 }
 
 }  // namespace
@@ -88,36 +142,6 @@ std::string type_of_dds(const std::string& name) {
     return name.substr(0, at) + "/" + name.substr(type, name.size() - 1 - type);
 }
 
-std::string dds_configuration(const std::string& network) {
-    std::string interface, discovery;
-    if (network == "localhost") {
-        // Large fragments, because nothing limits packets here; participants find each other at
-        // the addresses that ROS 2 uses when it is limited to this machine.
-        interface =
-            "<Interfaces><NetworkInterface name=\"lo\" multicast=\"false\"/></Interfaces>"
-            "<AllowMulticast>false</AllowMulticast><MaxMessageSize>65500B</MaxMessageSize>"
-            "<FragmentSize>60000B</FragmentSize>";
-        discovery =
-            "<Discovery><ParticipantIndex>auto</ParticipantIndex>"
-            "<MaxAutoParticipantIndex>32</MaxAutoParticipantIndex>"
-            "<Peers><Peer address=\"127.0.0.1\"/></Peers></Discovery>";
-    } else if (network == "all") {
-        interface = "<Interfaces><NetworkInterface autodetermine=\"true\"/></Interfaces>";
-    } else if (is_name_of_interface(network)) {
-        interface =
-            fmt::format("<Interfaces><NetworkInterface name=\"{}\"/></Interfaces>", network);
-    } else {
-        throw ConfigError(fmt::format(
-            "bus.network is '{}'; expected localhost, all, or the name of an interface", network));
-    }
-    // Publishers never wait: each topic keeps so few messages that this mark is not reached.
-    return fmt::format(
-        "<CycloneDDS><Domain id=\"any\"><General>{}</General>{}<Internal>"
-        "<SocketReceiveBufferSize max=\"10MB\"/><Watermarks><WhcHigh>1GB</WhcHigh></Watermarks>"
-        "</Internal></Domain></CycloneDDS>",
-        interface, discovery);
-}
-
 struct DdsBus::Engine {
     struct Reader {
         io::Topic topic;
@@ -125,7 +149,8 @@ struct DdsBus::Engine {
         Receive receive;
     };
     DdsOptions options;
-    dds_entity_t domain = 0, participant = 0, publications = 0, waitset = 0, stop = 0;
+    bool has_joined = false;  // a shared domain
+    dds_entity_t participant = 0, publications = 0, waitset = 0, stop = 0;
     dds_guid_t own{};
     mutable std::mutex lock;                     // guards the members below
     std::map<std::string, dds_entity_t> topics;  // keys: name and type on the wire
@@ -133,6 +158,21 @@ struct DdsBus::Engine {
     std::map<std::string, std::shared_ptr<Reader>> readers;
     std::uint64_t lost_before = 0;  // by readers that were replaced
     std::thread thread;
+
+    Engine() = default;
+    Engine(const Engine&) = delete;
+    Engine& operator=(const Engine&) = delete;
+    ~Engine() {
+        stop_receiving();
+        if (participant > 0) dds_delete(participant);
+        if (has_joined) shared_domains().leave(options.domain);
+    }
+
+    void stop_receiving() {
+        if (!thread.joinable()) return;
+        dds_set_guardcondition(stop, true);
+        thread.join();
+    }
 
     dds_entity_t topic_for(const io::Topic& topic) {
         const std::string name = dds_topic_name(topic.name), type = dds_type_name(topic.type);
@@ -185,18 +225,19 @@ DdsBus::DdsBus(const DdsOptions& options) : engine_(std::make_unique<Engine>()) 
         throw ConfigError(
             fmt::format("bus.domain is {}; expected 0 to {}", options.domain, kMostDomain));
     }
+    keep_dds_log();
     const char* const uri = std::getenv("CYCLONEDDS_URI");
     const bool by_user = options.network.empty() && uri != nullptr && *uri != '\0';
-    const auto id = static_cast<dds_domainid_t>(options.domain);
     if (!by_user) {
         if (e.options.network.empty()) e.options.network = "localhost";
-        e.domain = dds_create_domain(id, dds_configuration(e.options.network).c_str());
-        // Another bus of this process has made it.
-        if (e.domain == DDS_RETCODE_PRECONDITION_NOT_MET) e.domain = 0;
-        require(e.domain, fmt::format("cannot join DDS domain {} on network '{}'", options.domain,
-                                      e.options.network));
+        require(shared_domains().join(options.domain,
+                                      dds_configuration(e.options.network, options.domain)),
+                fmt::format("cannot join DDS domain {} on network '{}'", options.domain,
+                            e.options.network));
+        e.has_joined = true;
     }
-    e.participant = dds_create_participant(id, nullptr, nullptr);
+    e.participant =
+        dds_create_participant(static_cast<dds_domainid_t>(options.domain), nullptr, nullptr);
     require(e.participant, fmt::format("cannot join DDS domain {}", options.domain));
     dds_get_guid(e.participant, &e.own);
     e.publications =
@@ -208,17 +249,9 @@ DdsBus::DdsBus(const DdsOptions& options) : engine_(std::make_unique<Engine>()) 
     e.thread = std::thread([&e] { e.run(); });
 }
 
-void DdsBus::stop() {
-    if (!engine_->thread.joinable()) return;
-    dds_set_guardcondition(engine_->stop, true);
-    engine_->thread.join();
-}
+void DdsBus::stop() { engine_->stop_receiving(); }
 
-DdsBus::~DdsBus() {
-    stop();
-    dds_delete(engine_->participant);
-    if (engine_->domain > 0) dds_delete(engine_->domain);
-}
+DdsBus::~DdsBus() = default;
 
 std::string DdsBus::description() const {
     const std::string& network = engine_->options.network;
@@ -232,7 +265,7 @@ std::string DdsBus::description() const {
 void DdsBus::advertise(const io::Topic& topic, const Quality& quality) {
     const std::lock_guard hold(engine_->lock);
     const dds_entity_t writer = dds_create_writer(engine_->participant, engine_->topic_for(topic),
-                                                  qos_of(quality).get(), nullptr);
+                                                  qos_of_writer(quality).get(), nullptr);
     require(writer, "cannot publish " + topic.name);
     const auto [it, fresh] = engine_->writers.emplace(topic.name, writer);
     if (!fresh) dds_delete(std::exchange(it->second, writer));
@@ -294,18 +327,22 @@ void DdsBus::subscribe(const io::Topic& topic, const Quality& quality, Receive r
     reader->topic = topic;
     reader->receive = std::move(receive);
     reader->entity =
-        dds_create_reader(e.participant, e.topic_for(topic), qos_of(quality).get(), nullptr);
+        dds_create_reader(e.participant, e.topic_for(topic), qos_of_reader(quality).get(), nullptr);
     require(reader->entity, "cannot subscribe to " + topic.name);
-    dds_set_status_mask(reader->entity, DDS_DATA_AVAILABLE_STATUS);
-    const auto old = e.readers.find(topic.name);
-    if (old != e.readers.end()) {
-        e.lost_before += Engine::lost_by(old->second->entity);
-        dds_waitset_detach(e.waitset, old->second->entity);
-        dds_delete(old->second->entity);
-    }
-    e.readers[topic.name] = reader;
     const dds_entity_t condition = dds_create_readcondition(reader->entity, DDS_ANY_STATE);
     require(dds_waitset_attach(e.waitset, condition, reader->entity), "cannot wait for messages");
+    std::shared_ptr<Engine::Reader>& current = e.readers[topic.name];
+    if (current) {
+        e.lost_before += Engine::lost_by(current->entity);
+        dds_delete(current->entity);
+    }
+    current = std::move(reader);
+}
+
+std::vector<std::string> DdsBus::take_notices() {
+    std::vector<std::string> notices = take_dds_log();
+    for (std::string& notice : notices) notice.insert(0, "DDS: ");
+    return notices;
 }
 
 std::uint64_t DdsBus::lost() const {

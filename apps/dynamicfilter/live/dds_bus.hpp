@@ -12,8 +12,9 @@ namespace dynamic_filter::live {
 
 struct DdsOptions {
     int domain = 0;  ///< ROS_DOMAIN_ID
-    /// "localhost", "all" (every interface that can multicast), or the name of an interface, such
-    /// as "eth0". Empty: as CYCLONEDDS_URI says, and "localhost" without it.
+    /// "localhost" (this machine, however its participants are configured), "all" (other machines,
+    /// too, by the interface that Cyclone DDS prefers, as ROS 2 does by default), or the name of an
+    /// interface, such as "eth0". Empty: as CYCLONEDDS_URI says, and "localhost" without it.
     std::string network;
 };
 
@@ -34,7 +35,7 @@ public:
     void subscribe(const io::Topic& topic, const Quality& quality, Receive receive) override;
     void stop() override;
     [[nodiscard]] std::uint64_t lost() const override;
-    std::vector<std::string> take_notices() override { return {}; }
+    std::vector<std::string> take_notices() override;
     std::vector<std::pair<std::string, std::string>> take_parameters() override { return {}; }
 
 private:
@@ -49,8 +50,5 @@ std::string dds_type_name(const std::string& type);
 /// The reverse; empty if the name is none of ROS 2's topics or messages.
 std::string topic_of_dds(const std::string& name);
 std::string type_of_dds(const std::string& name);
-
-/// The configuration of Cyclone DDS for a network; see DdsOptions::network.
-std::string dds_configuration(const std::string& network);
 
 }  // namespace dynamic_filter::live

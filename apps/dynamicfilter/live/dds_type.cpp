@@ -78,6 +78,13 @@ ddsi_serdata* from_parts(const ddsi_sertype* type, ddsi_serdata_kind kind, ddsrt
     return nullptr;
 }
 
+ddsi_serdata* from_message(const ddsi_sertype* type, const Bytes& message) noexcept try {
+    return message && message->size() >= kHead ? new_sample(type, SDK_DATA, padded(message))
+                                               : nullptr;
+} catch (const std::bad_alloc&) {
+    return nullptr;
+}
+
 ddsi_serdata* without_data(const ddsi_sertype* type) {
     static const auto head = std::make_shared<const std::vector<std::byte>>(
         std::vector<std::byte>{std::byte{0}, std::byte{1}, std::byte{0}, std::byte{0}});
@@ -97,7 +104,7 @@ constexpr ddsi_serdata_ops kSampleOps = {
     .from_sample = [](const ddsi_sertype* type, ddsi_serdata_kind kind,
                       const void* message) -> ddsi_serdata* {
         if (kind != SDK_DATA) return without_data(type);
-        return new_sample(type, kind, padded(*static_cast<const Bytes*>(message)));
+        return from_message(type, *static_cast<const Bytes*>(message));
     },
     .to_ser =
         [](const ddsi_serdata* data, std::size_t offset, std::size_t size, void* to) {
@@ -163,7 +170,8 @@ dds_entity_t create_topic_of_bytes(dds_entity_t participant, const std::string& 
                                    const std::string& type) {
     auto* sertype = new Type{};
     ddsi_sertype_init(sertype, type.c_str(), &kTypeOps, &kSampleOps, true);
-    sertype->allowed_data_representation = DDS_DATA_REPRESENTATION_FLAG_XCDR1;
+    sertype->allowed_data_representation =
+        DDS_DATA_REPRESENTATION_FLAG_XCDR1 | DDS_DATA_REPRESENTATION_FLAG_XCDR2;
     ddsi_sertype* given = sertype;
     const dds_entity_t topic =
         dds_create_topic_sertype(participant, name.c_str(), &given, nullptr, nullptr, nullptr);

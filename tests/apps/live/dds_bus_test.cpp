@@ -5,17 +5,15 @@
 
 #include <atomic>
 #include <chrono>
-#include <mutex>
 #include <random>
 #include <thread>
 
+#include "apps/live/dds_support.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/io/messages.hpp"
 
 namespace dynamic_filter::live {
 namespace {
-
-constexpr int kDomain = 91;
 
 Bytes bytes_of(std::size_t size, unsigned seed) {
     auto bytes = std::make_shared<std::vector<std::byte>>(size);
@@ -25,30 +23,6 @@ Bytes bytes_of(std::size_t size, unsigned seed) {
     for (std::size_t i = 0; i < 4; ++i) (*bytes)[i] = static_cast<std::byte>(i == 1 ? 1 : 0);
     return bytes;
 }
-
-bool eventually(const std::function<bool()>& what, double seconds = 10.0) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
-    while (std::chrono::steady_clock::now() < end) {
-        if (what()) return true;
-        std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
-    return what();
-}
-
-struct Inbox {
-    std::mutex lock;
-    std::vector<Bytes> messages;
-    Bus::Receive receive() {
-        return [this](const io::Topic&, const Bytes& message) {
-            const std::lock_guard hold(lock);
-            messages.push_back(message);
-        };
-    }
-    std::size_t size() {
-        const std::lock_guard hold(lock);
-        return messages.size();
-    }
-};
 
 TEST(DdsBus, NamesOnTheWire) {
     EXPECT_EQ(dds_topic_name("/a/points"), "rt/a/points");
@@ -66,13 +40,42 @@ TEST(DdsBus, RefusesWrongOptions) {
     EXPECT_THROW(DdsBus({.domain = 233, .network = {}}), ConfigError);
     EXPECT_THROW(DdsBus({.domain = -1, .network = {}}), ConfigError);
     EXPECT_THROW(DdsBus({.domain = 92, .network = "<eth0>"}), ConfigError);
-    EXPECT_THROW(DdsBus({.domain = 92, .network = "nosuchdevice"}), Error);
+    try {
+        DdsBus({.domain = 92, .network = "nosuchdevice"});
+        FAIL();
+    } catch (const Error& e) {
+        EXPECT_NE(std::string(e.what()).find("nosuchdevice: does not match"), std::string::npos)
+            << e.what();
+    }
+}
+
+TEST(DdsBus, EveryDomainCanBeJoined) {
+    for (const int domain : {1, 231, 232}) {
+        EXPECT_NO_THROW(DdsBus({.domain = domain, .network = "localhost"})) << domain;
+    }
+}
+
+TEST(DdsBus, BusesOfAProcessShareADomain) {
+    const ReservedDomain domain;
+    const DdsOptions options{.domain = domain.number(), .network = "localhost"};
+    const io::Topic topic{"/points", "sensor_msgs/PointCloud2", io::MessageEncoding::cdr};
+    auto first = std::make_unique<DdsBus>(options);
+    DdsBus second(options);
+    first.reset();
+    DdsBus third(options);
+    Inbox inbox;
+    third.subscribe(topic, {}, inbox.receive());
+    second.advertise(topic, {});
+    ASSERT_TRUE(eventually([&] { return second.is_wanted("/points"); }));
+    second.publish("/points", 0.0, bytes_of(100, 1));
+    EXPECT_TRUE(eventually([&] { return inbox.size() == 1; }));
 }
 
 /// Two participants in this process exchange messages as two processes do, but for the network.
 struct TwoBuses : testing::Test {
-    DdsBus a{{.domain = kDomain, .network = "localhost"}};
-    DdsBus b{{.domain = kDomain, .network = "localhost"}};
+    ReservedDomain domain;
+    DdsBus a{{.domain = domain.number(), .network = "localhost"}};
+    DdsBus b{{.domain = domain.number(), .network = "localhost"}};
     io::Topic cloud{"/points", "sensor_msgs/PointCloud2", io::MessageEncoding::cdr};
 };
 
@@ -90,7 +93,7 @@ TEST_F(TwoBuses, MessagesOfAllSizesArrive) {
     for (std::size_t i = 0; i < sent.size(); ++i) {
         auto padded = *sent[i];
         padded.resize((padded.size() + 3) / 4 * 4);
-        EXPECT_EQ(*inbox.messages[i], padded);
+        EXPECT_EQ(*inbox.messages()[i], padded);
     }
     EXPECT_EQ(b.lost(), 0U);
 }
@@ -118,7 +121,7 @@ TEST_F(TwoBuses, LateSubscribersGetTheLastLatchedMessage) {
     Inbox inbox;
     b.subscribe(cloud, latched, inbox.receive());
     ASSERT_TRUE(eventually([&] { return inbox.size() == 1; }));
-    EXPECT_EQ(*inbox.messages[0], *bytes_of(1000, 2));
+    EXPECT_EQ(*inbox.messages()[0], *bytes_of(1000, 2));
 }
 
 TEST_F(TwoBuses, SubscriptionsCanBeReplaced) {
@@ -146,6 +149,45 @@ TEST_F(TwoBuses, ASlowReceiverHoldsNobodyUp) {
     for (unsigned i = 0; i < 50; ++i) a.publish("/points", 0.0, bytes_of(1000000, i));
     EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
     *go = true;
+}
+
+TEST_F(TwoBuses, WhatIsNoMessageIsNotPublished) {
+    a.advertise(cloud, {});
+    EXPECT_FALSE(a.publish("/points", 0.0, nullptr));
+    EXPECT_FALSE(a.publish("/points", 0.0, std::make_shared<const std::vector<std::byte>>(3)));
+    EXPECT_FALSE(a.publish("/other", 0.0, bytes_of(100, 1))) << "it is not advertised";
+}
+
+/// For the thread sanitizer: all members at once, while messages come.
+TEST_F(TwoBuses, MembersMayBeCalledFromManyThreads) {
+    std::atomic<int> received = 0;
+    std::atomic<bool> done = false;
+    const auto count = [&](const io::Topic&, const Bytes&) { ++received; };
+    a.advertise(cloud, {});
+    std::vector<std::thread> threads;
+    const auto repeat = [&](std::function<void()> what) {
+        threads.emplace_back([&done, what = std::move(what)] {
+            while (!done) what();
+        });
+    };
+    repeat([&, message = bytes_of(10000, 1)] { a.publish("/points", 0.0, message); });
+    repeat([&] { b.subscribe(cloud, {}, count); });
+    repeat([&] { b.subscribe({"/other", cloud.type, cloud.encoding}, {}, count); });
+    repeat([&] { a.advertise({"/other", cloud.type, cloud.encoding}, {}); });
+    repeat([&] { a.publish("/other", 0.0, bytes_of(100, 1)); });
+    repeat([&] {
+        (void)b.lost();
+        (void)b.seen();
+        (void)a.is_wanted("/points");
+        (void)b.take_notices();
+    });
+    EXPECT_TRUE(eventually([&] { return received > 100; }));
+    done = true;
+    for (std::thread& thread : threads) thread.join();
+    // The callback must not outlive what it counts.
+    b.subscribe(cloud, {}, [](const io::Topic&, const Bytes&) {});
+    b.subscribe({"/other", cloud.type, cloud.encoding}, {}, [](const io::Topic&, const Bytes&) {});
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
 }
 
 }  // namespace
