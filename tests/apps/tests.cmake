@@ -13,7 +13,7 @@ add_test(NAME apps/interrupt COMMAND ${CMAKE_CURRENT_LIST_DIR}/interrupt_test.sh
 add_test(NAME apps/completion COMMAND ${CMAKE_CURRENT_LIST_DIR}/completion_test.sh $<TARGET_FILE:dynamicfilter>
   ${PROJECT_SOURCE_DIR}/packaging/dynamicfilter.bash)
 
-foreach(unit dds_bus diagnosis foxglove_handshake foxglove_protocol foxglove_queue foxglove_server intake live_config outputs subscriptions)
+foreach(unit dds_bus diagnosis foxglove_handshake foxglove_protocol foxglove_queue foxglove_server intake live_config outputs session subscriptions)
   df_test(apps/live/${unit} dynamic_filter_live)
 endforeach()
 foreach(unit dds_cdr dds_fuzz dds_peer)
@@ -25,6 +25,7 @@ target_sources(apps_live_dds_fuzz_test PRIVATE ${CMAKE_CURRENT_LIST_DIR}/live/la
 if(TARGET dynamic_filter_ros1)
   df_test(apps/live/ros1_bus dynamic_filter_ros1)
   target_compile_definitions(apps_live_ros1_bus_test PRIVATE ROS1_PEER="${CMAKE_CURRENT_LIST_DIR}/live/ros1_peer.py")
+  add_dependencies(tests_without_simulator dynamicfilter_ros1)
   add_test(NAME apps/live/live_ros1 COMMAND ${CMAKE_CURRENT_LIST_DIR}/live/live_ros1_test.sh $<TARGET_FILE:dynamicfilter>
     $<TARGET_FILE:dynamicfilter_ros1>)
 endif()
