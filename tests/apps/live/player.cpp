@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Plays the scans and poses of a bag by DDS, as a robot would, and takes what `dynamicfilter live`
-/// says to them. Prints counts and latencies as JSON.
-///   live_player BAG [--domain N] [--speed X] [--passes N] [--topic T] [--all] [--check]
-/// --passes N: plays the recording N times, every second time backwards, with stamps that go on.
-/// --all: also receives the other topics, as a display would.
-/// --check: afterwards, filters the bag itself, and counts the labels that differ.
+#include "apps/live/player.hpp"
+
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -19,20 +15,14 @@
 #include "dynamic_filter/io/sequence.hpp"
 #include "dynamic_filter/pipeline/dynamic_filter.hpp"
 #include "io/ros/messages.hpp"
-#include "live/dds_bus.hpp"
 
 namespace dynamic_filter::live {
+
+using Options = PlayerOptions;
+
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-struct Options {
-    std::filesystem::path bag;
-    std::string topic = "/points", prefix = "/dynamicfilter";
-    int domain = 0, passes = 1;
-    double speed = 1.0, wait = 20.0;
-    bool all = false, check = false;
-};
 
 struct Played {
     std::int64_t stamp_ns = 0;
@@ -96,7 +86,9 @@ void take_labels(Heard& heard, bool keep, const io::Topic& topic, const Bytes& m
     heard.sent.erase(sent);
     ++heard.labels;
     Labels labels;
-    for (const double value : io::values(cloud.cloud, *cloud.cloud.find("label"))) {
+    const io::Field* const field = cloud.cloud.find("label");
+    if (field == nullptr) return;  // of a relay
+    for (const double value : io::values(cloud.cloud, *field)) {
         labels.push_back(static_cast<Label>(static_cast<int>(value)));
         heard.dynamic += labels.back() == Label::dynamic ? 1 : 0;
     }
@@ -146,16 +138,18 @@ double at_share(std::vector<double> values, double share) {
     return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
-int play(const Options& o) {
+}  // namespace
+
+int play(Bus& bus, const Options& o) {
     std::vector<Played> scans = read(o);
     const std::int64_t step = (scans.back().stamp_ns - scans.front().stamp_ns) /
                               static_cast<std::int64_t>(scans.size() - 1);
     Heard heard;
-    DdsBus bus({.domain = o.domain, .network = {}});
-    const auto cdr = io::MessageEncoding::cdr;
+    const auto encoding = bus.encoding();
+    const bool relays = !o.answer.empty();
     const Quality reliable{.reliable = true, .latched = false, .depth = 10};
-    bus.subscribe({o.prefix + "/labels", "sensor_msgs/PointCloud2", cdr}, reliable,
-                  [&](const io::Topic& topic, const Bytes& message) {
+    bus.subscribe({relays ? o.answer : o.prefix + "/labels", "sensor_msgs/PointCloud2", encoding},
+                  reliable, [&](const io::Topic& topic, const Bytes& message) {
                       take_labels(heard, o.check, topic, message);
                   });
     if (o.all) {
@@ -164,17 +158,18 @@ int play(const Options& o) {
             ++heard.others[topic.name];
         };
         for (const char* name : {"/static", "/dynamic", "/corrections", "/map"}) {
-            bus.subscribe({o.prefix + name, "sensor_msgs/PointCloud2", cdr}, reliable, count);
+            bus.subscribe({o.prefix + name, "sensor_msgs/PointCloud2", encoding}, reliable, count);
         }
-        bus.subscribe({o.prefix + "/removed", "visualization_msgs/MarkerArray", cdr}, reliable,
+        bus.subscribe({o.prefix + "/removed", "visualization_msgs/MarkerArray", encoding}, reliable,
                       count);
-        bus.subscribe({o.prefix + "/path", "nav_msgs/Path", cdr}, reliable, count);
-        bus.subscribe({"/diagnostics", "diagnostic_msgs/DiagnosticArray", cdr}, reliable, count);
+        bus.subscribe({o.prefix + "/path", "nav_msgs/Path", encoding}, reliable, count);
+        bus.subscribe({"/diagnostics", "diagnostic_msgs/DiagnosticArray", encoding}, reliable,
+                      count);
     }
-    bus.advertise({o.topic, "sensor_msgs/PointCloud2", cdr}, reliable);
-    bus.advertise({"/tf", "tf2_msgs/TFMessage", cdr}, {true, false, 100});
-    const bool met =
-        eventually([&] { return bus.is_wanted(o.topic) && bus.is_wanted("/tf"); }, o.wait);
+    bus.advertise({o.topic, "sensor_msgs/PointCloud2", encoding}, reliable);
+    bus.advertise({"/tf", "tf2_msgs/TFMessage", encoding}, {true, false, 100});
+    const bool met = eventually(
+        [&] { return bus.is_wanted(o.topic) && (relays || bus.is_wanted("/tf")); }, o.wait);
     if (!met) {
         fmt::print(stderr, "live_player: nobody subscribed to {} and /tf\n", o.topic);
         return 1;
@@ -227,21 +222,16 @@ int play(const Options& o) {
     return heard.labels == sent ? 0 : 4;
 }
 
-}  // namespace
-}  // namespace dynamic_filter::live
-
-int main(int argc, char** argv) {
-    dynamic_filter::live::Options o;
-    CLI::App app("Plays a bag by DDS and takes the labels of a live filter.");
+void add_player_options(CLI::App& app, PlayerOptions& o) {
     app.add_option("BAG", o.bag)->required();
-    app.add_option("--domain", o.domain);
     app.add_option("--speed", o.speed);
     app.add_option("--passes", o.passes);
     app.add_option("--topic", o.topic);
     app.add_option("--prefix", o.prefix);
+    app.add_option("--answer", o.answer);
     app.add_option("--wait", o.wait);
     app.add_flag("--all", o.all);
     app.add_flag("--check", o.check);
-    CLI11_PARSE(app, argc, argv);
-    return play(o);
 }
+
+}  // namespace dynamic_filter::live
