@@ -55,8 +55,9 @@ holds_none '/bin/|\.a$|\.so\.'
 needs "$dev" "$ours" libeigen3-dev
 [ "$(wc -l < depends)" -eq 2 ] || { echo "$dev depends on more"; exit 1; }
 holds "$command" bin/dynamicfilter share/man/man1/dynamicfilter.1.gz share/bash-completion/completions/dynamicfilter \
-    share/doc/dynamicfilter/copyright share/doc/dynamicfilter/changelog.Debian.gz
-holds_none '/(include|lib)/'
+    share/doc/dynamicfilter/copyright share/doc/dynamicfilter/changelog.Debian.gz \
+    lib/systemd/system/dynamicfilter-live@.service share/doc/dynamicfilter/examples/live.toml
+holds_none '/include/|/lib/[^s]'
 needs "$command" "$ours" 'libc6 .*' 'libfmt9 .*'
 if grep ros depends; then echo "$command depends on ROS"; exit 1; fi
 holds "$ros" bin/dynamicfilter_ros1 share/man/man1/dynamicfilter_ros1.1.gz share/dynamicfilter_ros/package.xml \

@@ -41,6 +41,7 @@ void put_stamp(std::vector<std::byte>& message, std::size_t at, std::int64_t sta
     std::memcpy(message.data() + at, time.data(), sizeof time);
 }
 
+constexpr double kBeforeJump = 10000.0;  // [s] so that no stamp becomes negative
 constexpr std::size_t kCloudStamp = 4, kTransformStamp = 8;  // [bytes]
 
 /// The bag must hold one transform of /tf for each scan, as `convert` writes it.
@@ -123,6 +124,8 @@ std::size_t differing_labels(const Options& o, const Heard& heard) {
     return differing;
 }
 
+std::int64_t in_ns(double seconds) { return static_cast<std::int64_t>(1e9 * seconds); }
+
 bool eventually(const std::function<bool()>& what, double seconds) {
     const auto end = Clock::now() + std::chrono::duration<double>(seconds);
     while (!what()) {
@@ -180,9 +183,10 @@ int play(Bus& bus, const Options& o) {
     for (int pass = 0; pass < o.passes; ++pass) {
         for (std::size_t k = 0; k < scans.size(); ++k, ++sent) {
             Played& scan = scans[pass % 2 == 0 ? k : scans.size() - 1 - k];
-            const std::int64_t stamp_ns =
+            std::int64_t stamp_ns =
                 pass == 0 ? scan.stamp_ns
                           : scans[0].stamp_ns + step * static_cast<std::int64_t>(sent);
+            if (o.jump != 0.0) stamp_ns += in_ns(kBeforeJump + (2 * k > scans.size() ? o.jump : 0));
             auto cloud = scan.cloud, transforms = scan.transforms;
             put_stamp(cloud, kCloudStamp, stamp_ns);
             put_stamp(transforms, kTransformStamp, stamp_ns);
@@ -230,6 +234,7 @@ void add_player_options(CLI::App& app, PlayerOptions& o) {
     app.add_option("--prefix", o.prefix);
     app.add_option("--answer", o.answer);
     app.add_option("--wait", o.wait);
+    app.add_option("--jump", o.jump);
     app.add_flag("--all", o.all);
     app.add_flag("--check", o.check);
 }

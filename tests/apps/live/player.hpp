@@ -19,6 +19,7 @@ struct PlayerOptions {
     int passes = 1;      ///< every second one backwards, with stamps that go on
     double speed = 1.0;  ///< times the sensor's rate
     double wait = 20.0;  ///< [s] for a subscriber
+    double jump = 0.0;   ///< [s] by which the clock is set on in the middle of a pass
     bool all = false;    ///< also receive the other topics, as a display would
     bool check = false;  ///< filter the bag here, too, and count the labels that differ
 };
