@@ -7,6 +7,7 @@
 #include <sys/socket.h>
 
 #include <algorithm>
+#include <cctype>
 #include <memory>
 
 #include "dynamic_filter/error.hpp"
