@@ -3,12 +3,14 @@
 
 #include <fmt/format.h>
 
+#include "dynamic_filter/error.hpp"
+
 namespace dynamic_filter::live {
 
 namespace {
 
 constexpr std::size_t kMostWork = 16;      // that waits to be published
-constexpr std::size_t kMostPending = 400;  // preset paper: verdicts come window by window
+constexpr std::size_t kMostPending = 200;  // preset paper: verdicts come window by window
 constexpr std::size_t kMostLatencies = 1000;
 
 OnlineOptions options_of(const LiveConfig& config) {
@@ -158,7 +160,7 @@ void Session::publish(Work& work) {
     JudgedScan judged = outputs_.judged(*work.scan, work.verdict);
     note_latency(*work.scan);
     ++published_;
-    if (recorder_ != nullptr) recorder_->add(*work.scan);
+    record(*work.scan);
     if (config_.output.settle_after == 0 || !filter_->judges_each_scan()) return;
     unsettled_.push_back({std::move(judged), scan_of(*work.scan, work.verdict)});
     if (unsettled_.size() <= static_cast<std::size_t>(config_.output.settle_after)) return;
@@ -166,6 +168,18 @@ void Session::publish(Work& work) {
     unsettled_.pop_front();
     if (outputs_.wants_corrections()) {
         outputs_.settled(due.judged, filter_->settled(due.scan));
+    }
+}
+
+/// A disk that is full ends the recording, but not the filter: the robot needs it.
+void Session::record(const LiveScan& scan) {
+    if (recorder_ == nullptr) return;
+    try {
+        recorder_->add(scan);
+    } catch (const OutputError& error) {
+        recorder_ = nullptr;
+        const std::lock_guard hold(lock_);
+        notices_.push_back(fmt::format("the recording has ended: {}", error.what()));
     }
 }
 

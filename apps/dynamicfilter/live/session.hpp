@@ -72,12 +72,13 @@ private:
     void publish_work();
     void publish(Work& work);
     void publish_maps();
+    void record(const LiveScan& scan);
     void note_latency(const LiveScan& scan);
     void fail(std::exception_ptr error);
 
     const LiveConfig& config_;
     Outputs& outputs_;
-    Recorder* recorder_;
+    Recorder* recorder_;  // of the publishing thread; may be null
 
     mutable std::mutex lock_;  // guards the members below
     std::condition_variable changed_;

@@ -16,8 +16,8 @@
 namespace dynamic_filter::io {
 
 struct MessageHeader {
-    double stamp = 0.0;  ///< [s]
-    std::string frame;   ///< without a leading slash
+    double stamp = 0.0;         ///< [s]
+    std::string frame;          ///< without a leading slash
     std::int64_t stamp_ns = 0;  ///< [ns] the same stamp, exactly
 };
 

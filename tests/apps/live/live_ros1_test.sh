@@ -7,7 +7,12 @@ set -euo pipefail
 command=$1 node=$2
 work=$(mktemp -d)
 processes=
-trap 'for p in $processes; do kill -9 "$p" 2> /dev/null || true; done; rm -rf "$work"' EXIT
+clean_up() {
+    local process
+    for process in $processes; do kill -9 "$process" 2> /dev/null || true; done
+    rm -rf "$work"
+}
+trap clean_up EXIT
 fail() { echo "live_ros1_test: $1" >&2; tail -n 20 "$work"/*.err >&2 || true; exit 1; }
 cd "$work"
 port=$(python3 -c 'import socket; s = socket.socket(); s.bind(("127.0.0.1", 0)); print(s.getsockname()[1])')
@@ -46,7 +51,7 @@ stop() { # stop SIGNAL
     wait "$filter" || code=$?
     [ "$code" = 0 ] || fail "ended with $code after $1"
 }
-play() { timeout 60 rosbag play --quiet --clock --wait-for-subscribers "$@" drive.bag > play.log 2>&1 || fail "rosbag: $(cat play.log)"; }
+play() { timeout 60 rosbag play --quiet --clock --wait-for-subscribers drive.bag > play.log 2>&1 || fail "rosbag: $(cat play.log)"; }
 
 "$command" simulate crowd --sensor vlp16 --frames 31 --rate 10 -o recording -q
 rm -r recording/labels # so that the bag has a single topic of points

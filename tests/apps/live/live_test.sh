@@ -52,7 +52,9 @@ cmp ref/static_map.pcd out/static_map.pcd || fail "maps differ"
 [ -s out/report.html ] || fail "no report"
 
 # SIGTERM ends at once, and the recording is complete.
-start term --record gone
+start term --record gone --set foxglove.serve=true --set foxglove.port=0
+for _ in $(seq 100); do grep -q '^foxglove ws://127.0.0.1:' term.err && break; sleep 0.05; done
+grep -q '^foxglove ws://127.0.0.1:' term.err || fail "does not say where Foxglove connects"
 "$player" drive.mcap --domain $ROS_DOMAIN_ID > /dev/null || fail "labels are missing"
 stop TERM
 [ -s gone.mcap ] && [ ! -e gone ] || fail "SIGTERM leaves the recording alone"
