@@ -258,7 +258,7 @@ std::string DdsBus::description() const {
     return fmt::format("ROS 2, DDS domain {}, {}", engine_->options.domain,
                        network.empty()          ? "network as CYCLONEDDS_URI says"
                        : network == "localhost" ? "this machine only"
-                       : network == "all"       ? "all networks"
+                       : network == "all"       ? "the network of the default interface"
                                                 : "network " + network);
 }
 

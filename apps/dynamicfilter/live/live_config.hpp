@@ -55,8 +55,8 @@ void visit_live(C& c, F&& f) {
     f(LiveSetting{"bus.domain", "", "DDS domain, as ROS_DOMAIN_ID; ROS 2 only", 0, 232},
       c.bus.domain);
     f(LiveSetting{"bus.network", "",
-                  "localhost, all, or the name of an interface such as eth0; empty: what "
-                  "CYCLONEDDS_URI says, or else localhost; ROS 2 only"},
+                  "localhost, all (the default interface), or the name of an interface such as "
+                  "eth0; empty: what CYCLONEDDS_URI says, or else localhost; ROS 2 only"},
       c.bus.network);
     f(LiveSetting{"input.cloud", "", "topic of the scans; empty: the only one"}, c.input.cloud);
     f(LiveSetting{"input.pose", "",
