@@ -64,8 +64,10 @@ std::vector<std::byte> boxes_message(const std::vector<BoxMarker>& boxes, double
 /// A row of diagnostic_msgs/DiagnosticStatus.
 struct DiagnosticStatus {
     std::uint8_t level = 0;  ///< 0: good, 1: warning, 2: error, 3: no data comes
-    std::string name, message, hardware;
-    std::vector<std::pair<std::string, std::string>> values;
+    std::string name;        ///< of the part that is described
+    std::string message;     ///< its state, in a few words
+    std::string hardware;    ///< the device, or what is looked at
+    std::vector<std::pair<std::string, std::string>> values;  ///< names and values, for display
 };
 
 /// diagnostic_msgs/DiagnosticArray at `stamp` [s].
