@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::size_t kMostClouds = 20, kMostPoses = 4096;  // that wait to be read
 constexpr std::size_t kMostFrames = 1000;                   // of /tf; more are ignored
-constexpr double kKept = 10.0;      // [s] poses are kept behind the newest scan
+constexpr double kKept = 10.0;               // [s] poses are kept behind the newest scan
+constexpr double kEndOfTime = 2147483647.0;  // [s] what the stamps of all messages can hold
 constexpr double kClockBack = 1.0;  // [s] a stamp that goes back farther is a clock set back
 
 double seconds_between(SteadyTime from, SteadyTime to) {
@@ -212,6 +213,10 @@ std::optional<LiveScan> Intake::read_cloud() {
         scan.stamp_ns = message.header.stamp_ns;
         scan.arrived = arrived.at;
         if (config_.input.deskew) scan.times = io::point_times(scan.cloud, scan.stamp);
+        if (scan.stamp < 0.0 || scan.stamp >= kEndOfTime) {
+            throw io::Malformed(
+                fmt::format("has the stamp {:.0f} s; expected 0 to 2^31 s", scan.stamp));
+        }
         if (std::any_of(scan.points.begin(), scan.points.end(), is_measured)) {
             note_clock(scan.stamp, newest_stamps_["scans"], "the scans");
             if (!first_cloud_) first_cloud_ = arrived.at;
@@ -384,7 +389,10 @@ std::string Intake::poses_text() const {
 
 void Intake::tell(std::string text) {
     constexpr std::size_t kMost = 20;  // between two calls of take_notices()
-    if (notices_.size() < kMost) notices_.push_back(std::move(text));
+    // A fault that every scan has is said once.
+    if (text == last_told_ || notices_.size() >= kMost) return;
+    last_told_ = text;
+    notices_.push_back(std::move(text));
 }
 
 std::vector<std::string> Intake::take_notices() { return std::exchange(notices_, {}); }

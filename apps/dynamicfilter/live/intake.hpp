@@ -115,7 +115,7 @@ private:
     std::map<std::string, double> newest_stamps_;  // [s], of frames, topics and clouds
     std::optional<LiveScan> waiting_;              // read, but without a pose yet
     PoseOrigin origin_ = PoseOrigin::undecided;
-    std::string pose_topic_, world_, last_frame_, missing_, last_missing_;
+    std::string pose_topic_, world_, last_frame_, missing_, last_missing_, last_told_;
     double last_stamp_ = 0.0;
     std::optional<SteadyTime> first_cloud_;
     std::vector<std::string> notices_;

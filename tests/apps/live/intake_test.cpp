@@ -198,10 +198,13 @@ TEST(Intake, FaultyMessagesAreCountedAndDoNoHarm) {
     intake->put(kPoints, false, shared(cut));
     intake->put(kPoints, false, shared({}));
     intake->put(kPoints, false, shared(io::cloud_message(cloud_of({}), 1.0, "lidar", kCdr)));
+    auto negative = *cloud_at(5.0);
+    for (std::size_t i = 4; i < 8; ++i) negative[i] = std::byte{0xFF};  // the seconds
+    intake->put(kPoints, false, shared(negative));
     intake->put(kTf, false, shared({std::byte{0}}));
     intake->put(kPoints, false, cloud_at(1.0));
     EXPECT_TRUE(intake.take());
-    EXPECT_EQ(intake->counters().malformed, 3U);
+    EXPECT_EQ(intake->counters().malformed, 4U);
     EXPECT_EQ(intake->counters().other_malformed, 1U);
     EXPECT_EQ(intake->counters().taken, 1U);
 }
