@@ -11,6 +11,7 @@
 #include "commands.hpp"
 #include "dynamic_filter/edit_distance.hpp"
 #include "dynamic_filter/error.hpp"
+#include "failure.hpp"
 #include "freed_memory.hpp"
 #include "live/live_command.hpp"
 #include "live/live_options.hpp"
@@ -399,8 +400,22 @@ std::string usage_error(const CLI::App* app, const CLI::Error& error) {
                        command, commands.empty() ? "commands" : "options");
 }
 
-int failed(ExitCode code, const std::exception& error) {
-    fmt::print(stderr, "dynamicfilter: {}\n", error.what());
+/// Reads the arguments and does what they say.
+int run_command(CLI::App& app, const std::function<int()>& chosen, int argc, char** argv) {
+    refuse_unknown_command(app, argc, argv);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        // An unknown option is what to say first; that another one is missing may follow from it.
+        const bool is_help = error.get_exit_code() == 0;
+        if (!is_help && !app.remaining(true).empty()) refuse_unknown_options(app);
+        return app.exit(error) == 0 ? kDone : kUsage;
+    }
+    const int code = chosen();
+    // A result that could not be printed (a full disk, say) is not a result.
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+        throw OutputError("standard output", "cannot be written");
+    }
     return code;
 }
 
@@ -422,30 +437,5 @@ int main(int argc, char** argv) {
     add_report(app, chosen);
     add_render(app, chosen);
     add_others(app, chosen);
-    try {
-        refuse_unknown_command(app, argc, argv);
-        try {
-            app.parse(argc, argv);
-        } catch (const CLI::ParseError& error) {
-            // An unknown option is what to say first; that another one is missing may follow from
-            // it.
-            const bool is_help = error.get_exit_code() == 0;
-            if (!is_help && !app.remaining(true).empty()) refuse_unknown_options(app);
-            throw;
-        }
-        const int code = chosen();
-        // A result that could not be printed (a full disk, say) is not a result.
-        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-            throw OutputError("standard output", "cannot be written");
-        }
-        return code;
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? kDone : kUsage;
-    } catch (const ConfigError& error) {
-        return failed(kUsage, error);
-    } catch (const InputError& error) {
-        return failed(kInput, error);
-    } catch (const std::exception& error) {
-        return failed(kInternal, error);
-    }
+    return guarded("dynamicfilter", [&] { return run_command(app, chosen, argc, argv); });
 }

@@ -6,7 +6,7 @@
 #include <csignal>
 
 #include "commands.hpp"
-#include "dynamic_filter/error.hpp"
+#include "failure.hpp"
 #include "freed_memory.hpp"
 #include "live/live_config.hpp"
 #include "live/live_options.hpp"
@@ -44,11 +44,6 @@ std::string usage_error(const CLI::App*, const CLI::Error& error) {
                        error.what());
 }
 
-int failed(ExitCode code, const std::exception& error) {
-    fmt::print(stderr, "dynamicfilter_ros1: {}\n", error.what());
-    return code;
-}
-
 int filter(int argc, char** argv) {
     CLI::App app("Removes moving objects from the LiDAR scans of ROS 1, as they come.",
                  "dynamicfilter_ros1");
@@ -75,13 +70,5 @@ int filter(int argc, char** argv) {
 int main(int argc, char** argv) {
     keep_freed_memory();
     std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error like a full disk
-    try {
-        return filter(argc, argv);
-    } catch (const ConfigError& error) {
-        return failed(kUsage, error);
-    } catch (const InputError& error) {
-        return failed(kInput, error);
-    } catch (const std::exception& error) {
-        return failed(kInternal, error);
-    }
+    return guarded("dynamicfilter_ros1", [&] { return filter(argc, argv); });
 }

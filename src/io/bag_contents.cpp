@@ -52,10 +52,7 @@ void take(BagContents& contents, const Message& message) {
     }
 }
 
-bool is_scan(const Topic& topic) {
-    const MessageKind kind = kind_of(topic.type);
-    return kind == MessageKind::cloud || kind == MessageKind::livox;
-}
+bool is_scan(const Topic& topic) { return holds_scan(kind_of(topic.type)); }
 
 }  // namespace
 

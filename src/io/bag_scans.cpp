@@ -159,13 +159,7 @@ void assign_poses(Sequence& sequence, const PoseSource& source) {
     for (const double stamp : sequence.stamps) {
         sequence.T_world_sensor.push_back(source.T_world_sensor(stamp).value_or(lost_pose()));
     }
-    for (const double stamp : source.stamps) {
-        const auto pose = source.T_world_sensor(stamp);
-        if (!pose) continue;
-        sequence.trajectory.stamps.push_back(stamp);
-        sequence.trajectory.poses.push_back(*pose);
-    }
-    put_in_order(sequence.trajectory);
+    sequence.trajectory = trajectory_of(source);
     sequence.notes.push_back(source.note);
 }
 

@@ -65,15 +65,18 @@ std::vector<float> times_of(const Sequence& sequence, const Frame& frame) {
     return times;
 }
 
-/// Throws if the pose is farther away than the circumference of the Earth; such a value is a wrong
-/// number or has a wrong unit.
 void refuse_absurd(const Pose& T_world_sensor, const std::filesystem::path& file) {
-    constexpr double kEarth = 4e7;  // [m]
-    if (T_world_sensor.translation().cwiseAbs().maxCoeff() <= kEarth) return;
+    if (!is_absurdly_far(T_world_sensor)) return;
     throw InputError(file, "", "its pose is more than 40,000 km away; expected metres");
 }
 
 }  // namespace
+
+bool is_absurdly_far(const Pose& T_world_sensor) {
+    constexpr double kEarth = 4e7;  // [m]
+    // Not "greater": a coordinate that is no number is absurd, too.
+    return !(T_world_sensor.translation().cwiseAbs().maxCoeff() <= kEarth);
+}
 
 Points into_sensor(const Cloud& cloud, const Pose& T_world_sensor) {
     const Pose T_sensor_world = T_world_sensor.inverse();

@@ -40,7 +40,7 @@ double now_of_this_machine() {
 
 Seen listen(Bus& bus, const LiveConfig& config, double look) {
     Seen seen;
-    Intake intake(config, bus.encoding());
+    Intake intake(config);
     Subscriptions subscriptions(bus, config, intake);
     const auto end = Clock::now() + std::chrono::duration<double>(look);
     while (Clock::now() < end && !app::interrupted()) {
@@ -102,8 +102,7 @@ std::string nothing_there(const Bus& bus) {
 }
 
 std::string no_such_cloud(const Seen& seen, const std::string& wanted) {
-    std::vector<std::string> known;
-    for (const SeenTopic& topic : seen.topics.clouds) known.push_back(topic.name);
+    const std::vector<std::string> known = names_of(seen.topics.clouds);
     const std::string nearest = nearest_word(wanted, known);
     return fmt::format("nobody publishes scans on {}{}{}", wanted,
                        known.empty() ? "" : fmt::format("; there are: {}", fmt::join(known, ", ")),

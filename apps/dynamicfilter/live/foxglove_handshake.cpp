@@ -7,6 +7,8 @@
 #include <cctype>
 #include <map>
 
+#include "view/http_text.hpp"
+
 namespace dynamic_filter::live {
 namespace {
 
@@ -17,28 +19,10 @@ constexpr std::string_view kKnownOrigins[] = {"https://app.foxglove.dev",
                                               "https://lichtblick-suite.github.io", "file://"};
 constexpr std::string_view kThisMachine[] = {"localhost", "127.0.0.1", "[::1]"};
 
+using app::lower;
+using app::take;
+using app::trimmed;
 using Headers = std::map<std::string, std::string>;
-
-std::string_view trimmed(std::string_view text) {
-    const auto first = text.find_first_not_of(" \t");
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
-std::string lower(std::string_view text) {
-    std::string result(text);
-    std::transform(result.begin(), result.end(), result.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return result;
-}
-
-/// Up to the separator, which is taken away, too.
-std::string_view take(std::string_view& text, std::string_view separator) {
-    const std::size_t at = std::min(text.find(separator), text.size());
-    const std::string_view taken = text.substr(0, at);
-    text.remove_prefix(std::min(at + separator.size(), text.size()));
-    return taken;
-}
 
 /// Names in lower case; values of a repeated header are joined by commas, as HTTP says.
 Headers headers_of(std::string_view head) {

@@ -23,12 +23,6 @@ double seconds_between(SteadyTime from, SteadyTime to) {
     return std::chrono::duration<double>(to - from).count();
 }
 
-bool is_absurd(const Pose& T_world_sensor) {
-    constexpr double kEarth = 4e7;  // [m] its circumference
-    return !T_world_sensor.matrix().allFinite() ||
-           T_world_sensor.translation().cwiseAbs().maxCoeff() > kEarth;
-}
-
 float latest(const std::vector<float>& times) {
     float last = 0.0F;
     for (const float time : times) {
@@ -46,8 +40,7 @@ std::vector<std::string> keys_of(const Map& map) {
 
 }  // namespace
 
-Intake::Intake(const LiveConfig& config, io::MessageEncoding encoding)
-    : config_(config), encoding_(encoding) {
+Intake::Intake(const LiveConfig& config) : config_(config) {
     const std::string& pose = config.input.pose;
     if (pose == "none") origin_ = PoseOrigin::odometry;
     if (pose == "/tf") origin_ = PoseOrigin::frames;
@@ -57,8 +50,7 @@ Intake::Intake(const LiveConfig& config, io::MessageEncoding encoding)
 }
 
 void Intake::put(const io::Topic& topic, bool is_static, const Bytes& message) {
-    const auto kind = io::kind_of(topic.type);
-    const bool is_cloud = kind == io::MessageKind::cloud || kind == io::MessageKind::livox;
+    const bool is_cloud = io::holds_scan(io::kind_of(topic.type));
     const auto now = std::chrono::steady_clock::now();
     {
         const std::lock_guard hold(lock_);
@@ -293,7 +285,7 @@ bool Intake::give_pose(LiveScan& scan) {
     }
     const auto source = source_for(scan.frame);
     const auto pose = source ? source->T_world_sensor(scan.stamp) : std::nullopt;
-    if (!pose || is_absurd(*pose)) {
+    if (!pose || !pose->matrix().allFinite() || io::is_absurdly_far(*pose)) {
         missing_ = last_missing_ = why_no_pose(scan.frame, scan.stamp);
         const std::lock_guard hold(lock_);
         ++counters_.without_pose;
@@ -306,17 +298,13 @@ bool Intake::give_pose(LiveScan& scan) {
     scan.T_world_sensor = *pose;
     if (source->points_in_world) scan.points = io::into_sensor(scan.cloud, *pose);
     if (config_.filter.odometry.refine || scan.times.empty()) return true;
+    const io::Trajectory trajectory = io::trajectory_of(*source);
     const double end = scan.stamp + static_cast<double>(latest(scan.times));
-    io::Trajectory trajectory;
-    for (const double stamp : source->stamps) {
-        const auto then = source->T_world_sensor(stamp);
-        if (!then) continue;
-        trajectory.stamps.push_back(stamp);
-        trajectory.poses.push_back(*then);
-        if (stamp <= scan.stamp) continue;
-        scan.trajectory.stamps.push_back(stamp);
-        scan.trajectory.poses.push_back(*then);
-        if (stamp >= end) break;
+    for (std::size_t i = 0; i < trajectory.stamps.size(); ++i) {
+        if (trajectory.stamps[i] <= scan.stamp) continue;
+        scan.trajectory.stamps.push_back(trajectory.stamps[i]);
+        scan.trajectory.poses.push_back(trajectory.poses[i]);
+        if (trajectory.stamps[i] >= end) break;
     }
     io::undo_motion(scan.points, scan.times, scan.stamp, trajectory);
     scan.times.clear();

@@ -58,7 +58,7 @@ enum class PoseOrigin { undecided, frames, topic, odometry };
 /// put() may be called from any thread; all other members have a single caller.
 class Intake {
 public:
-    Intake(const LiveConfig& config, io::MessageEncoding encoding);
+    explicit Intake(const LiveConfig& config);
 
     /// Takes a message: a cloud, poses, or transforms (of /tf_static: `is_static`), by its type.
     void put(const io::Topic& topic, bool is_static, const Bytes& message);
@@ -101,7 +101,6 @@ private:
     void tell(std::string text);
 
     const LiveConfig& config_;
-    io::MessageEncoding encoding_;
 
     mutable std::mutex lock_;  // guards the members below
     std::condition_variable came_;

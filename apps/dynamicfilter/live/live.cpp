@@ -199,7 +199,7 @@ int live(Bus& bus, const LiveOptions& o) {
         if (foxglove) fmt::print(stderr, "foxglove {}\n", foxglove->url());
     }
     app::catch_interrupts();
-    Intake intake(config, bus.encoding());
+    Intake intake(config);
     Outputs outputs(config, bus.encoding(), bus, foxglove.get());
     Session session(config, outputs, recorder ? &*recorder : nullptr);
     Subscriptions subscriptions(bus, config, intake);

@@ -42,17 +42,17 @@ bool Recorder::is_taken(const fs::path& output) const {
 }
 
 void Recorder::begin() {
-    current_ = output_;
+    fs::path current = output_;
     const auto is_used = [&] {
-        const bool own = std::find(written_.begin(), written_.end(), current_) != written_.end();
-        return own || (!overwrite_ && is_taken(current_));
+        const bool own = std::find(written_.begin(), written_.end(), current) != written_.end();
+        return own || (!overwrite_ && is_taken(current));
     };
     for (int n = 2; is_used(); ++n) {
-        current_ = output_;
-        current_ += fmt::format("-{}", n);
+        current = output_;
+        current += fmt::format("-{}", n);
     }
-    writer_ = io::BagWriter::create(bag_of(current_));
-    written_.push_back(current_);
+    writer_ = io::BagWriter::create(bag_of(current));
+    written_.push_back(current);
     last_scan_ = last_pose_ = -std::numeric_limits<double>::infinity();
 }
 

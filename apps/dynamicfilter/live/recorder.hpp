@@ -30,7 +30,7 @@ private:
     void write_pose(const LiveScan& scan, double stamp, const Pose& T_world_sensor);
     [[nodiscard]] bool is_taken(const std::filesystem::path& output) const;
 
-    std::filesystem::path output_, current_;
+    std::filesystem::path output_;
     io::MessageEncoding encoding_;
     bool overwrite_;
     std::unique_ptr<io::BagWriter> writer_;  // null until the first scan

@@ -23,13 +23,13 @@ bool is_of_another_instance(const std::vector<SeenTopic>& seen, const std::strin
     return is_listed(seen, prefix + "/corrections") && is_listed(seen, prefix + "/labels");
 }
 
+}  // namespace
+
 std::vector<std::string> names_of(const std::vector<SeenTopic>& topics) {
     std::vector<std::string> names;
     for (const SeenTopic& topic : topics) names.push_back(topic.name);
     return names;
 }
-
-}  // namespace
 
 UsableTopics usable(const std::vector<SeenTopic>& seen) {
     UsableTopics topics;
@@ -58,8 +58,7 @@ bool is_static_transforms(const std::string& topic) { return topic.ends_with("tf
 
 Quality quality_for(const SeenTopic& topic, const std::string& qos) {
     constexpr std::size_t kClouds = 5, kOthers = 200;
-    const auto kind = io::kind_of(topic.type);
-    const bool is_cloud = kind == io::MessageKind::cloud || kind == io::MessageKind::livox;
+    const bool is_cloud = io::holds_scan(io::kind_of(topic.type));
     Quality quality{.reliable = topic.offered.reliable,
                     .latched = topic.offered.latched && is_static_transforms(topic.name),
                     .depth = is_cloud ? kClouds : kOthers};

@@ -20,6 +20,8 @@ struct UsableTopics {
 /// Sorts topics by their use. What another instance of this program publishes is left out.
 UsableTopics usable(const std::vector<SeenTopic>& seen);
 
+std::vector<std::string> names_of(const std::vector<SeenTopic>& topics);
+
 /// True for a topic whose transforms hold forever.
 bool is_static_transforms(const std::string& topic);
 

@@ -7,30 +7,11 @@
 #include <cctype>
 #include <charconv>
 
+#include "http_text.hpp"
+
 namespace dynamic_filter::app {
 
 namespace {
-
-/// Up to the separator, which is taken away, too.
-std::string_view take(std::string_view& text, std::string_view separator) {
-    const std::size_t at = std::min(text.find(separator), text.size());
-    const std::string_view taken = text.substr(0, at);
-    text.remove_prefix(std::min(at + separator.size(), text.size()));
-    return taken;
-}
-
-std::string_view trimmed(std::string_view text) {
-    while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-    while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
-    return text;
-}
-
-std::string lower(std::string_view text) {
-    std::string result(text);
-    std::transform(result.begin(), result.end(), result.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return result;
-}
 
 int hex_digit(char c) {
     if (c >= '0' && c <= '9') return c - '0';

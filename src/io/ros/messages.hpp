@@ -23,6 +23,10 @@ struct MessageHeader {
 
 enum class MessageKind { other, cloud, livox, odometry, pose, transforms };
 MessageKind kind_of(const std::string& type);
+/// True for messages with the points of a scan.
+inline bool holds_scan(MessageKind kind) {
+    return kind == MessageKind::cloud || kind == MessageKind::livox;
+}
 
 /// The following functions throw Malformed.
 MessageHeader read_header(const Message& message);

@@ -5,6 +5,18 @@
 
 namespace dynamic_filter::io {
 
+Trajectory trajectory_of(const PoseSource& source) {
+    Trajectory trajectory;
+    for (const double stamp : source.stamps) {
+        const auto pose = source.T_world_sensor(stamp);
+        if (!pose) continue;
+        trajectory.stamps.push_back(stamp);
+        trajectory.poses.push_back(*pose);
+    }
+    put_in_order(trajectory);
+    return trajectory;
+}
+
 PoseSource from_frames(const FrameTree& frames, const std::string& sensor,
                        const std::string& world) {
     const std::string root = world.empty() ? frames.above(sensor).back() : world;

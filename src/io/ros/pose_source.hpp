@@ -27,6 +27,9 @@ struct PoseSource {
     std::string note;              ///< one sentence for the user
 };
 
+/// All poses that were published.
+Trajectory trajectory_of(const PoseSource& source);
+
 /// Poses from /tf: of the frame `sensor` in the frame `world` (empty: its root). The result refers
 /// to `frames`.
 PoseSource from_frames(const FrameTree& frames, const std::string& sensor,

@@ -49,7 +49,7 @@ struct IntakeOf {
     explicit IntakeOf(const std::vector<std::pair<std::string, std::string>>& settings) {
         config.input.wait = 0.05;
         for (const auto& [key, value] : settings) set(config, key, value);
-        intake.emplace(config, kCdr);
+        intake.emplace(config);
     }
     Intake* operator->() { return &*intake; }
     std::optional<LiveScan> take() { return intake->take(0.5); }

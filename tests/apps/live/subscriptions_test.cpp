@@ -30,7 +30,7 @@ struct Robot {
     std::optional<Subscriptions> subscriptions;
 
     Subscriptions& start() {
-        intake.emplace(config, bus.encoding());
+        intake.emplace(config);
         subscriptions.emplace(bus, config, *intake);
         return *subscriptions;
     }
