@@ -84,6 +84,17 @@ std::vector<Assigned> apply_toml(Config& config, const std::filesystem::path& fi
     return assigned;
 }
 
+void note_without_effect(const Config& config, const std::vector<Assigned>& assigned,
+                         std::vector<std::string>& errors) {
+    for (const Assigned& a : assigned) {
+        try {
+            require_in_force(config, a.key);
+        } catch (const ConfigError& error) {
+            errors.push_back(fmt::format("{}: {}", a.where, error.what()));
+        }
+    }
+}
+
 /// The method is known only when all is read: then what was set without an effect can be named.
 Config load_config(const ConfigOptions& options) {
     Config config = preset(options.preset);
@@ -100,13 +111,7 @@ Config load_config(const ConfigOptions& options) {
         set_noting(config, {assignment.substr(0, equals), where}, assignment.substr(equals + 1),
                    assigned, errors);
     }
-    for (const Assigned& a : assigned) {
-        try {
-            require_in_force(config, a.key);
-        } catch (const ConfigError& error) {
-            errors.push_back(fmt::format("{}: {}", a.where, error.what()));
-        }
-    }
+    note_without_effect(config, assigned, errors);
     if (!errors.empty()) throw ConfigError(fmt::format("{}", fmt::join(errors, "\n  ")));
     validate(config);
     return config;

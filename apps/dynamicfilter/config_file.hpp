@@ -20,6 +20,10 @@ struct Assigned {
     std::string key, where;
 };
 
+/// Adds an error for each setting of the filter that has no effect with the method in force.
+void note_without_effect(const Config& config, const std::vector<Assigned>& assigned,
+                         std::vector<std::string>& errors);
+
 /// A value in a TOML file, as text.
 struct FileSetting {
     std::string key, value;  ///< key with its section: "map.voxel_size"

@@ -108,7 +108,7 @@ LiveConfig load_live_config(const LiveOptions& options,
                            const std::string& where) {
         try {
             set(config, key, value);
-            assigned.push_back({key, where});
+            if (is_filters(config.filter, key)) assigned.push_back({key, where});
         } catch (const ConfigError& error) {
             errors.push_back(fmt::format("{}: {}", where, error.what()));
         }
@@ -128,14 +128,7 @@ LiveConfig load_live_config(const LiveOptions& options,
                   "--set " + assignment);
         }
     }
-    for (const app::Assigned& a : assigned) {
-        if (!is_filters(config.filter, a.key)) continue;
-        try {
-            require_in_force(config.filter, a.key);
-        } catch (const ConfigError& error) {
-            errors.push_back(fmt::format("{}: {}", a.where, error.what()));
-        }
-    }
+    app::note_without_effect(config.filter, assigned, errors);
     if (!errors.empty()) throw ConfigError(fmt::format("{}", fmt::join(errors, "\n  ")));
     validate(config.filter);
     check_prefix(config);
