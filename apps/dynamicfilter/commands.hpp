@@ -39,8 +39,19 @@ struct DataOptions {
     io::OpenOptions open;
 };
 
+/// Several recordings of one world, or one that is larger than memory; see docs/city.md.
+struct CityOptions {
+    std::vector<std::filesystem::path> recordings;  ///< or lists of them
+    std::string part;                               ///< "I/N", or empty: all tiles, and the merge
+    std::string memory;                             ///< "1.5G", or empty
+    std::optional<std::filesystem::path> plan;      ///< left by `plan -o`
+    std::size_t tile_voxels = 1'500'000;            ///< most in a tile
+    bool mpi = false;
+};
+
 struct RunOptions {
     DataOptions data;
+    CityOptions city;
     std::optional<std::filesystem::path> output;
     ConfigOptions config;
     int threads = 0;
@@ -121,6 +132,19 @@ struct OdometryOptions {
     bool overwrite = false, quiet = false;
 };
 
+struct PlanOptions {
+    RunOptions run;         ///< of the run that is planned
+    std::size_t parts = 1;  ///< into which the tiles are divided
+    bool json = false;
+};
+
+struct MergeOptions {
+    std::vector<std::filesystem::path> parts;  ///< output folders of `run --part`
+    std::filesystem::path output;
+    int threads = 0;
+    bool overwrite = false, quiet = false;
+};
+
 struct DemoOptions {
     std::filesystem::path output = "demo";
 };
@@ -129,6 +153,8 @@ struct DemoOptions {
 Evaluation scores_of(const EvalOptions& options);
 
 int run(const RunOptions& options);
+int plan(const PlanOptions& options);
+int merge(const MergeOptions& options);
 int evaluate(const EvalOptions& options);
 int simulate(const SimulateOptions& options);
 int demo(const DemoOptions& options);

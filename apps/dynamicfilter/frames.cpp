@@ -93,9 +93,11 @@ void for_each_frame(const io::Sequence& sequence, const std::vector<std::size_t>
         });
         return batch;
     };
+    // With one thread, the batch is read when it is needed.
+    const auto when = current_threads() > 1 ? std::launch::async : std::launch::deferred;
     std::future<std::vector<MaybeFrame>> next;  // its destructor waits
     const auto begin_batch = [&](std::size_t first) {
-        if (first < scans.size()) next = std::async(std::launch::async, read_batch, first);
+        if (first < scans.size()) next = std::async(when, read_batch, first);
     };
     begin_batch(0);
     for (std::size_t first = 0; first < scans.size(); first += kAhead) {

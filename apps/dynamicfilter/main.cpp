@@ -92,16 +92,44 @@ void add_selection_options(CLI::App& command, DataOptions& o) {
     command.add_option("--stride", o.open.stride, "use every n-th scan only")->check(whole_from(1));
 }
 
+/// One recording or several; a list of them counts as several.
+void add_recordings(CLI::App& command, RunOptions& o) {
+    command
+        .add_option("DATA", o.city.recordings,
+                    "a bag (.mcap, .bag, .db3), or a folder with scans and poses; several drives "
+                    "through one world, or a .txt file that lists them, give one map")
+        ->required()
+        ->type_name("PATH");
+}
+
+void add_tile_voxels(CLI::App& command, RunOptions& o) {
+    command
+        .add_option("--tile-voxels", o.city.tile_voxels,
+                    "most voxels in a tile; fewer need less memory, and more time")
+        ->check(whole_from(1000))
+        ->capture_default_str();
+}
+
 void add_run(CLI::App& app, std::function<int()>& chosen) {
     auto o = std::make_shared<RunOptions>();
     CLI::App& c = *app.add_subcommand("run", "Remove moving objects from a recording");
-    c.add_option("DATA", o->data.data,
-                 "a bag (.mcap, .bag, .db3), or a folder with scans and poses")
-        ->required();
+    add_recordings(c, *o);
     c.add_option("-o,--output", o->output, "output folder (default: results/<UTC stamp>)");
     add_reading_options(c, o->data);
     add_config_options(c, o->config);
     add_selection_options(c, o->data);
+    CLI::Option* const part =
+        c.add_option("--part", o->city.part,
+                     "I/N: filter only the tiles of part I of N; `dynamicfilter merge` puts the "
+                     "parts together");
+    c.add_flag("--mpi", o->city.mpi, "share the tiles out among the processes that mpirun started")
+        ->excludes(part);
+    c.add_option("--memory", o->city.memory,
+                 "most memory to use, for instance 1.5G: filter tile by tile");
+    c.add_option("--plan", o->city.plan,
+                 "file that `dynamicfilter plan -o` wrote, so that the scans need not be read to "
+                 "plan the tiles");
+    add_tile_voxels(c, *o);
     c.add_option(
          "--refine", o->refine,
          "refine the given poses by registering the scans; auto does so if the scans overlay "
@@ -137,7 +165,44 @@ void add_run(CLI::App& app, std::function<int()>& chosen) {
     c.add_flag("!--no-maps", o->maps, "do not write static_map.pcd and dynamic_points.pcd");
     c.add_flag("!--no-report", o->report, "do not write report.html")->excludes(view);
     c.add_flag("-q,--quiet", o->quiet, "print only warnings and errors");
-    c.callback([o, &chosen] { chosen = [o] { return run(*o); }; });
+    c.callback([o, &chosen] {
+        o->data.data = o->city.recordings.front();
+        chosen = [o] { return run(*o); };
+    });
+}
+
+void add_plan(CLI::App& app, std::function<int()>& chosen) {
+    auto o = std::make_shared<PlanOptions>();
+    CLI::App& c = *app.add_subcommand(
+        "plan", "Show the tiles, the time and the memory that a run over large recordings takes");
+    add_recordings(c, o->run);
+    c.add_option("-o,--output", o->run.output, "also write the plan to this file, for run --plan");
+    add_reading_options(c, o->run.data);
+    add_config_options(c, o->run.config);
+    add_selection_options(c, o->run.data);
+    add_tile_voxels(c, o->run);
+    c.add_option("--parts", o->parts, "number of parts into which the tiles are divided")
+        ->check(CLI::Range(std::size_t{1}, std::size_t{100000}))
+        ->capture_default_str();
+    c.add_flag("--json", o->json, "print every tile, as JSON");
+    c.add_option("--threads", o->run.threads, "number of threads; 0 uses all cores")
+        ->check(CLI::Range(0, 1024));
+    c.add_flag("--overwrite", o->run.overwrite, "replace the file of -o");
+    c.add_flag("-q,--quiet", o->run.quiet, "print only the plan, warnings and errors");
+    c.callback([o, &chosen] { chosen = [o] { return plan(*o); }; });
+}
+
+void add_merge(CLI::App& app, std::function<int()>& chosen) {
+    auto o = std::make_shared<MergeOptions>();
+    CLI::App& c =
+        *app.add_subcommand("merge", "Put the parts of a run together (see run --part)");
+    c.add_option("PART", o->parts, "output folders of all parts")->required()->type_name("PATH");
+    c.add_option("-o,--output", o->output, "output folder")->required();
+    c.add_option("--threads", o->threads, "number of threads; 0 uses all cores")
+        ->check(CLI::Range(0, 1024));
+    c.add_flag("--overwrite", o->overwrite, "replace an earlier result in the output folder");
+    c.add_flag("-q,--quiet", o->quiet, "print only warnings and errors");
+    c.callback([o, &chosen] { chosen = [o] { return merge(*o); }; });
 }
 
 void add_live(CLI::App& app, std::function<int()>& chosen) {
@@ -430,6 +495,8 @@ int main(int argc, char** argv) {
     app.failure_message(usage_error);
     std::function<int()> chosen;
     add_run(app, chosen);
+    add_plan(app, chosen);
+    add_merge(app, chosen);
     add_live(app, chosen);
     add_eval(app, chosen);
     add_simulate(app, chosen);

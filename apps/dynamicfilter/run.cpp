@@ -2,10 +2,10 @@
 #include <fmt/format.h>
 
 #include "advice.hpp"
+#include "city/run_city.hpp"
 #include "commands.hpp"
 #include "config_file.hpp"
 #include "dynamic_filter/error.hpp"
-#include "dynamic_filter/io/file.hpp"
 #include "dynamic_filter/io/preflight.hpp"
 #include "dynamic_filter/parallel.hpp"
 #include "edits/run_edits.hpp"
@@ -13,6 +13,7 @@
 #include "motion.hpp"
 #include "progress.hpp"
 #include "run_reports.hpp"
+#include "run_state.hpp"
 
 namespace dynamic_filter::app {
 
@@ -20,51 +21,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kComplete = "complete\n";
-
 /// What a run was begun with: whoever resumes it must come with the same.
 std::string begun_with(const io::Sequence& sequence, const Config& config, const Extras& extras) {
-    std::error_code ignored;
-    std::uintmax_t bytes = sequence.bag && fs::is_regular_file(sequence.root, ignored)
-                               ? fs::file_size(sequence.root, ignored)
-                               : 0;
-    for (const fs::path& file : sequence.scan_files) {
-        if (fs::is_regular_file(file, ignored)) bytes += fs::file_size(file, ignored);
-    }
-    return fmt::format(
-        "version {}\ninput {}\nscans {} from {} to {}, {} bytes\n{}{}{}", DYNAMIC_FILTER_VERSION,
-        fs::absolute(sequence.root).lexically_normal().string(), sequence.size(),
-        io::stem(sequence, 0), io::stem(sequence, sequence.size() - 1), bytes,
-        extras.maps ? "" : "no maps\n", extras.report ? "" : "no report\n", to_toml(config));
-}
-
-/// Labels that no run left may be somebody's ground truth.
-void refuse_foreign_labels(const fs::path& folder) {
-    const bool of_a_run = fs::exists(folder / kRunState) || fs::exists(folder / "config.toml");
-    if (of_a_run || !fs::exists(folder / "labels")) return;
-    throw ConfigError(
-        folder.string() +
-        ": holds labels that no run left, so --overwrite is refused; choose another -o");
-}
-
-/// True if nothing is left to do. Throws ConfigError if that run was another one.
-bool is_complete(const OutputFolder& output, const std::string& state) {
-    if (output.is_empty()) return false;
-    const fs::path file = output.path() / kRunState;
-    if (!fs::exists(file)) {
-        throw ConfigError(output.name().string() +
-                          ": holds something that no run of this version began; use --overwrite "
-                          "or another -o");
-    }
-    const std::string found = io::read_file(file);
-    if (found == state + kComplete) return true;
-    if (found == state) return false;
-    throw ConfigError(
-        output.name().string() +
-        ": was begun with another recording, other settings, other outputs (--no-maps, "
-        "--no-report) or another version; go on "
-        "with those (see config.toml and run.log there), or start afresh with "
-        "--overwrite");
+    return fmt::format("version {}\n{}{}{}{}", DYNAMIC_FILTER_VERSION, state_of(sequence),
+                       extras.maps ? "" : "no maps\n", extras.report ? "" : "no report\n",
+                       to_toml(config));
 }
 
 void tell(const std::vector<std::string>& notes, bool quiet) {
@@ -75,6 +36,7 @@ void tell(const std::vector<std::string>& notes, bool quiet) {
 }  // namespace
 
 int run(const RunOptions& o) {
+    if (is_city(o)) return run_city(o);
     StageClock clock;
     if (!o.after.empty()) clock.finish(o.after);
     Config config = load_config(o.config);
@@ -102,12 +64,13 @@ int run(const RunOptions& o) {
     sequence.notes.insert(sequence.notes.end(), chosen.begin(), chosen.end());
     const Extras extras{.maps = o.maps, .report = o.report};
     const std::string state = begun_with(sequence, config, extras);
-    if (o.resume && is_complete(output, state)) {
+    if (o.resume) refuse_other_run(output, state);
+    if (o.resume && is_complete(output.path(), state)) {
         output.commit();
         if (!o.quiet) fmt::print("complete {}\n", output.name().string());
         return kDone;
     }
-    io::write_file(output.path() / kRunState, state);
+    write_state(output, state);
     tell(sequence.notes, o.quiet);
     for (const io::Finding& found : io::check_recording(sequence, io::Depth::quick).findings) {
         const io::Finding finding = blame_needless_fix(found, o.data);
@@ -128,7 +91,7 @@ int run(const RunOptions& o) {
     for (const std::string& line : summary.rejected) fmt::print(stderr, "rejected {}\n", line);
     for (const std::string& line : summary.dropped) fmt::print(stderr, "dropped {}\n", line);
     if (edits && !summary.interrupted) apply_to_run(output.path(), *edits, o.quiet);
-    if (!summary.interrupted) io::write_file(output.path() / kRunState, state + kComplete);
+    if (!summary.interrupted) write_complete(output, state);
     if (summary.interrupted && output.path() != output.name()) {
         fmt::print("interrupted; the earlier result in {} stays\n", output.name().string());
         return kInterrupted;

@@ -24,23 +24,6 @@ double per_second(std::size_t items, double seconds) {
     return seconds > 0 ? static_cast<double>(items) / seconds : 0.0;
 }
 
-/// Of the whole process, by stage.
-nlohmann::ordered_json by_stage(const StageClock& clock) {
-    nlohmann::ordered_json json = nlohmann::ordered_json::array();
-    for (const StageClock::Stage& stage : clock.stages()) {
-        json.push_back({{"stage", stage.name},
-                        {"wall_seconds", stage.seconds.wall},
-                        {"cpu_seconds", stage.seconds.cpu}});
-    }
-    return json;
-}
-
-std::size_t peak_rss_bytes() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return 1024 * static_cast<std::size_t>(usage.ru_maxrss);
-}
-
 nlohmann::ordered_json timing(const Pass& pass) {
     const RunSummary& s = pass.summary;
     const Seconds total = pass.clock.total();
@@ -63,20 +46,6 @@ nlohmann::ordered_json timing(const Pass& pass) {
                           {"processed", c.processed},   {"dropped", c.dropped},
                           {"rejected", c.rejected},     {"queued", c.queued}};
     }
-    return json;
-}
-
-nlohmann::ordered_json metrics(const Pass& pass) {
-    const RunSummary& s = pass.summary;
-    nlohmann::ordered_json json = nlohmann::ordered_json::object();
-    if (s.scores) json = to_json(*s.scores);
-    if (s.instant_scores) json["instant"] = to_json(*s.instant_scores);
-    if (s.scores) json["voxel_size"] = eval::kVoxelSize;
-    json["scans"] = s.scans;
-    json["points"] = {{"static", s.still}, {"dynamic", s.dynamic}, {"unknown", s.unknown}};
-    json["rejected"] = s.rejected;
-    json["dropped"] = s.dropped;
-    json["lost"] = pass.sequence.losses;
     return json;
 }
 
@@ -151,9 +120,38 @@ void take_contents(Pass& pass) {
 
 }  // namespace
 
+nlohmann::ordered_json by_stage(const StageClock& clock) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    for (const StageClock::Stage& stage : clock.stages()) {
+        json.push_back({{"stage", stage.name},
+                        {"wall_seconds", stage.seconds.wall},
+                        {"cpu_seconds", stage.seconds.cpu}});
+    }
+    return json;
+}
+
+std::size_t peak_rss_bytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return 1024 * static_cast<std::size_t>(usage.ru_maxrss);
+}
+
+nlohmann::ordered_json metrics_of(const RunSummary& s, const std::vector<std::string>& losses) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::object();
+    if (s.scores) json = to_json(*s.scores);
+    if (s.instant_scores) json["instant"] = to_json(*s.instant_scores);
+    if (s.scores) json["voxel_size"] = eval::kVoxelSize;
+    json["scans"] = s.scans;
+    json["points"] = {{"static", s.still}, {"dynamic", s.dynamic}, {"unknown", s.unknown}};
+    json["rejected"] = s.rejected;
+    json["dropped"] = s.dropped;
+    json["lost"] = losses;
+    return json;
+}
+
 void write_reports(Pass& pass) {
     take_contents(pass);
-    const nlohmann::ordered_json metrics = app::metrics(pass);
+    const nlohmann::ordered_json metrics = metrics_of(pass.summary, pass.sequence.losses);
     write_report(pass, metrics);
     io::write_file(pass.output.path() / "metrics.json", text_of(metrics));
     pass.summary.seconds = pass.clock.total();

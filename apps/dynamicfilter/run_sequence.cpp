@@ -12,14 +12,12 @@
 #include "config_file.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/io/file.hpp"
-#include "dynamic_filter/io/writers.hpp"
 #include "dynamic_filter/parallel.hpp"
-#include "edits/map_gaps.hpp"
 #include "frames.hpp"
-#include "map_files.hpp"
 #include "motion.hpp"
 #include "progress.hpp"
 #include "run_reports.hpp"
+#include "write_scans.hpp"
 
 namespace dynamic_filter::app {
 
@@ -140,63 +138,29 @@ void note(Pass& pass, std::size_t i, const io::Frame& frame, const Labels& label
 
 /// Second pass: final verdicts, label files, maps.
 void write_results(Pass& pass) {
-    const auto folder = pass.output.subfolder("labels");
-    MapFiles maps(pass.output.path(), pass.config.map.keep_unknown,
-                  pass.sequence.format == io::Format::benchmark);
     const std::vector<std::size_t> scans = accepted_scans(pass);
     Progress progress("write", scans.size(), pass.watchers.quiet);
     if (pass.sequence.has_truth()) {
         pass.scorer.emplace(eval::kVoxelSize, 2);
         pass.scoring_origin = scoring_origin(pass.sequence, eval::kVoxelSize);
     }
-    const auto changed = [&](std::size_t i, const std::string& why) {
-        return InputError(pass.sequence.scan_files[i], "", "changed while it was in use: " + why);
+    const auto decide = [&](std::size_t i, const io::Frame& frame) {
+        return pass.filter.verdict({frame.points, frame.T_world_sensor, frame.stamp, i});
     };
-    if (pass.extras.maps && !scans.empty()) {
-        try {
-            maps.begin(io::read_frame(pass.sequence, scans.front()));
-        } catch (const InputError& error) {
-            throw changed(scans.front(), error.what());
+    const auto use = [&](std::size_t i, const io::Frame& frame, const Verdict& verdict) {
+        const Labels instant = pass.instant.get(i);
+        if (pass.scorer && !frame.truth.empty()) {
+            pass.scorer->add(labelled(frame, pass.scoring_origin),
+                             std::array<const Labels*, 2>{&verdict.labels, &instant});
         }
-    }
-    std::vector<Verdict> verdicts(pass.sequence.size());
-    std::vector<MapFiles::Records> records(pass.sequence.size());
-    std::vector<Labels> instants(pass.sequence.size());
-    std::vector<Gaps> gaps(pass.sequence.size());
-    const auto classify = [&](std::size_t i, MaybeFrame& maybe) {
-        const io::Frame& frame = *maybe.frame;
-        verdicts[i] = pass.filter.verdict({frame.points, frame.T_world_sensor, frame.stamp, i});
-        io::write_labels(folder / (io::stem(pass.sequence, i) + ".label"), verdicts[i].labels,
-                         io::Durable::contents);
-        if (pass.extras.maps) {
-            records[i] = maps.records_of(frame, verdicts[i]);
-            gaps[i] = gaps_of(frame.points);
-        }
-        instants[i] = pass.instant.get(i);
-    };
-    const auto use = [&](std::size_t i, MaybeFrame& maybe) {
-        if (!maybe.frame) throw changed(i, maybe.error);
-        const Labels& labels = verdicts[i].labels;
-        const Labels instant = std::exchange(instants[i], {});
-        if (pass.extras.maps) maps.append(std::exchange(records[i], {}));
-        if (pass.scorer && !maybe.frame->truth.empty()) {
-            pass.scorer->add(labelled(*maybe.frame, pass.scoring_origin),
-                             std::array<const Labels*, 2>{&labels, &instant});
-        }
-        note(pass, i, *maybe.frame, labels, instant);
+        note(pass, i, frame, verdict.labels, instant);
         if (pass.watchers.live) {
-            pass.watchers.live->feed().corrected(i, maybe.frame->points, labels);
+            pass.watchers.live->feed().corrected(i, frame.points, verdict.labels);
         }
-        verdicts[i] = {};
         progress.advance();
-        return true;  // what is filtered is written even after an interruption; a second one kills
     };
-    for_each_frame(pass.sequence, scans, classify, use);
-    io::sync_folder(folder);
-    maps.commit();
-    std::vector<Gaps> of_scans;
-    for (const std::size_t i : scans) of_scans.push_back(std::move(gaps[i]));
-    write_gaps(pass.output.path(), of_scans);
+    write_scans(pass.sequence, scans, pass.config, pass.extras.maps, pass.output.path(),
+                {.decide = decide, .use = use});
 }
 
 /// Third pass, over recordings with ground truth: which removed points lie near one that stays.

@@ -50,6 +50,9 @@ public:
     /// integrated before the next scan is judged, and settle() gives verdicts. False: scans are
     /// judged window by window, and one thread may judge while another integrates.
     [[nodiscard]] virtual bool judges_each_scan() const = 0;
+    /// The next scan is the first one of another drive through the same world, perhaps by another
+    /// sensor and with other stamps. The evidence stays. The method "submaps" knows no drives.
+    virtual void begin_drive() {}
     /// Decides every voxel, and returns the instant verdicts that were not returned before. Call it
     /// once.
     virtual std::vector<Verdict> finish() = 0;

@@ -58,6 +58,7 @@ struct Judged {
 struct StaticVoxel {
     Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< [m] world frame
     float probability = 0.0F;                          ///< occupancy 0..1
+    std::uint32_t voxel = 0;  ///< its number, as DynamicFilter::voxels_of() gives it
 };
 
 /// The observations of a voxel, to explain the verdict on a point in it. With the method "submaps",

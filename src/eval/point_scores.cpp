@@ -27,6 +27,19 @@ void CoverCount::add(Label truth, bool covered) {
     if (covered) (is_dynamic ? covered_dynamic : covered_still) += 1;
 }
 
+void CoverCount::add(const CoverCount& other) {
+    still += other.still;
+    dynamic += other.dynamic;
+    covered_still += other.covered_still;
+    covered_dynamic += other.covered_dynamic;
+}
+
+void Confusion::add(const Confusion& other) {
+    true_positive += other.true_positive;
+    false_positive += other.false_positive;
+    false_negative += other.false_negative;
+}
+
 void Confusion::add(Label truth, Label verdict) {
     const bool is = truth == Label::dynamic, said = verdict == Label::dynamic;
     if (is && said) ++true_positive;

@@ -18,6 +18,10 @@ namespace {
 
 constexpr auto kDistance = static_cast<float>(kCoverDistance);
 
+double share(std::size_t part, std::size_t all) {
+    return all == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(all);
+}
+
 void refuse_unparallel(const LabelledScan& scan, const Labels& verdict) {
     const std::size_t n = scan.points.size();
     if (scan.truth.size() == n && verdict.size() == n) return;
@@ -169,10 +173,31 @@ void ScanScores::add_near(const std::vector<Points>& points) {
     }
 }
 
-Scores ScanScores::scores(std::size_t result) const {
+ScoreSums ScanScores::sums(std::size_t result) const {
     const Result& one = results_[result];
-    Scores scores{tally_.scores(result), point_score(one.cover()), tally_.dynamic_share()};
-    scores.point.iou = one.confusion.iou();
+    return {.voxel = tally_.totals(result),
+            .cover = one.cover(),
+            .confusion = one.confusion,
+            .voxels = tally_.voxels(),
+            .dynamic_voxels = tally_.dynamic_voxels()};
+}
+
+Scores ScanScores::scores(std::size_t result) const { return sums(result).scores(); }
+
+void ScoreSums::add(const ScoreSums& other) {
+    for (const auto& [reading, numbers] : other.voxel) voxel[reading].add(numbers);
+    cover.add(other.cover);
+    confusion.add(other.confusion);
+    voxels += other.voxels;
+    dynamic_voxels += other.dynamic_voxels;
+}
+
+Scores ScoreSums::scores() const {
+    Scores scores;
+    for (const auto& [reading, numbers] : voxel) scores.voxel[reading] = numbers.score();
+    scores.point = point_score(cover);
+    scores.point.iou = confusion.iou();
+    scores.dynamic_share = share(dynamic_voxels, voxels);
     return scores;
 }
 
@@ -201,7 +226,7 @@ Scores score_map(std::size_t scans, const ScanSource& source, const Points& map,
         tally.add(points);
     });
     for (const Point& point : map) tally.add_map_point(point);
-    return {tally.scores(), point_score(count), tally.dynamic_share()};
+    return {tally.scores(), point_score(count), share(tally.dynamic_voxels(), tally.voxels())};
 }
 
 }  // namespace dynamic_filter::eval

@@ -24,17 +24,11 @@ Kind static_wins(const VoxelCount& v) { return v.still > 0 ? Kind::still : Kind:
 
 Kind majority(const VoxelCount& v) { return v.still >= v.dynamic ? Kind::still : Kind::dynamic; }
 
-struct Totals {
-    double static_total = 0, static_kept = 0, dynamic_total = 0, dynamic_kept = 0;
-    void add(Kind kind, bool kept) {
-        if (kind == Kind::neither) return;
-        (kind == Kind::still ? static_total : dynamic_total) += 1;
-        if (kept) (kind == Kind::still ? static_kept : dynamic_kept) += 1;
-    }
-    [[nodiscard]] VoxelScore score() const {
-        return voxel_score(static_total, static_kept, dynamic_total, dynamic_kept);
-    }
-};
+void add_voxel(VoxelTotals& totals, Kind kind, bool kept) {
+    if (kind == Kind::neither) return;
+    (kind == Kind::still ? totals.static_total : totals.dynamic_total) += 1;
+    if (kept) (kind == Kind::still ? totals.static_kept : totals.dynamic_kept) += 1;
+}
 
 /// The counts of the raw map and of one result; the counts of a voxel are stored next to each
 /// other.
@@ -54,12 +48,12 @@ struct Counts {
     }
 };
 
-VoxelScore read(const Counts& counts, Reading reading) {
-    Totals totals;
+VoxelTotals read(const Counts& counts, Reading reading) {
+    VoxelTotals totals;
     for (std::size_t v = 0; v < counts.voxels(); ++v) {
-        totals.add(reading(counts.raw(v)), counts.kept(v).has_points());
+        add_voxel(totals, reading(counts.raw(v)), counts.kept(v).has_points());
     }
-    return totals.score();
+    return totals;
 }
 
 void count(VoxelCount& voxel, const Point& point, Label truth) {
@@ -71,7 +65,7 @@ Point mean(const VoxelCount& voxel) {
     return (voxel.sum / static_cast<double>(voxel.still + voxel.dynamic)).cast<float>();
 }
 
-VoxelScore erasor_score(const Counts& counts, double voxel_size) {
+VoxelTotals erasor_totals(const Counts& counts, double voxel_size) {
     const auto radius = static_cast<float>(voxel_size * std::sqrt(3.0) / 2.0);
     Points centroids;
     std::vector<Kind> kinds;
@@ -83,13 +77,13 @@ VoxelScore erasor_score(const Counts& counts, double voxel_size) {
     }
     const NeighborGrid grid(centroids, radius);
     std::vector<Neighbor> nearest;
-    Totals totals;
+    VoxelTotals totals;
     for (std::size_t v = 0; v < counts.voxels(); ++v) {
         grid.nearest(mean(counts.raw(v)), 1, nearest);
         const Kind kind = majority(counts.raw(v));
-        totals.add(kind, !nearest.empty() && kinds[nearest.front().index] == kind);
+        add_voxel(totals, kind, !nearest.empty() && kinds[nearest.front().index] == kind);
     }
-    return totals.score();
+    return totals;
 }
 
 }  // namespace
@@ -104,6 +98,19 @@ VoxelScore voxel_score(double static_total, double static_kept, double dynamic_t
         score.f1 = sum > 0 ? 2.0 * *score.pr * *score.rr / sum : 0.0;
     }
     return score;
+}
+
+void VoxelTotals::add(const VoxelTotals& other) {
+    static_total += other.static_total;
+    static_kept += other.static_kept;
+    dynamic_total += other.dynamic_total;
+    dynamic_kept += other.dynamic_kept;
+}
+
+VoxelScore VoxelTotals::score() const {
+    const auto number = [](std::size_t n) { return static_cast<double>(n); };
+    return voxel_score(number(static_total), number(static_kept), number(dynamic_total),
+                       number(dynamic_kept));
 }
 
 VoxelTally::VoxelTally(double voxel_size, std::size_t results)
@@ -142,20 +149,28 @@ void VoxelTally::add_map_point(const Point& point) {
     if (id) counts_[*id * stride_ + 1].unlabelled += 1;
 }
 
-std::map<std::string, VoxelScore> VoxelTally::scores(std::size_t result) const {
+std::map<std::string, VoxelTotals> VoxelTally::totals(std::size_t result) const {
     const Counts counts{counts_, stride_, result};
-    std::map<std::string, VoxelScore> scores{{"excluded", read(counts, excluded)},
-                                             {"static_wins", read(counts, static_wins)},
-                                             {"majority", read(counts, majority)}};
-    if (!unlabelled_) scores["erasor"] = erasor_score(counts, voxel_size_);
+    std::map<std::string, VoxelTotals> totals{{"excluded", read(counts, excluded)},
+                                              {"static_wins", read(counts, static_wins)},
+                                              {"majority", read(counts, majority)}};
+    if (!unlabelled_) totals["erasor"] = erasor_totals(counts, voxel_size_);
+    return totals;
+}
+
+std::map<std::string, VoxelScore> VoxelTally::scores(std::size_t result) const {
+    std::map<std::string, VoxelScore> scores;
+    for (const auto& [reading, numbers] : totals(result)) scores[reading] = numbers.score();
     return scores;
 }
 
-double VoxelTally::dynamic_share() const {
+std::size_t VoxelTally::voxels() const { return index_->size(); }
+
+std::size_t VoxelTally::dynamic_voxels() const {
     const Counts counts{counts_, stride_, 0};
-    double dynamic = 0;
+    std::size_t dynamic = 0;
     for (std::size_t v = 0; v < counts.voxels(); ++v) dynamic += counts.raw(v).dynamic > 0 ? 1 : 0;
-    return counts_.empty() ? 0.0 : dynamic / static_cast<double>(counts.voxels());
+    return dynamic;
 }
 
 }  // namespace dynamic_filter::eval

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "dynamic_filter/pipeline/dynamic_filter.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "dynamic_filter/error.hpp"
@@ -21,13 +22,27 @@ std::unique_ptr<FilterMethod> make_method(const Config& config) {
     return std::make_unique<SubmapsMethod>(config);
 }
 
+std::unique_ptr<FilterMethod> make_method(const Config& config, const Region& region) {
+    validate(config);
+    if (config.method != Method::scans) {
+        throw ConfigError("only the method \"scans\" (preset default) can filter a part of the world");
+    }
+    const auto cell = [&](double metres) {
+        return static_cast<int>(std::lround(metres / config.map.voxel_size));
+    };
+    const Eigen::AlignedBox2d& area = region.bounds;
+    const CellBounds bounds{.low = {cell(area.min().x()), cell(area.min().y())},
+                            .high = {cell(area.max().x()), cell(area.max().y())}};
+    return std::make_unique<ScansMethod>(config, bounds);
+}
+
 }  // namespace
 
 /// The method, and the position of its map in the world.
 struct DynamicFilter::Impl {
-    explicit Impl(const Config& config)
+    Impl(const Config& config, std::unique_ptr<FilterMethod> chosen)
         : voxel_size(config.map.voxel_size),
-          method(make_method(config)),
+          method(std::move(chosen)),
           tracker(config.odometry) {}
 
     [[nodiscard]] Pose to_map_frame(const Pose& T_world_sensor) const {
@@ -62,12 +77,17 @@ std::vector<StaticVoxel> DynamicFilter::Impl::in_world(
     result.reserve(voxels.size());
     for (const auto& [voxel, probability] : voxels) {
         const Point at = center(method->voxels().key(voxel), static_cast<float>(voxel_size));
-        result.push_back({*origin + at.cast<double>(), probability});
+        result.push_back({*origin + at.cast<double>(), probability, voxel});
     }
     return result;
 }
 
-DynamicFilter::DynamicFilter(const Config& config) : impl_(std::make_unique<Impl>(config)) {}
+DynamicFilter::DynamicFilter(const Config& config)
+    : impl_(std::make_unique<Impl>(config, make_method(config))) {}
+DynamicFilter::DynamicFilter(const Config& config, const Region& region)
+    : impl_(std::make_unique<Impl>(config, make_method(config, region))) {
+    impl_->origin = region.origin;
+}
 DynamicFilter::DynamicFilter(DynamicFilter&&) noexcept = default;
 DynamicFilter& DynamicFilter::operator=(DynamicFilter&&) noexcept = default;
 DynamicFilter::~DynamicFilter() = default;
@@ -76,6 +96,11 @@ std::vector<Verdict> DynamicFilter::push(Scan scan) {
     Judged judged = judge(std::move(scan));
     if (judged.integrate) judged.integrate();
     return std::move(judged.verdicts);
+}
+
+void DynamicFilter::begin_drive() {
+    impl_->tracker.restart();
+    impl_->method->begin_drive();
 }
 
 Judged DynamicFilter::judge(Scan scan) {
@@ -99,8 +124,19 @@ std::vector<Verdict> DynamicFilter::finish() {
 }
 
 Verdict DynamicFilter::verdict(const Scan& scan) const {
+    std::vector<std::uint32_t> voxels;
+    return verdict(scan, voxels);
+}
+
+Verdict DynamicFilter::verdict(const Scan& scan, std::vector<std::uint32_t>& voxels) const {
     Verdict verdict = unknown_verdict(scan);
-    if (impl_->finished) impl_->method->decide(impl_->locate(scan), verdict);
+    if (!impl_->finished) {
+        voxels.assign(scan.points.size(), kNoVoxel);
+        return verdict;
+    }
+    LocatedScan located = impl_->locate(scan);
+    impl_->method->decide(located, verdict);
+    voxels = std::move(located.voxels);
     return verdict;
 }
 

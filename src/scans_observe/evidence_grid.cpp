@@ -53,7 +53,7 @@ PointVoxels EvidenceGrid::add_points(const Scan& scan) {
     };
     for (std::size_t i = 0; i < voxels_of_points.size(); ++i) {
         const VoxelKey key = in_map.keys[i];
-        if (key == kNoKey) continue;
+        if (key == kNoKey || (bounds_ && !bounds_->contain(key))) continue;
         const OwnVoxels::Entry& entry = own_voxels.at(key);
         if (entry.key == key) {
             voxels_of_points[i] = entry.voxel;

@@ -14,10 +14,21 @@ constexpr std::size_t kGrain = 64;  // number of blocks that a thread takes at a
 
 }  // namespace
 
-EvidenceMap::EvidenceMap(const Config& config)
+EvidenceMap::EvidenceMap(const Config& config, const std::optional<CellBounds>& bounds)
     : margins_(margins_of(config.scans.sight, config.map.voxel_size)),
-      grid_(static_cast<float>(config.map.voxel_size), config.scans.evidence),
-      observers_(config) {}
+      grid_(static_cast<float>(config.map.voxel_size), config.scans.evidence, bounds),
+      observers_(config) {
+    if (!bounds) return;
+    area_.emplace(config.map.voxel_size * bounds->low.cast<double>(),
+                  config.map.voxel_size * bounds->high.cast<double>());
+}
+
+/// False if no place within the bounds is in the reach of the scan.
+bool EvidenceMap::may_observe(const Scan& scan) const {
+    if (!area_) return true;
+    const Eigen::Vector2d sensor = scan.T_world_sensor.translation().head<2>();
+    return area_->exteriorDistance(sensor) <= static_cast<double>(margins_.farthest);
+}
 
 PointVoxels EvidenceMap::insert(const Scan& scan, StageTimes& times) {
     is_due_ = false;
@@ -29,7 +40,7 @@ PointVoxels EvidenceMap::insert(const Scan& scan, StageTimes& times) {
     timed(times, "insertion", [&] {  // insertion of the points beside that of the beams
         parallel_for(2, 1, [&](std::size_t begin, std::size_t end) {
             if (begin == 0) voxels_of_points = grid_.add_points(scan);
-            if (end == 2) is_due_ = observers_.add(scan);
+            if (end == 2) is_due_ = may_observe(scan) && observers_.add(scan);
         });
     });
     indices_.push_back(scan.index);

@@ -29,6 +29,11 @@ Judged ScansMethod::judge(Scan scan) {
     });
 }
 
+void ScansMethod::begin_drive() {
+    evidence_.begin_drive();
+    instances_ = Instances(config_.scans.instances);
+}
+
 std::vector<Verdict> ScansMethod::finish() {
     timed(times_, "finish", [&] {
         decided_ = decide_voxels(evidence_.grid(), config_);

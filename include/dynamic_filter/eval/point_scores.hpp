@@ -37,6 +37,8 @@ struct CoverCount {
     std::size_t covered_dynamic = 0;  ///< covered dynamic points
     /// Adds one point whose ground truth is known.
     void add(Label truth, bool covered);
+    /// Adds the points of another count.
+    void add(const CoverCount& other);
 };
 
 /// Computes the scores from the counts; the IoU stays empty.
@@ -50,6 +52,8 @@ struct Confusion {
     /// Adds one point. The caller must leave out points of unknown ground truth, because unknown
     /// counts as not dynamic.
     void add(Label truth, Label verdict);
+    /// Adds the points of another count.
+    void add(const Confusion& other);
     /// TP / (TP + FP + FN), 0..1; empty if no point is dynamic or labelled dynamic.
     [[nodiscard]] std::optional<double> iou() const;
 };

@@ -33,6 +33,22 @@ struct Scores {
     double dynamic_share = 0.0;  ///< 0..1: voxels with a dynamic point / all voxels
 };
 
+/// The counts from which Scores are computed. Those of areas without common voxels can be added, so
+/// that an area that does not fit into memory can be scored piece by piece. At the borders of the
+/// pieces, points of one piece are not covered by points of another one.
+struct ScoreSums {
+    std::map<std::string, VoxelTotals> voxel;  ///< keys as in Scores
+    CoverCount cover;                          ///< of all points
+    Confusion confusion;                       ///< of all points
+    std::size_t voxels = 0;                    ///< with points
+    std::size_t dynamic_voxels = 0;            ///< those of them with a dynamic point
+
+    /// Adds the counts of another area.
+    void add(const ScoreSums& other);
+    /// The scores over all areas that were added.
+    [[nodiscard]] Scores scores() const;
+};
+
 /// A scan with its ground truth; all arrays are parallel. Points of unknown ground truth are left
 /// out of every score.
 struct LabelledScan {
@@ -74,6 +90,8 @@ public:
     /// Scores of one result over all added scans. Removed points count as covered only by points
     /// given to add_near().
     [[nodiscard]] Scores scores(std::size_t result) const;
+    /// The counts behind them.
+    [[nodiscard]] ScoreSums sums(std::size_t result) const;
 
 private:
     struct Result;

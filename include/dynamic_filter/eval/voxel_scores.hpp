@@ -11,6 +11,7 @@
 /// - Errors: none; a score that is not defined is empty.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -33,6 +34,20 @@ struct VoxelScore {
     std::optional<double>
         rr;  ///< 0..1: 1 - preserved dynamic voxels / dynamic voxels of the raw map
     std::optional<double> f1;  ///< 0..1: harmonic mean of pr and rr
+};
+
+/// Numbers of voxels from which a VoxelScore is computed. Those of areas without common voxels can
+/// be added.
+struct VoxelTotals {
+    std::size_t static_total = 0;   ///< static voxels of the raw map
+    std::size_t static_kept = 0;    ///< those of them that the result preserved
+    std::size_t dynamic_total = 0;  ///< dynamic voxels of the raw map
+    std::size_t dynamic_kept = 0;   ///< those of them that the result preserved
+
+    /// Adds the voxels of another area.
+    void add(const VoxelTotals& other);
+    /// The scores, 0..1.
+    [[nodiscard]] VoxelScore score() const;
 };
 
 /// Computes the scores, 0..1, from numbers of voxels (Sec. IV-A).
@@ -81,9 +96,11 @@ public:
     ///   the nearest centroid of the clean map lies within half a voxel diagonal and has the same
     ///   label. This key is missing for maps without labels.
     [[nodiscard]] std::map<std::string, VoxelScore> scores(std::size_t result = 0) const;
+    /// The numbers of voxels behind them, with the same keys.
+    [[nodiscard]] std::map<std::string, VoxelTotals> totals(std::size_t result = 0) const;
 
-    /// 0..1: share of voxels with at least one dynamic point.
-    [[nodiscard]] double dynamic_share() const;
+    [[nodiscard]] std::size_t voxels() const;          ///< number of voxels with points
+    [[nodiscard]] std::size_t dynamic_voxels() const;  ///< those of them with a dynamic point
 
 private:
     double voxel_size_;

@@ -29,6 +29,15 @@
 
 namespace dynamic_filter {
 
+/// A part of the world to which a filter is limited, so that a large area can be filtered piece by
+/// piece. Points outside of it stay unknown, but their beams still show what is free inside.
+struct Region {
+    /// Origin of the map frame [m, world frame], a multiple of the voxel size along each axis.
+    Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+    /// [m] x and y relative to the origin, multiples of 4 voxels; any height.
+    Eigen::AlignedBox2d bounds;
+};
+
 /// Removes moving objects from a recording. Usage: push() every scan, call finish(), then call
 /// verdict() for any scan. Single caller, but see judge(); const members may run in several threads
 /// while no other member runs. The same scans and settings give bit-identical results for any
@@ -41,12 +50,18 @@ class DynamicFilter {
 public:
     /// Throws ConfigError if a setting is wrong.
     explicit DynamicFilter(const Config& config);
+    /// The same for a part of the world. Throws ConfigError also if the method is not "scans".
+    DynamicFilter(const Config& config, const Region& region);
     /// The moved-from filter can only be destroyed or assigned to.
     DynamicFilter(DynamicFilter&&) noexcept;
     DynamicFilter& operator=(DynamicFilter&&) noexcept;  ///< see the move constructor
     ~DynamicFilter();
 
-    /// Takes a scan with points in the sensor frame. Stamps must not decrease. Method "scans":
+    /// Call it between two drives through the same world. The next scan may be of another sensor, and
+    /// its stamp may be of any time. What one drive saw and another one saw through is dynamic.
+    void begin_drive();
+
+    /// Takes a scan with points in the sensor frame. Stamps must not decrease within a drive. Method "scans":
     /// returns the instant verdict on this scan. Method "submaps": if the scan opens a new window,
     /// the previous window is processed and the instant verdicts on its scans are returned;
     /// otherwise nothing is returned.
@@ -67,6 +82,8 @@ public:
     /// The final verdict on a scan that was pushed, after finish(). Points that are not measured,
     /// or that are too far away for a voxel key, are unknown.
     [[nodiscard]] Verdict verdict(const Scan& scan) const;
+    /// The same, and the voxel of each point, as voxels_of() gives it.
+    [[nodiscard]] Verdict verdict(const Scan& scan, std::vector<std::uint32_t>& voxels) const;
 
     /// The verdict on a scan from the evidence so far. Only the final verdict separates points that
     /// stand on a static surface from that surface. With the method "submaps", all points are

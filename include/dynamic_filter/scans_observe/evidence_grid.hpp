@@ -2,6 +2,7 @@
 /// The voxels of the map with their evidence.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,14 +14,28 @@
 
 namespace dynamic_filter {
 
+/// A part of the map: the voxels whose cell lies in [low, high) along x and y, at any height.
+struct CellBounds {
+    Eigen::Vector2i low, high;  ///< multiples of 4, so that blocks are not cut
+
+    [[nodiscard]] bool contain(VoxelKey key) const {
+        const Cell cell = unpack(key);
+        return cell.x() >= low.x() && cell.x() < high.x() && cell.y() >= low.y() &&
+               cell.y() < high.y();
+    }
+};
+
 /// Stores voxels in blocks of 4 x 4 x 4. The position of a voxel is the centroid of its points in
 /// the first scan that has points in it. So the voxel can be judged at once, and its position never
 /// changes. Single caller; const members may run in several threads, and so may record() and
 /// update_score() for different voxels. Points are in the map frame.
 class EvidenceGrid {
 public:
-    EvidenceGrid(float voxel_size, const ScansConfig::Evidence& config)
-        : voxel_size_(voxel_size),
+    /// With `bounds`, points outside of them have no voxel.
+    EvidenceGrid(float voxel_size, const ScansConfig::Evidence& config,
+                 const std::optional<CellBounds>& bounds = {})
+        : bounds_(bounds),
+          voxel_size_(voxel_size),
           longest_run_(static_cast<unsigned>(config.longest_run)),
           score_(config) {}
 
@@ -78,6 +93,7 @@ private:
     void find_centroids(std::size_t known, const MapPoints& in_map,
                         const PointVoxels& voxels_of_points);
 
+    std::optional<CellBounds> bounds_;
     float voxel_size_;
     unsigned longest_run_;
     DynamicScore score_;

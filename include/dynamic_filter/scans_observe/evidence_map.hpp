@@ -24,7 +24,10 @@ namespace dynamic_filter {
 /// Single caller; const members may run in several threads. Poses and points are in the map frame.
 class EvidenceMap {
 public:
-    explicit EvidenceMap(const Config& config);
+    explicit EvidenceMap(const Config& config, const std::optional<CellBounds>& bounds = {});
+
+    /// See Observers::begin_drive().
+    void begin_drive() { observers_.begin_drive(); }
 
     /// Adds a scan whose `T_world_sensor` is relative to the map. Only the voxels around its own
     /// points are observed here. Returns the voxel of each point. Cost: the points, plus new voxels
@@ -68,7 +71,10 @@ private:
     [[nodiscard]] std::vector<Sight> look(const Observer& observer, const Points& centroids) const;
     [[nodiscard]] std::vector<Sight> look(const Observer& observer, const Places& places) const;
 
+    [[nodiscard]] bool may_observe(const Scan& scan) const;
+
     SightMargins margins_;
+    std::optional<Eigen::AlignedBox2d> area_;  // [m] of the bounds, in the map
     EvidenceGrid grid_;
     Observers observers_;
     std::vector<std::size_t> indices_;  // Scan::index in the order of the scans

@@ -15,14 +15,16 @@ namespace dynamic_filter {
 /// newest `scans.max_keyframes` keyframes.
 class ScansMethod final : public FilterMethod {
 public:
-    explicit ScansMethod(const Config& config)
+    /// With `bounds`, only points within them have voxels and verdicts.
+    explicit ScansMethod(const Config& config, const std::optional<CellBounds>& bounds = {})
         : config_(config),
-          evidence_(config),
+          evidence_(config, bounds),
           instant_(config),
           instances_(config.scans.instances) {}
 
     Judged judge(Scan scan) override;
     [[nodiscard]] bool judges_each_scan() const override { return true; }
+    void begin_drive() override;
     std::vector<Verdict> finish() override;
     void decide(const LocatedScan& scan, Verdict& verdict) const override;
     void settle(const LocatedScan& scan, Verdict& verdict) const override;

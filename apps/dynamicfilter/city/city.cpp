@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "city/city.hpp"
+
+#include <fmt/format.h>
+
+#include "config_file.hpp"
+#include "dynamic_filter/error.hpp"
+#include "run_state.hpp"
+
+namespace dynamic_filter::app {
+
+namespace {
+
+void refuse_what_tiles_cannot(const RunOptions& o, const Config& config) {
+    const auto refuse = [](const std::string& what, const std::string& instead) {
+        throw ConfigError(what + " does not go with several recordings, --part, --memory or --mpi" +
+                          instead);
+    };
+    if (o.online) refuse("--online", "");
+    if (o.view) refuse("--view", "");
+    if (o.edits) refuse("--edits", "");
+    if (o.refine == "on" || config.odometry.refine) {
+        refuse("refining poses", "; refine those of each drive first, in a run of its own");
+    }
+    if (config.method != Method::scans) refuse("--preset paper", "; use the default preset");
+}
+
+/// What the run was begun with, whatever part of it a process does.
+std::string begun_with(const std::vector<Drive>& drives, const Config& config,
+                       std::size_t tile_voxels) {
+    std::string state =
+        fmt::format("version {}\ntiles of {} voxels\n", DYNAMIC_FILTER_VERSION, tile_voxels);
+    for (const Drive& drive : drives) state += state_of(drive.sequence);
+    return state + to_toml(config);
+}
+
+}  // namespace
+
+City open_city(const std::vector<DriveSource>& sources, const RunOptions& o) {
+    const Config config = load_config(o.config);
+    refuse_what_tiles_cannot(o, config);
+    City city{.config = config, .drives = open_drives(sources, o.data), .plan = {}, .run = {}};
+    city.run = begun_with(city.drives, config, o.city.tile_voxels);
+    return city;
+}
+
+std::string state_of_output(const City& city, const RunOptions& o) {
+    return city.run + (o.maps ? "" : "no maps\n") + (o.report ? "" : "no report\n") +
+           (o.city.part.empty() ? "" : "part " + o.city.part + "\n");
+}
+
+void tell_notes(const City& city, bool quiet) {
+    for (std::size_t d = 0; d < city.drives.size(); ++d) {
+        for (const std::string& note : city.plan.drives[d].notes) {
+            const bool warns = note.starts_with("warning: ");
+            if (quiet && !warns) continue;
+            fmt::print(stderr, "{}{}: {}\n", warns ? "" : "note: ", city.drives[d].name, note);
+        }
+    }
+}
+
+}  // namespace dynamic_filter::app

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: MIT
+#include "city/filter_tile.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "city/tile_file.hpp"
+#include "city/tile_map.hpp"
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/eval/scores.hpp"
+#include "dynamic_filter/geometry/pose.hpp"
+#include "dynamic_filter/geometry/voxel.hpp"
+#include "dynamic_filter/io/writers.hpp"
+#include "dynamic_filter/pipeline/dynamic_filter.hpp"
+#include "frames.hpp"
+#include "label_store.hpp"
+#include "progress.hpp"
+
+namespace dynamic_filter::app {
+
+namespace {
+
+/// Scans that are compared with each other, in order.
+using ScanGroup = std::vector<ScanOfDrive>;
+
+/// The scans of all drives. Those after a jump of the poses are a group of their own, because they
+/// do not fit the others.
+std::vector<ScanGroup> groups_of(const Plan& plan, const std::vector<ScanOfDrive>& scans) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, ScanGroup> groups;
+    for (const ScanOfDrive& scan : scans) {
+        const std::uint32_t part = plan.drives[scan.drive].scans[scan.scan].part;
+        groups[part == 0 ? std::pair(0U, 0U) : std::pair(scan.drive, part)].push_back(scan);
+    }
+    std::vector<ScanGroup> result;
+    for (auto& [key, group] : groups) result.push_back(std::move(group));
+    return result;
+}
+
+/// What one scan says of the inside of the tile.
+struct Seen {
+    std::vector<std::size_t> inside;  // indices of its points there
+    Verdict verdict;
+    std::vector<std::uint32_t> voxels;  // of the points; kNoVoxel outside
+};
+
+struct TileRun {
+    const City& city;
+    const TileWork& work;
+    const std::filesystem::path& folder;
+    TileWriter verdicts{folder / tile_file(work.tile), city.run};
+    Sightings sightings{city.drives.size()};
+    io::Cloud map = empty_tile_map(sightings.words());
+    TileSummary summary{.tile = work.tile, .drives = {}};
+    std::map<std::uint32_t, eval::ScanScores> scorers{};  // by drive, if there is truth
+
+    [[nodiscard]] bool contains(const Eigen::Vector3d& world) const {
+        return work.tile.is_whole ||
+               tile_at(cell_at(world, city.plan.cell), work.tile.level) == work.tile;
+    }
+    [[nodiscard]] DynamicFilter new_filter() const;
+    [[nodiscard]] Eigen::Vector3d scoring_origin() const;
+    bool filter(DynamicFilter& filter, const ScanGroup& scans, LabelStore& instants) const;
+    bool decide(const DynamicFilter& filter, const ScanGroup& scans, const LabelStore& instants);
+    [[nodiscard]] Seen look(const DynamicFilter& filter, const io::Frame& frame,
+                            std::size_t number) const;
+    void score(const ScanOfDrive& scan, const io::Frame& frame, const Seen& seen,
+               const Labels& instant);
+    bool score_near(const ScanGroup& scans, const LabelStore& finals, const LabelStore& instants);
+    void add_to_map(const DynamicFilter& filter);
+};
+
+/// The pose of the first scan, from which the filter's frame has its height.
+Pose first_pose(const City& city) {
+    const auto& scans = city.plan.drives.front().scans;
+    const auto used = std::find_if(scans.begin(), scans.end(), [](auto& s) { return s.is_used; });
+    Pose pose = Pose::Identity();
+    if (used != scans.end()) pose.translation() = used->position;
+    return pose;
+}
+
+DynamicFilter TileRun::new_filter() const {
+    if (work.tile.is_whole) return DynamicFilter(city.config);
+    const double size = city.config.map.voxel_size;
+    const double height = nearby_origin(first_pose(city), 4.0 * size).z();
+    return {city.config, region_of(work.tile, size, height)};
+}
+
+Eigen::Vector3d TileRun::scoring_origin() const {
+    if (work.tile.is_whole) return nearby_origin(first_pose(city), eval::kVoxelSize);
+    Pose corner = Pose::Identity();
+    corner.translation() = region_of(work.tile, city.config.map.voxel_size, 0.0).origin;
+    return nearby_origin(corner, eval::kVoxelSize);
+}
+
+/// Calls use(number, scan, frame) for the scans in order; `prepare` (number, frame) runs in parallel
+/// before. False if it was interrupted.
+bool each_scan(const City& city, const ScanGroup& group, const std::vector<std::size_t>& numbers,
+               const std::function<void(std::size_t, io::Frame&)>& prepare,
+               const std::function<void(std::size_t, io::Frame&)>& use) {
+    for (std::size_t begin = 0; begin < numbers.size();) {
+        const std::uint32_t drive = group[numbers[begin]].drive;
+        std::map<std::size_t, std::size_t> number_of;  // by index in the drive
+        std::vector<std::size_t> scans;
+        for (; begin < numbers.size() && group[numbers[begin]].drive == drive; ++begin) {
+            scans.push_back(group[numbers[begin]].scan);
+            number_of[scans.back()] = numbers[begin];
+        }
+        const io::Sequence& sequence = city.drives[drive].sequence;
+        const auto unchanged = [&](std::size_t i, MaybeFrame& maybe) -> io::Frame& {
+            if (maybe.frame) return *maybe.frame;
+            throw InputError(sequence.scan_files[i], "",
+                             "changed while it was in use: " + maybe.error);
+        };
+        for_each_frame(
+            sequence, scans,
+            [&](std::size_t i, MaybeFrame& maybe) {
+                if (prepare) prepare(number_of.at(i), *maybe.frame);
+            },
+            [&](std::size_t i, MaybeFrame& maybe) {
+                use(number_of.at(i), unchanged(i, maybe));
+                return !interrupted();
+            });
+        if (interrupted()) return false;
+    }
+    return true;
+}
+
+std::vector<std::size_t> all_of(const ScanGroup& group) {
+    std::vector<std::size_t> numbers(group.size());
+    std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+    return numbers;
+}
+
+/// The scans of the group with points inside of the tile.
+std::vector<std::size_t> inside_of(const ScanGroup& group, const TileWork& work) {
+    std::vector<std::size_t> numbers;
+    for (std::size_t n = 0; n < group.size(); ++n) {
+        if (std::binary_search(work.inside.begin(), work.inside.end(), group[n])) {
+            numbers.push_back(n);
+        }
+    }
+    return numbers;
+}
+
+/// First pass: every scan goes through the filter.
+bool TileRun::filter(DynamicFilter& filter, const ScanGroup& scans, LabelStore& instants) const {
+    std::uint32_t drive = scans.front().drive;
+    return each_scan(city, scans, all_of(scans), {}, [&](std::size_t number, io::Frame& frame) {
+        if (std::exchange(drive, scans[number].drive) != scans[number].drive) filter.begin_drive();
+        for (const Verdict& verdict : filter.push(take_scan(frame, number))) {
+            instants.put(verdict.index, verdict.labels);
+        }
+    });
+}
+
+Seen TileRun::look(const DynamicFilter& filter, const io::Frame& frame, std::size_t number) const {
+    Seen seen;
+    std::vector<std::uint32_t> voxels;
+    seen.verdict =
+        filter.verdict({frame.points, frame.T_world_sensor, frame.stamp, number}, voxels);
+    seen.voxels.assign(voxels.size(), kNoVoxel);
+    each_measured(frame, [&](std::size_t i, const Eigen::Vector3d& world) {
+        if (!contains(world)) return;
+        seen.inside.push_back(i);
+        seen.voxels[i] = voxels[i];
+    });
+    return seen;
+}
+
+/// Second pass: final verdicts on the points inside.
+bool TileRun::decide(const DynamicFilter& filter, const ScanGroup& scans,
+                     const LabelStore& instants) {
+    std::vector<Seen> seen(scans.size());
+    LabelStore finals(folder);
+    const auto prepare = [&](std::size_t number, io::Frame& frame) {
+        seen[number] = look(filter, frame, number);
+    };
+    const auto use = [&](std::size_t number, io::Frame& frame) {
+        const Seen one = std::exchange(seen[number], {});
+        const Labels instant = instants.get(number);
+        const auto& [index, labels, probability, stays, tracked] = one.verdict;
+        PointVerdicts inside;
+        for (const std::size_t i : one.inside) {
+            inside.push_back({labels[i], instant[i], !stays.empty() && stays[i]});
+        }
+        verdicts.add(scans[number], inside);
+        sightings.add(scans[number], one.voxels);
+        if (frame.truth.empty()) return;
+        score(scans[number], frame, one, instant);
+        finals.put(number, labels);
+    };
+    if (!each_scan(city, scans, inside_of(scans, work), prepare, use)) return false;
+    add_to_map(filter);
+    return scorers.empty() || score_near(scans, finals, instants);
+}
+
+/// The frame as the scores take it: outside of the tile, the truth is unknown.
+eval::LabelledScan labelled_inside(const io::Frame& frame, const Eigen::Vector3d& origin,
+                                   const std::vector<std::size_t>& inside) {
+    eval::LabelledScan scan = labelled(frame, origin);
+    Labels truth(scan.truth.size(), Label::unknown);
+    for (const std::size_t i : inside) truth[i] = scan.truth[i];
+    scan.truth = std::move(truth);
+    return scan;
+}
+
+void TileRun::score(const ScanOfDrive& scan, const io::Frame& frame, const Seen& seen,
+                    const Labels& instant) {
+    const auto scorer = scorers.try_emplace(scan.drive, eval::kVoxelSize, 2).first;
+    scorer->second.add(labelled_inside(frame, scoring_origin(), seen.inside),
+                       std::array<const Labels*, 2>{&seen.verdict.labels, &instant});
+}
+
+/// Third pass, with ground truth: which removed points lie near one that stays.
+bool TileRun::score_near(const ScanGroup& scans, const LabelStore& finals,
+                         const LabelStore& instants) {
+    std::vector<std::vector<Points>> near(scans.size());
+    const auto prepare = [&](std::size_t number, io::Frame& frame) {
+        if (frame.truth.empty()) return;
+        std::vector<std::size_t> inside;
+        each_measured(frame, [&](std::size_t i, const Eigen::Vector3d& world) {
+            if (contains(world)) inside.push_back(i);
+        });
+        const Labels final = finals.get(number), instant = instants.get(number);
+        near[number] = scorers.at(scans[number].drive)
+                           .near_removed(labelled_inside(frame, scoring_origin(), inside),
+                                         std::array<const Labels*, 2>{&final, &instant});
+    };
+    const auto use = [&](std::size_t number, io::Frame&) {
+        if (near[number].empty()) return;
+        scorers.at(scans[number].drive).add_near(std::exchange(near[number], {}));
+    };
+    return each_scan(city, scans, inside_of(scans, work), prepare, use);
+}
+
+void TileRun::add_to_map(const DynamicFilter& filter) {
+    for (const StaticVoxel& voxel : filter.static_map()) {
+        if (!contains(voxel.center)) continue;
+        const bool is_first = summary.still++ == 0;
+        summary.low = is_first ? voxel.center : summary.low.cwiseMin(voxel.center);
+        summary.high = is_first ? voxel.center : summary.high.cwiseMax(voxel.center);
+        append(map, voxel, sightings);
+    }
+    summary.voxels += sightings.voxels();
+    summary.keyframes += filter.contents().observers;
+    sightings = Sightings(city.drives.size());
+}
+
+}  // namespace
+
+bool filter_tile(const City& city, const TileWork& work, const std::filesystem::path& folder) {
+    TileRun tile{.city = city, .work = work, .folder = folder};
+    for (const ScanGroup& scans : groups_of(city.plan, work.scans)) {
+        DynamicFilter filter = tile.new_filter();
+        LabelStore instants(folder);
+        if (!tile.filter(filter, scans, instants)) return false;
+        filter.finish();
+        if (!tile.decide(filter, scans, instants)) return false;
+    }
+    for (const auto& [drive, scorer] : tile.scorers) {
+        tile.summary.drives.push_back(
+            {.drive = drive, .final = scorer.sums(0), .instant = scorer.sums(1)});
+    }
+    io::write_pcd(folder / tile_map_file(work.tile), tile.map);
+    tile.verdicts.commit(tile.summary);
+    return true;
+}
+
+}  // namespace dynamic_filter::app

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <map>
+#include <optional>
+
+#include "city/part_file.hpp"
+#include "city/tile_file.hpp"
+#include "city/write_city.hpp"
+#include "dynamic_filter/error.hpp"
+#include "run_state.hpp"
+
+namespace dynamic_filter::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What the parts of one run have in common.
+auto key_of(const Part& part) {
+    std::vector<fs::path> recordings;
+    for (const DriveSource& source : part.sources) recordings.push_back(source.recording);
+    return std::tuple(part.number.parts, recordings, part.run.city.tile_voxels, part.run.maps,
+                      part.run.report);
+}
+
+std::vector<Part> read_parts(const std::vector<fs::path>& folders) {
+    std::vector<Part> parts;
+    for (const fs::path& folder : folders) {
+        parts.push_back(read_part(folder));
+        if (key_of(parts.back()) == key_of(parts.front())) continue;
+        throw ConfigError(folder.string() + " and " + folders.front().string() +
+                          " are not parts of the same run: their recordings or options differ");
+    }
+    return parts;
+}
+
+/// The folder that holds the files of each tile.
+std::map<Tile, fs::path> find_tiles(const City& city, const std::vector<fs::path>& folders,
+                                    std::size_t parts) {
+    std::map<Tile, fs::path> found;
+    for (std::size_t part = 1; part <= parts; ++part) {
+        for (const std::size_t t : tiles_of_part(city.plan.tiles, part, parts)) {
+            const Tile& tile = city.plan.tiles[t].tile;
+            for (const fs::path& folder : folders) {
+                if (!is_done(folder / kTilesFolder / tile_file(tile), city.run)) continue;
+                found[tile] = folder / kTilesFolder;
+                break;
+            }
+            if (!found.contains(tile)) {
+                throw ConfigError(fmt::format(
+                    "part {}/{} is missing: none of the given folders holds its tile {}; give the "
+                    "folder of that part, or run it (again)",
+                    part, parts, name_of(tile)));
+            }
+        }
+    }
+    return found;
+}
+
+}  // namespace
+
+int merge(const MergeOptions& o) {
+    StageClock clock;
+    const std::vector<Part> parts = read_parts(o.parts);
+    RunOptions run = parts.front().run;
+    run.output = o.output;
+    run.threads = o.threads;
+    run.quiet = o.quiet;
+    City city = open_city(parts.front().sources, run);
+    city.plan = read_plan(o.parts.front() / kTilesFolder / "plan", city.run, city.config);
+    prepare(city.drives, city.plan);
+    const auto folders = find_tiles(city, o.parts, parts.front().number.parts);
+    for (const fs::path& folder : o.parts) refuse_same_folder(folder, o.output);
+    OutputFolder output(o.output, Contents::result, replaced_if(o.overwrite));
+    write_state(output, state_of_output(city, run));
+    clock.finish("prepare");
+    return conclude(
+        city, [&](const Tile& tile) { return folders.at(tile); }, false, run, output, clock);
+}
+
+}  // namespace dynamic_filter::app

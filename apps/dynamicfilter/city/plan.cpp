@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: MIT
+#include "city/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "advice.hpp"
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/geometry/voxel.hpp"
+#include "dynamic_filter/io/preflight.hpp"
+#include "dynamic_filter/pipeline/pose_jump.hpp"
+#include "frames.hpp"
+#include "motion.hpp"
+#include "progress.hpp"
+
+namespace dynamic_filter::app {
+
+namespace {
+
+/// One voxel in so many is counted, chosen by the hash of its place.
+constexpr std::uint64_t kSampled = 1024;
+
+/// Where a scan has points.
+struct Extent {
+    std::vector<PlaneCell> cells;                              // ascending
+    std::vector<std::pair<PlaneCell, std::uint64_t>> sampled;  // voxels: their cell and hash
+};
+
+std::uint64_t hash_of(const Eigen::Vector3d& world, double voxel_size) {
+    std::uint64_t hash = 0;
+    for (const double coordinate : world) {
+        const auto cell = static_cast<std::int64_t>(std::floor(coordinate / voxel_size));
+        hash = VoxelHash{}(hash ^ static_cast<std::uint64_t>(cell));
+    }
+    return hash;
+}
+
+template <class T>
+void sort_unique(std::vector<T>& values) {
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+Extent extent_of(const io::Frame& frame, double voxel_size) {
+    const double edge = cell_edge(voxel_size);
+    Extent extent;
+    each_measured(frame, [&](std::size_t, const Eigen::Vector3d& world) {
+        const PlaneCell cell = cell_at(world, edge);
+        if (extent.cells.empty() || extent.cells.back() != cell) extent.cells.push_back(cell);
+        const std::uint64_t hash = hash_of(world, voxel_size);
+        if (hash % kSampled == 0) extent.sampled.emplace_back(cell, hash);
+    });
+    sort_unique(extent.cells);
+    sort_unique(extent.sampled);
+    return extent;
+}
+
+/// Decides in the order of the scans which of them are used, as the filter of one recording does.
+class ScanGate {
+public:
+    ScanGate(const io::Sequence& sequence, PlannedDrive& drive)
+        : sequence_(sequence), drive_(drive) {}
+
+    void reject(std::size_t i, const std::string& why) {
+        drive_.rejected.push_back(fmt::format("{}: {}", io::stem(sequence_, i), why));
+    }
+
+    void take(std::size_t i, const io::Frame& frame, Extent& extent) {
+        if (!fields_.empty() && frame.cloud.fields != fields_) {
+            reject(i, io::kOtherFields);
+            return;
+        }
+        if (fields_.empty()) fields_ = frame.cloud.fields;
+        const StampedPose now{frame.T_world_sensor, frame.stamp};
+        if (is_repeated(now)) {
+            reject(i, "it has the stamp and the pose of the scan before");
+            return;
+        }
+        if (!begin_part(i, now)) return;
+        if (!frame.truth_fault.empty()) {
+            drive_.notes.push_back(frame.truth_fault +
+                                   "; the scan is filtered, but not scored");
+        }
+        PlannedScan& scan = drive_.scans[i];
+        scan.is_used = true;
+        scan.part = part_;
+        scan.position = frame.T_world_sensor.translation();
+        scan.cells = std::move(extent.cells);
+        drive_.most_points = std::max(drive_.most_points, frame.points.size());
+        before_last_ = std::exchange(last_, now);
+    }
+
+private:
+    [[nodiscard]] bool is_repeated(const StampedPose& now) const {
+        return last_ && last_->stamp == now.stamp &&
+               last_->T_world_sensor.matrix() == now.T_world_sensor.matrix();
+    }
+    /// False if the scan comes too late.
+    bool begin_part(std::size_t i, const StampedPose& now) {
+        constexpr double kRestart = 1.0;  // [s] back in time; no scan is that late
+        const std::string name = io::stem(sequence_, i);
+        if (last_ && now.stamp < last_->stamp) {
+            if (now.stamp >= last_->stamp - kRestart) {
+                reject(i, "its stamp is before that of the scan before");
+                return false;
+            }
+            drive_.notes.push_back(name + ": stamps went back by more than a second; scans are not "
+                                          "compared with those before");
+            next_part();
+        } else if (const auto jump = pose_jump(before_last_, last_, now)) {
+            drive_.notes.push_back(
+                fmt::format("{}: the pose is {:.0f} m from where the previous poses lead; scans "
+                            "are not compared with those before",
+                            name, *jump));
+            next_part();
+        }
+        return true;
+    }
+    void next_part() {
+        ++part_;
+        before_last_ = last_ = std::nullopt;
+    }
+
+    const io::Sequence& sequence_;
+    PlannedDrive& drive_;
+    std::vector<io::Field> fields_;
+    std::optional<StampedPose> before_last_, last_;
+    std::uint32_t part_ = 0;
+};
+
+/// The voxels that were sampled so far.
+class VoxelSample {
+public:
+    void add(const Extent& extent) {
+        for (const auto& [cell, hash] : extent.sampled) {
+            if (seen_.emplace(hash, true).second) counts_[cell] += kSampled;
+        }
+        for (const PlaneCell& cell : extent.cells) counts_.try_emplace(cell, 0);
+    }
+    [[nodiscard]] const std::map<PlaneCell, std::size_t>& counts() const { return counts_; }
+
+private:
+    tsl::robin_map<std::uint64_t, bool> seen_;
+    std::map<PlaneCell, std::size_t> counts_;
+};
+
+std::vector<std::size_t> all_scans(const io::Sequence& sequence) {
+    std::vector<std::size_t> scans(sequence.size());
+    std::iota(scans.begin(), scans.end(), std::size_t{0});
+    return scans;
+}
+
+void scan_drive(const Drive& drive, double voxel_size, PlannedDrive& planned, VoxelSample& sample,
+                Progress& progress) {
+    planned.scans.resize(drive.sequence.size());
+    ScanGate gate(drive.sequence, planned);
+    std::vector<Extent> extents(drive.sequence.size());
+    const auto measure = [&](std::size_t i, MaybeFrame& maybe) {
+        extents[i] = extent_of(*maybe.frame, voxel_size);
+    };
+    const auto use = [&](std::size_t i, MaybeFrame& maybe) {
+        Extent extent = std::exchange(extents[i], {});
+        if (maybe.frame) {
+            gate.take(i, *maybe.frame, extent);
+            if (planned.scans[i].is_used) sample.add({planned.scans[i].cells, extent.sampled});
+        } else {
+            gate.reject(i, maybe.error);
+        }
+        progress.advance();
+        return !interrupted();
+    };
+    for_each_frame(drive.sequence, all_scans(drive.sequence), measure, use);
+    const bool none = std::none_of(planned.scans.begin(), planned.scans.end(),
+                                   [](const PlannedScan& scan) { return scan.is_used; });
+    if (none && !interrupted()) {
+        throw InputError(drive.sequence.root, "",
+                         "no scan is usable; the first was rejected: " + planned.rejected.front());
+    }
+}
+
+/// Looks at motion and poses, as a run of one recording does; poses are not refined.
+void look_at(Drive& drive, const Config& config, const DataOptions& how, PlannedDrive& planned) {
+    Config unrefined = config;
+    planned.notes = drive.sequence.notes;
+    const auto chosen =
+        choose_motion(drive.sequence, unrefined, {.refine = "off", .deskew = how.deskew});
+    planned.notes.insert(planned.notes.end(), chosen.begin(), chosen.end());
+    planned.deskew = drive.sequence.deskew;
+    planned.sweep = drive.sequence.sweep;
+    for (const auto& found :
+         io::check_recording(drive.sequence, io::Depth::quick).findings) {
+        const io::Finding finding = blame_needless_fix(found, how);
+        planned.notes.push_back("warning: " + finding.what + "; " + finding.advice);
+    }
+}
+
+bool has_points_in(const PlannedScan& scan, const Tile& tile) {
+    return tile.is_whole || std::any_of(scan.cells.begin(), scan.cells.end(), [&](auto cell) {
+               return tile_at(cell, tile.level) == tile;
+           });
+}
+
+/// The tiles for which the scan is evidence: those in whose region it has points, and those that
+/// its sensor can see.
+std::vector<std::size_t> reached_by(const PlannedScan& scan, double edge, double reach,
+                                    const TileLookup& tiles) {
+    std::vector<std::size_t> reached;
+    const auto add = [&](const PlaneCell& cell) {
+        if (const auto tile = tiles.find(cell)) reached.push_back(*tile);
+    };
+    for (const PlaneCell& cell : scan.cells) {
+        for (int dx = -1; dx <= 1; ++dx) {
+            for (int dy = -1; dy <= 1; ++dy) add({cell.x + dx, cell.y + dy});
+        }
+    }
+    const int cells = static_cast<int>(std::ceil(reach / edge)) + 1;
+    const PlaneCell here = cell_at(scan.position, edge);
+    for (int dx = -cells; dx <= cells; ++dx) {
+        for (int dy = -cells; dy <= cells; ++dy) {
+            // From the sensor to the nearest place of the cell.
+            const Eigen::Vector2d corner(edge * (here.x + dx), edge * (here.y + dy));
+            const Eigen::AlignedBox2d box(corner, corner + Eigen::Vector2d::Constant(edge));
+            const Eigen::Vector2d sensor = scan.position.head<2>();
+            if (box.exteriorDistance(sensor) <= reach + 1.5 * edge) add({here.x + dx, here.y + dy});
+        }
+    }
+    sort_unique(reached);
+    return reached;
+}
+
+}  // namespace
+
+double TileWork::cost() const {
+    constexpr double kPerScan = 0.01, kPerVoxel = 6e-8;  // [s]
+    return static_cast<double>(scans.size()) *
+           (kPerScan + kPerVoxel * static_cast<double>(voxels));
+}
+
+void cut_into_tiles(Plan& plan, const Config& config) {
+    const std::vector<Tile> tiles = cut(plan.voxels, plan.most_voxels);
+    const TileLookup lookup(tiles);
+    plan.tiles.clear();
+    for (const Tile& tile : tiles) plan.tiles.push_back({.tile = tile, .scans = {}, .inside = {}});
+    for (const auto& [cell, count] : plan.voxels) plan.tiles[*lookup.find(cell)].voxels += count;
+    for (std::size_t d = 0; d < plan.drives.size(); ++d) {
+        const auto& scans = plan.drives[d].scans;
+        for (std::size_t i = 0; i < scans.size(); ++i) {
+            if (!scans[i].is_used) continue;
+            const ScanOfDrive scan{static_cast<std::uint32_t>(d), static_cast<std::uint32_t>(i)};
+            for (const std::size_t t :
+                 reached_by(scans[i], plan.cell, config.scans.sight.farthest, lookup)) {
+                TileWork& work = plan.tiles[t];
+                work.scans.push_back(scan);
+                if (has_points_in(scans[i], work.tile)) work.inside.push_back(scan);
+            }
+        }
+    }
+}
+
+Plan make_plan(std::vector<Drive>& drives, const Config& config, const DataOptions& how,
+               std::size_t most_voxels, bool quiet) {
+    Plan plan{.cell = cell_edge(config.map.voxel_size),
+              .drives = std::vector<PlannedDrive>(drives.size()),
+              .voxels = {},
+              .most_voxels = most_voxels,
+              .tiles = {}};
+    std::size_t scans = 0;
+    for (const Drive& drive : drives) scans += drive.sequence.size();
+    VoxelSample sample;
+    Progress progress("plan", scans, quiet);
+    for (std::size_t d = 0; d < drives.size() && !interrupted(); ++d) {
+        look_at(drives[d], config, how, plan.drives[d]);
+        scan_drive(drives[d], config.map.voxel_size, plan.drives[d], sample, progress);
+    }
+    plan.voxels = sample.counts();
+    cut_into_tiles(plan, config);
+    return plan;
+}
+
+void prepare(std::vector<Drive>& drives, const Plan& plan) {
+    for (std::size_t d = 0; d < drives.size(); ++d) {
+        io::Sequence& sequence = drives[d].sequence;
+        sequence.sweep = plan.drives[d].sweep;
+        if (plan.drives[d].deskew && !sequence.deskew) io::prepare_deskew(sequence);
+    }
+}
+
+std::vector<std::size_t> by_cost(const std::vector<TileWork>& tiles) {
+    std::vector<std::size_t> order(tiles.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return tiles[a].cost() > tiles[b].cost();
+    });
+    return order;
+}
+
+std::vector<std::size_t> tiles_of_part(const std::vector<TileWork>& tiles, std::size_t part,
+                                       std::size_t parts) {
+    std::vector<double> load(parts);
+    std::vector<std::size_t> chosen;
+    for (const std::size_t tile : by_cost(tiles)) {
+        const auto least = std::min_element(load.begin(), load.end());
+        *least += tiles[tile].cost();
+        if (static_cast<std::size_t>(least - load.begin()) + 1 == part) chosen.push_back(tile);
+    }
+    return chosen;
+}
+
+}  // namespace dynamic_filter::app

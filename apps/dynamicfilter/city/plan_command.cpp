@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "city/city.hpp"
+#include "city/filter_tiles.hpp"
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/parallel.hpp"
+#include "progress.hpp"
+#include "report.hpp"
+
+namespace dynamic_filter::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The part of each tile, counted from 1.
+std::vector<std::size_t> part_of_tiles(const Plan& plan, std::size_t parts) {
+    std::vector<std::size_t> part_of(plan.tiles.size());
+    for (std::size_t part = 1; part <= parts; ++part) {
+        for (const std::size_t tile : tiles_of_part(plan.tiles, part, parts)) part_of[tile] = part;
+    }
+    return part_of;
+}
+
+struct Totals {
+    std::size_t scans = 0, visits = 0, voxels = 0, memory = 0;  // memory: of the largest tile
+    double cost = 0.0;                                          // [s]
+    std::vector<double> by_part;
+};
+
+Totals totals_of(const City& city, std::size_t parts) {
+    Totals totals{.by_part = std::vector<double>(parts)};
+    for (const PlannedDrive& drive : city.plan.drives) {
+        for (const PlannedScan& scan : drive.scans) totals.scans += scan.is_used ? 1 : 0;
+    }
+    const std::vector<std::size_t> part_of = part_of_tiles(city.plan, parts);
+    for (std::size_t t = 0; t < city.plan.tiles.size(); ++t) {
+        const TileWork& work = city.plan.tiles[t];
+        totals.visits += work.scans.size();
+        totals.voxels += work.voxels;
+        totals.memory = std::max(totals.memory, memory_of(work, city.plan, city.config));
+        totals.cost += work.cost();
+        totals.by_part[part_of[t] - 1] += work.cost();
+    }
+    return totals;
+}
+
+std::string plan_text(const City& city, std::size_t parts) {
+    const Totals t = totals_of(city, parts);
+    std::string text = fmt::format(
+        "drives   {}, {} scans\n"
+        "tiles    {}, about {:.1f} million voxels; a scan reaches {:.1f} of them on average\n"
+        "memory   about {:.2f} GB for the largest tile\n"
+        "time     about {:.2f} hours of one core\n",
+        city.drives.size(), t.scans, city.plan.tiles.size(), 1e-6 * static_cast<double>(t.voxels),
+        static_cast<double>(t.visits) / static_cast<double>(std::max<std::size_t>(t.scans, 1)),
+        1e-9 * static_cast<double>(t.memory), t.cost / 3600.0);
+    if (parts > 1) {
+        const auto [least, most] = std::minmax_element(t.by_part.begin(), t.by_part.end());
+        text += fmt::format("parts    {}, of {:.2f} to {:.2f} hours\n", parts, *least / 3600.0,
+                            *most / 3600.0);
+    }
+    return text;
+}
+
+std::string plan_json(const City& city, std::size_t parts) {
+    const Totals totals = totals_of(city, parts);
+    const std::vector<std::size_t> part_of = part_of_tiles(city.plan, parts);
+    nlohmann::ordered_json json{{"scans", totals.scans},
+                                {"visits", totals.visits},
+                                {"cost_seconds", totals.cost},
+                                {"memory_bytes", totals.memory},
+                                {"tiles", nlohmann::ordered_json::array()}};
+    for (std::size_t t = 0; t < city.plan.tiles.size(); ++t) {
+        const TileWork& work = city.plan.tiles[t];
+        json["tiles"].push_back({{"name", name_of(work.tile)},
+                                 {"part", part_of[t]},
+                                 {"voxels", work.voxels},
+                                 {"scans", work.scans.size()},
+                                 {"cost_seconds", work.cost()},
+                                 {"memory_bytes", memory_of(work, city.plan, city.config)}});
+    }
+    return text_of(json);
+}
+
+}  // namespace
+
+int plan(const PlanOptions& options) {
+    const RunOptions& o = options.run;
+    City city = open_city(expand(o.city.recordings), o);
+    catch_interrupts();
+    with_threads(o.threads, [&] {
+        city.plan = make_plan(city.drives, city.config, o.data, o.city.tile_voxels, o.quiet);
+    });
+    if (interrupted()) return kInterrupted;
+    tell_notes(city, o.quiet);
+    if (o.output) {
+        if (fs::exists(*o.output) && !o.overwrite) {
+            throw ConfigError(o.output->string() + ": exists; choose another -o, or --overwrite");
+        }
+        write_plan(*o.output, city.plan, city.run);
+    }
+    fmt::print("{}", options.json ? plan_json(city, options.parts) : plan_text(city, options.parts));
+    return kDone;
+}
+
+}  // namespace dynamic_filter::app

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+/// The plan as a file, so that only one of many processes has to read all scans to make it.
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "city/checked_file.hpp"
+#include "city/plan.hpp"
+
+namespace dynamic_filter::app {
+
+namespace {
+
+using Json = nlohmann::json;
+constexpr const char* kMagic = "dynamicfilter-plan-1";
+
+/// Numbers as they are in memory, which is far smaller than an array of numbers.
+template <class T>
+Json blob(const std::vector<T>& values) {
+    const auto* const first = reinterpret_cast<const std::uint8_t*>(values.data());
+    return Json::binary({first, first + values.size() * sizeof(T)});
+}
+
+template <class T>
+std::vector<T> from_blob(const Json& json) {
+    const auto& bytes = json.get_binary();
+    std::vector<T> values(bytes.size() / sizeof(T));
+    if (!values.empty()) std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
+    return values;
+}
+
+Json to_json(const PlannedDrive& drive) {
+    std::vector<std::uint8_t> used;
+    std::vector<std::uint32_t> parts, counts;
+    std::vector<double> positions;
+    std::vector<PlaneCell> cells;
+    for (const PlannedScan& scan : drive.scans) {
+        used.push_back(scan.is_used ? 1 : 0);
+        parts.push_back(scan.part);
+        for (const double x : scan.position) positions.push_back(x);
+        counts.push_back(static_cast<std::uint32_t>(scan.cells.size()));
+        cells.insert(cells.end(), scan.cells.begin(), scan.cells.end());
+    }
+    Json json{{"used", blob(used)},       {"parts", blob(parts)},
+              {"positions", blob(positions)}, {"counts", blob(counts)},
+              {"cells", blob(cells)},     {"rejected", drive.rejected},
+              {"notes", drive.notes},     {"deskew", drive.deskew},
+              {"most_points", drive.most_points}};
+    if (drive.sweep) {
+        json["sweep"] = {drive.sweep->clockwise, drive.sweep->seam, drive.sweep->duration};
+    }
+    return json;
+}
+
+PlannedDrive drive_of(const Json& json) {
+    PlannedDrive drive{.scans = {},
+                       .rejected = json.at("rejected"),
+                       .notes = json.at("notes"),
+                       .most_points = json.at("most_points"),
+                       .deskew = json.at("deskew"),
+                       .sweep = {}};
+    if (json.contains("sweep")) {
+        const Json& sweep = json["sweep"];
+        drive.sweep = Sweep{.clockwise = sweep[0], .seam = sweep[1], .duration = sweep[2]};
+    }
+    const auto used = from_blob<std::uint8_t>(json.at("used"));
+    const auto parts = from_blob<std::uint32_t>(json.at("parts"));
+    const auto counts = from_blob<std::uint32_t>(json.at("counts"));
+    const auto positions = from_blob<double>(json.at("positions"));
+    const auto cells = from_blob<PlaneCell>(json.at("cells"));
+    auto next = cells.begin();
+    for (std::size_t i = 0; i < used.size(); ++i) {
+        const auto end = next + counts[i];
+        drive.scans.push_back({.is_used = used[i] != 0,
+                               .part = parts[i],
+                               .position = Eigen::Vector3d(&positions[3 * i]),
+                               .cells = {next, end}});
+        next = end;
+    }
+    return drive;
+}
+
+}  // namespace
+
+void write_plan(const std::filesystem::path& file, const Plan& plan, const std::string& run) {
+    Json json{{"cell", plan.cell}, {"most_voxels", plan.most_voxels}, {"drives", Json::array()}};
+    for (const PlannedDrive& drive : plan.drives) json["drives"].push_back(to_json(drive));
+    std::vector<PlaneCell> cells;
+    std::vector<std::uint64_t> counts;
+    for (const auto& [cell, count] : plan.voxels) {
+        cells.push_back(cell);
+        counts.push_back(count);
+    }
+    json["cells"] = blob(cells);
+    json["voxels"] = blob(counts);
+    const std::vector<std::uint8_t> bytes = Json::to_cbor(json);
+    write_checked(file, kMagic, fingerprint(run), std::as_bytes(std::span(bytes)));
+}
+
+Plan read_plan(const std::filesystem::path& file, const std::string& run, const Config& config) {
+    const std::vector<std::byte> bytes = read_checked(file, kMagic, fingerprint(run));
+    const auto* const first = reinterpret_cast<const std::uint8_t*>(bytes.data());
+    const Json json = Json::from_cbor(first, first + bytes.size());
+    Plan plan{.cell = json.at("cell"),
+              .drives = {},
+              .voxels = {},
+              .most_voxels = json.at("most_voxels"),
+              .tiles = {}};
+    for (const Json& drive : json.at("drives")) plan.drives.push_back(drive_of(drive));
+    const auto cells = from_blob<PlaneCell>(json.at("cells"));
+    const auto counts = from_blob<std::uint64_t>(json.at("voxels"));
+    for (std::size_t i = 0; i < cells.size(); ++i) plan.voxels[cells[i]] = counts[i];
+    cut_into_tiles(plan, config);
+    return plan;
+}
+
+}  // namespace dynamic_filter::app

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: MIT
+#include "city/write_city.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "city/tile_file.hpp"
+#include "config_file.hpp"
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/io/file.hpp"
+#include "dynamic_filter/parallel.hpp"
+#include "progress.hpp"
+#include "report.hpp"
+#include "run_reports.hpp"
+#include "run_state.hpp"
+#include "write_scans.hpp"
+
+namespace dynamic_filter::app {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+/// The tiles that are done, and which of them hold points of a scan.
+struct Tiles {
+    std::vector<std::unique_ptr<TileReader>> readers;      // parallel to the plan
+    std::vector<std::vector<std::vector<std::uint32_t>>> inside;  // by drive and scan
+    TileLookup lookup;
+};
+
+Tiles open_tiles(const City& city, const TileFolders& folders) {
+    std::vector<Tile> order;
+    for (const TileWork& work : city.plan.tiles) order.push_back(work.tile);
+    Tiles tiles{.readers = {}, .inside = {}, .lookup = TileLookup(order)};
+    for (const Drive& drive : city.drives) tiles.inside.emplace_back(drive.sequence.size());
+    for (std::size_t t = 0; t < order.size(); ++t) {
+        tiles.readers.push_back(
+            std::make_unique<TileReader>(folders(order[t]) / tile_file(order[t]), city.run));
+        for (const ScanOfDrive& scan : city.plan.tiles[t].inside) {
+            tiles.inside[scan.drive][scan.scan].push_back(static_cast<std::uint32_t>(t));
+        }
+    }
+    return tiles;
+}
+
+/// The verdict on a scan, put together from the tiles in which it has points.
+Verdict verdict_of(const City& city, const Tiles& tiles, const ScanOfDrive& scan,
+                   const io::Frame& frame) {
+    struct Open {
+        std::uint32_t tile;
+        PointVerdicts verdicts;
+        std::size_t next = 0;
+    };
+    std::vector<Open> open;
+    for (const std::uint32_t t : tiles.inside[scan.drive][scan.scan]) {
+        open.push_back({.tile = t, .verdicts = tiles.readers[t]->read(scan)});
+    }
+    Verdict verdict{.index = scan.scan,
+                    .labels = Labels(frame.points.size(), Label::unknown),
+                    .probability = {}};
+    if (city.config.map.time == MapTime::latest) verdict.stays.resize(frame.points.size());
+    std::optional<PlaneCell> last;
+    Open* in = nullptr;
+    each_measured(frame, [&](std::size_t i, const Eigen::Vector3d& world) {
+        const PlaneCell cell = cell_at(world, city.plan.cell);
+        if (last != cell) {
+            last = cell;
+            const auto tile = tiles.lookup.find(cell);
+            const auto found = std::find_if(open.begin(), open.end(),
+                                            [&](const Open& o) { return tile == o.tile; });
+            in = found == open.end() ? nullptr : &*found;
+        }
+        if (!in || in->next >= in->verdicts.size()) {
+            throw InputError(city.drive_of(scan).sequence.scan_files[scan.scan], "",
+                             "changed while it was in use: its points are others than before");
+        }
+        const PointVerdict& of_point = in->verdicts[in->next++];
+        verdict.labels[i] = of_point.final;
+        if (!verdict.stays.empty()) verdict.stays[i] = of_point.stays;
+    });
+    return verdict;
+}
+
+/// The counts of one drive over all tiles.
+void add_scores(const Tiles& tiles, std::uint32_t drive, RunSummary& summary) {
+    eval::ScoreSums final, instant;
+    bool is_scored = false;
+    for (const auto& reader : tiles.readers) {
+        for (const DriveCounts& counts : reader->summary().drives) {
+            if (counts.drive != drive) continue;
+            final.add(counts.final);
+            instant.add(counts.instant);
+            is_scored = true;
+        }
+    }
+    if (!is_scored) return;
+    summary.scores = final.scores();
+    summary.instant_scores = instant.scores();
+}
+
+std::string points_text(const RunSummary& s) {
+    const auto share = [&](std::size_t n) {
+        return s.points == 0 ? 0.0 : 100.0 * static_cast<double>(n) / static_cast<double>(s.points);
+    };
+    return fmt::format("{} scans ({} rejected); {} points: {:.1f} % static, {:.1f} % dynamic, "
+                       "{:.1f} % unknown",
+                       s.scans, s.rejected.size(), s.points, share(s.still), share(s.dynamic),
+                       share(s.unknown));
+}
+
+void write_log(const fs::path& folder, const Drive& drive, const RunSummary& s) {
+    const io::Sequence& sequence = drive.sequence;
+    std::string log = fmt::format("input    {} ({}, {} scans)\n", sequence.root.string(),
+                                  io::to_string(sequence.format), sequence.size());
+    for (const std::string& note : s.notes) log += "note     " + note + "\n";
+    for (const std::string& line : sequence.losses) log += "lost     " + line + "\n";
+    for (const std::string& line : s.rejected) log += "rejected " + line + "\n";
+    log += "scans    " + points_text(s) + "\n";
+    if (s.scores) log += "scores against the ground truth of the recording\n" + table(*s.scores);
+    io::write_file(folder / "run.log", log);
+}
+
+RunSummary write_drive(const City& city, const Tiles& tiles, std::uint32_t number, bool maps,
+                       const fs::path& folder, Progress& progress) {
+    const Drive& drive = city.drives[number];
+    const PlannedDrive& planned = city.plan.drives[number];
+    RunSummary summary;
+    summary.rejected = planned.rejected;
+    summary.notes = planned.notes;
+    std::vector<std::size_t> scans;
+    for (std::size_t i = 0; i < planned.scans.size(); ++i) {
+        if (planned.scans[i].is_used) scans.push_back(i);
+    }
+    const auto decide = [&](std::size_t i, const io::Frame& frame) {
+        return verdict_of(city, tiles, {number, static_cast<std::uint32_t>(i)}, frame);
+    };
+    const auto use = [&](std::size_t, const io::Frame&, const Verdict& verdict) {
+        ++summary.scans;
+        summary.points += verdict.labels.size();
+        for (const Label label : verdict.labels) {
+            (label == Label::static_   ? summary.still
+             : label == Label::dynamic ? summary.dynamic
+                                       : summary.unknown) += 1;
+        }
+        progress.advance();
+    };
+    write_scans(drive.sequence, scans, city.config, maps, folder, {.decide = decide, .use = use});
+    add_scores(tiles, number, summary);
+    io::write_file(folder / "metrics.json",
+                   text_of(metrics_of(summary, drive.sequence.losses)));
+    write_log(folder, drive, summary);
+    return summary;
+}
+
+void bring(const fs::path& from, const fs::path& to, bool moves) {
+    if (moves) {
+        fs::rename(from, to);
+        return;
+    }
+    fs::copy_file(from, to, fs::copy_options::overwrite_existing);
+}
+
+void write_map(const City& city, const Tiles& tiles, const TileFolders& folders, bool moves,
+               const fs::path& folder) {
+    fs::create_directories(folder);
+    Json drives = Json::array(), entries = Json::array();
+    for (const Drive& drive : city.drives) {
+        drives.push_back({{"name", drive.name}, {"scans", drive.sequence.size()}});
+    }
+    for (std::size_t t = 0; t < tiles.readers.size(); ++t) {
+        const TileSummary& s = tiles.readers[t]->summary();
+        const std::string file = tile_map_file(s.tile);
+        // Absent if it was moved before an interruption.
+        if (fs::exists(folders(s.tile) / file)) {
+            bring(folders(s.tile) / file, folder / file, moves);
+        }
+        entries.push_back({{"name", name_of(s.tile)},
+                           {"level", s.tile.level},
+                           {"x", s.tile.x},
+                           {"y", s.tile.y},
+                           {"min", {s.low.x(), s.low.y(), s.low.z()}},
+                           {"max", {s.high.x(), s.high.y(), s.high.z()}},
+                           {"voxels", s.still},
+                           {"scans", city.plan.tiles[t].inside.size()},
+                           {"file", file}});
+    }
+    const Json index{{"version", 1},
+                     {"voxel_size", city.config.map.voxel_size},
+                     {"drives", drives},
+                     {"tiles", entries}};
+    io::write_file(folder / "index.json", text_of(index));
+}
+
+Json timing(const CitySummary& s, const StageClock& clock, const Pace& pace) {
+    std::size_t scans = 0;
+    for (const RunSummary& drive : s.drives) scans += drive.scans;
+    const Seconds total = clock.total();
+    return {{"scans_per_second", total.wall > 0 ? static_cast<double>(scans) / total.wall : 0.0},
+            {"wall_seconds", total.wall},
+            {"cpu_seconds", total.cpu},
+            {"process", by_stage(clock)},
+            {"tiles", s.tiles},
+            {"visits", s.visits},
+            {"keyframes", s.keyframes},
+            {"voxels", s.voxels},
+            {"peak_rss_bytes", peak_rss_bytes()},
+            {"threads", pace.threads > 0 ? pace.threads : available_threads()}};
+}
+
+int code_of(const City& city, const CitySummary& summary) {
+    bool all = true;
+    for (std::size_t d = 0; d < city.drives.size(); ++d) {
+        for (const std::string& line : summary.drives[d].rejected) {
+            fmt::print(stderr, "rejected {}: {}\n", city.drives[d].name, line);
+        }
+        for (const std::string& line : city.drives[d].sequence.losses) {
+            fmt::print(stderr, "lost     {}: {}\n", city.drives[d].name, line);
+        }
+        all &= summary.drives[d].rejected.empty() && city.drives[d].sequence.losses.empty();
+    }
+    return all ? kDone : kRejected;
+}
+
+}  // namespace
+
+CitySummary write_city(const City& city, const TileFolders& folders, bool moves,
+                       const Extras& extras, const OutputFolder& output, StageClock& clock,
+                       const Pace& pace, bool quiet) {
+    CitySummary summary;
+    std::size_t scans = 0;
+    for (const Drive& drive : city.drives) scans += drive.sequence.size();
+    const Tiles tiles = open_tiles(city, folders);
+    io::write_file(output.path() / "config.toml", to_toml(city.config));
+    with_threads(pace.threads, [&] {
+        Progress progress("write", scans, quiet);
+        for (std::uint32_t d = 0; d < city.drives.size(); ++d) {
+            const fs::path folder = city.drives.size() == 1
+                                        ? output.path()
+                                        : output.path() / "drives" / city.drives[d].name;
+            fs::create_directories(folder);
+            summary.drives.push_back(write_drive(city, tiles, d, extras.maps, folder, progress));
+        }
+    });
+    write_map(city, tiles, folders, moves, output.path() / "map");
+    for (const auto& reader : tiles.readers) {
+        summary.voxels += reader->summary().voxels;
+        summary.keyframes += reader->summary().keyframes;
+    }
+    summary.tiles = tiles.readers.size();
+    for (const TileWork& work : city.plan.tiles) summary.visits += work.scans.size();
+    clock.finish("write");
+    if (city.drives.size() > 1) {
+        Json metrics = Json::object();
+        for (std::size_t d = 0; d < city.drives.size(); ++d) {
+            metrics["drives"][city.drives[d].name] =
+                metrics_of(summary.drives[d], city.drives[d].sequence.losses);
+        }
+        io::write_file(output.path() / "metrics.json", text_of(metrics));
+    }
+    summary.seconds = clock.total();
+    io::write_file(output.path() / "timing.json", text_of(timing(summary, clock, pace)));
+    if (city.drives.size() > 1) io::write_file(output.path() / "run.log", to_text(city, summary));
+    return summary;
+}
+
+std::string to_text(const City& city, const CitySummary& s) {
+    std::string text;
+    for (std::size_t d = 0; d < s.drives.size(); ++d) {
+        const RunSummary& drive = s.drives[d];
+        text += fmt::format("drive    {}: {}", city.drives[d].name, points_text(drive));
+        if (drive.scores && drive.scores->voxel.at("excluded").f1) {
+            text += fmt::format("; F1 {:.4f}", *drive.scores->voxel.at("excluded").f1);
+        }
+        text += '\n';
+    }
+    std::size_t scans = 0;
+    for (const RunSummary& drive : s.drives) scans += drive.scans;
+    text += fmt::format("tiles    {}, {} voxels; a scan reaches {:.1f} of them on average\n",
+                        s.tiles, s.voxels,
+                        static_cast<double>(s.visits) / static_cast<double>(std::max<std::size_t>(scans, 1)));
+    text += fmt::format("speed    {:.1f} scans/s of this process ({:.1f} s, {:.1f} s of CPU)\n",
+                        static_cast<double>(scans) / std::max(s.seconds.wall, 1e-9),
+                        s.seconds.wall, s.seconds.cpu);
+    return text;
+}
+
+int conclude(const City& city, const TileFolders& folders, bool moves, const RunOptions& o,
+             OutputFolder& output, StageClock& clock) {
+    const CitySummary summary =
+        write_city(city, folders, moves, {.maps = o.maps, .report = o.report}, output, clock,
+                   {.threads = o.threads, .online = {}}, o.quiet);
+    if (moves) fs::remove_all(output.path() / kTilesFolder);
+    write_complete(output, state_of_output(city, o));
+    output.commit();
+    if (!o.quiet) fmt::print("{}written  {}\n", to_text(city, summary), output.name().string());
+    return code_of(city, summary);
+}
+
+}  // namespace dynamic_filter::app

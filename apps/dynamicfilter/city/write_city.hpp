@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+/// The results of a city from its tiles: those of each drive, and the map.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+#include "city/filter_tile.hpp"
+#include "output_folder.hpp"
+#include "run_sequence.hpp"
+#include "stage_clock.hpp"
+
+namespace dynamic_filter::app {
+
+/// The folder that holds the files of a tile.
+using TileFolders = std::function<std::filesystem::path(const Tile&)>;
+
+struct CitySummary {
+    std::vector<RunSummary> drives;
+    std::size_t tiles = 0, voxels = 0, keyframes = 0;
+    std::size_t visits = 0;  ///< of a tile by a scan
+    Seconds seconds;         ///< of the whole process
+};
+
+inline constexpr const char* kTilesFolder = "tiles";  ///< of a run in progress, and of a part
+
+/// Writes everything that a run leaves; `clock` is told of the stages. The files of the map are
+/// moved from `tiles` if `moves`, otherwise copied.
+CitySummary write_city(const City& city, const TileFolders& tiles, bool moves, const Extras& extras,
+                       const OutputFolder& output, StageClock& clock, const Pace& pace, bool quiet);
+
+/// Writes the result, and with `moves` removes the folder of the tiles. Returns the exit code.
+int conclude(const City& city, const TileFolders& tiles, bool moves, const RunOptions& options,
+             OutputFolder& output, StageClock& clock);
+
+/// The closing table.
+std::string to_text(const City& city, const CitySummary& summary);
+
+}  // namespace dynamic_filter::app
