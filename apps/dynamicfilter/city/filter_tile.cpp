@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "city/piece.hpp"
 #include "city/tile_file.hpp"
 #include "city/tile_map.hpp"
 #include "dynamic_filter/error.hpp"
@@ -39,11 +40,11 @@ std::vector<ScanGroup> groups_of(const Plan& plan, const std::vector<ScanOfDrive
     return result;
 }
 
-/// What one scan says of the inside of the tile.
+/// The final verdict on the points of a scan in and around the tile.
 struct Seen {
-    std::vector<std::size_t> inside;  // indices of its points there
-    Verdict verdict;
-    std::vector<std::uint32_t> voxels;  // of the points; kNoVoxel outside
+    Piece piece;
+    Verdict verdict;                    // on the points of the piece
+    std::vector<std::uint32_t> voxels;  // of these points; kNoVoxel outside of the tile
 };
 
 struct TileRun {
@@ -66,7 +67,7 @@ struct TileRun {
     bool decide(const DynamicFilter& filter, const ScanGroup& scans, const LabelStore& instants);
     [[nodiscard]] Seen look(const DynamicFilter& filter, const io::Frame& frame,
                             std::size_t number) const;
-    void score(const ScanOfDrive& scan, const io::Frame& frame, const Seen& seen,
+    void score(const ScanOfDrive& scan, const Pose& T_world_sensor, const Seen& seen,
                const Labels& instant);
     bool score_near(const ScanGroup& scans, const LabelStore& finals, const LabelStore& instants);
     void add_to_map(const DynamicFilter& filter);
@@ -157,16 +158,12 @@ bool TileRun::filter(DynamicFilter& filter, const ScanGroup& scans, LabelStore& 
 }
 
 Seen TileRun::look(const DynamicFilter& filter, const io::Frame& frame, std::size_t number) const {
-    Seen seen;
-    std::vector<std::uint32_t> voxels;
-    seen.verdict =
-        filter.verdict({frame.points, frame.T_world_sensor, frame.stamp, number}, voxels);
-    seen.voxels.assign(voxels.size(), kNoVoxel);
-    each_measured(frame, [&](std::size_t i, const Eigen::Vector3d& world) {
-        if (!contains(world)) return;
-        seen.inside.push_back(i);
-        seen.voxels[i] = voxels[i];
-    });
+    Seen seen{.piece = cut(frame, work.tile, city.plan.cell), .verdict = {}, .voxels = {}};
+    seen.verdict = filter.verdict({seen.piece.points, frame.T_world_sensor, frame.stamp, number},
+                                  seen.voxels);
+    for (std::size_t i = 0; i < seen.voxels.size(); ++i) {
+        if (!seen.piece.inside[i]) seen.voxels[i] = kNoVoxel;
+    }
     return seen;
 }
 
@@ -180,16 +177,17 @@ bool TileRun::decide(const DynamicFilter& filter, const ScanGroup& scans,
     };
     const auto use = [&](std::size_t number, io::Frame& frame) {
         const Seen one = std::exchange(seen[number], {});
-        const Labels instant = instants.get(number);
+        const Labels instant = labels_of(one.piece, instants.get(number));
         const auto& [index, labels, probability, stays, tracked] = one.verdict;
         PointVerdicts inside;
-        for (const std::size_t i : one.inside) {
+        for (std::size_t i = 0; i < labels.size(); ++i) {
+            if (!one.piece.inside[i]) continue;
             inside.push_back({labels[i], instant[i], !stays.empty() && stays[i]});
         }
         verdicts.add(scans[number], inside);
         sightings.add(scans[number], one.voxels);
         if (frame.truth.empty()) return;
-        score(scans[number], frame, one, instant);
+        score(scans[number], frame.T_world_sensor, one, instant);
         finals.put(number, labels);
     };
     if (!each_scan(city, scans, inside_of(scans, work), prepare, use)) return false;
@@ -197,20 +195,10 @@ bool TileRun::decide(const DynamicFilter& filter, const ScanGroup& scans,
     return scorers.empty() || score_near(scans, finals, instants);
 }
 
-/// The frame as the scores take it: outside of the tile, the truth is unknown.
-eval::LabelledScan labelled_inside(const io::Frame& frame, const Eigen::Vector3d& origin,
-                                   const std::vector<std::size_t>& inside) {
-    eval::LabelledScan scan = labelled(frame, origin);
-    Labels truth(scan.truth.size(), Label::unknown);
-    for (const std::size_t i : inside) truth[i] = scan.truth[i];
-    scan.truth = std::move(truth);
-    return scan;
-}
-
-void TileRun::score(const ScanOfDrive& scan, const io::Frame& frame, const Seen& seen,
+void TileRun::score(const ScanOfDrive& scan, const Pose& T_world_sensor, const Seen& seen,
                     const Labels& instant) {
     const auto scorer = scorers.try_emplace(scan.drive, eval::kVoxelSize, 2).first;
-    scorer->second.add(labelled_inside(frame, scoring_origin(), seen.inside),
+    scorer->second.add(labelled_inside(seen.piece, T_world_sensor, scoring_origin()),
                        std::array<const Labels*, 2>{&seen.verdict.labels, &instant});
 }
 
@@ -220,13 +208,12 @@ bool TileRun::score_near(const ScanGroup& scans, const LabelStore& finals,
     std::vector<std::vector<Points>> near(scans.size());
     const auto prepare = [&](std::size_t number, io::Frame& frame) {
         if (frame.truth.empty()) return;
-        std::vector<std::size_t> inside;
-        each_measured(frame, [&](std::size_t i, const Eigen::Vector3d& world) {
-            if (contains(world)) inside.push_back(i);
-        });
-        const Labels final = finals.get(number), instant = instants.get(number);
+        const Piece piece = cut(frame, work.tile, city.plan.cell);
+        const Labels final = finals.get(number);
+        const Labels instant = labels_of(piece, instants.get(number));
         near[number] = scorers.at(scans[number].drive)
-                           .near_removed(labelled_inside(frame, scoring_origin(), inside),
+                           .near_removed(labelled_inside(piece, frame.T_world_sensor,
+                                                         scoring_origin()),
                                          std::array<const Labels*, 2>{&final, &instant});
     };
     const auto use = [&](std::size_t number, io::Frame&) {

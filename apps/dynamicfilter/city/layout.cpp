@@ -52,10 +52,10 @@ Tile tile_at(const PlaneCell& cell, int level) {
 
 Region region_of(const Tile& tile, double voxel_size, double height) {
     const double edge = cell_edge(voxel_size);
-    const double side = cells_of(tile.level) * edge;
+    const double side = cells_of(tile.level) * edge, halo = kHaloVoxels * voxel_size;
     const Eigen::Vector2d corner = side * Eigen::Vector2d(tile.x, tile.y);
     return {.origin = {corner.x(), corner.y(), height},
-            .bounds = {Eigen::Vector2d::Constant(-edge), Eigen::Vector2d::Constant(side + edge)}};
+            .bounds = {Eigen::Vector2d::Constant(-halo), Eigen::Vector2d::Constant(side + halo)}};
 }
 
 std::vector<Tile> cut(const Voxels& voxels, std::size_t most) {
