@@ -35,7 +35,7 @@ void halve(std::vector<Observer>& observers, std::size_t first) {
     std::size_t end = first;
     for (std::size_t i = first; i < observers.size(); i += 2) {
         if (end != i) observers[end] = std::move(observers[i]);
-        if (i + 1 < observers.size()) observers[end].weight *= 2;
+        if (i + 1 < observers.size()) observers[end].weight += observers[i + 1].weight;
         ++end;
     }
     observers.resize(end);

@@ -197,5 +197,40 @@ TEST(ScoreLabels, LeavesOutUnknownTruthMissingScansAndPointsThatAreNotFinite) {
     EXPECT_DOUBLE_EQ(scores.dynamic_share, 0.0);
 }
 
+// Areas that have no voxel in common, and no points near each other.
+TEST(ScoreSums, OfTwoAreasAddUpToThoseOfBoth) {
+    const auto row = [](float y, std::size_t seed) {
+        LabelledScan scan;
+        for (std::size_t i = 0; i < 500; ++i) {
+            scan.points.emplace_back(0.07F * static_cast<float>(i), y, 0.1F);
+            scan.truth.push_back(i % (3 + seed) == 0 ? Label::dynamic : Label::static_);
+            scan.verdict.push_back(i % (4 + seed) == 0 ? Label::dynamic : Label::static_);
+        }
+        return scan;
+    };
+    const std::vector<LabelledScan> scans{row(0.1F, 0), row(50.1F, 1)};
+    const auto sums_of = [](const std::vector<LabelledScan>& some) {
+        ScanScores scores(0.2, 1);
+        for (const auto& scan : some) scores.add(scan, std::array{&scan.verdict});
+        for (const auto& scan : some) {
+            scores.add_near(scores.near_removed(scan, std::array{&scan.verdict}));
+        }
+        return scores.sums(0);
+    };
+    ScoreSums sum = sums_of({scans[0]});
+    sum.add(sums_of({scans[1]}));
+    const Scores parts = sum.scores(), whole = sums_of(scans).scores();
+    for (const auto& [reading, score] : whole.voxel) {
+        EXPECT_EQ(parts.voxel.at(reading).pr, score.pr) << reading;
+        EXPECT_EQ(parts.voxel.at(reading).rr, score.rr) << reading;
+        EXPECT_EQ(parts.voxel.at(reading).f1, score.f1) << reading;
+    }
+    EXPECT_EQ(parts.point.sa, whole.point.sa);
+    EXPECT_EQ(parts.point.da, whole.point.da);
+    EXPECT_EQ(parts.point.iou, whole.point.iou);
+    EXPECT_EQ(parts.dynamic_share, whole.dynamic_share);
+    EXPECT_GT(whole.dynamic_share, 0.0);
+}
+
 }  // namespace
 }  // namespace dynamic_filter::eval

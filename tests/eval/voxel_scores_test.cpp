@@ -96,8 +96,9 @@ TEST(VoxelTally, ErasorReadingComparesTheMeansOfAllPointsAndOfTheKeptOnes) {
 }
 
 TEST(VoxelTally, DynamicShareCountsVoxelsWithAnyMovingPoint) {
-    EXPECT_DOUBLE_EQ(worked_example().dynamic_share(), 4.0 / 5.0);
-    EXPECT_DOUBLE_EQ(VoxelTally(0.2).dynamic_share(), 0.0);
+    EXPECT_EQ(worked_example().dynamic_voxels(), 4U);
+    EXPECT_EQ(worked_example().voxels(), 5U);
+    EXPECT_EQ(VoxelTally(0.2).voxels(), 0U);
 }
 
 TEST(VoxelTally, AMapMadeElsewherePreservesTheVoxelsItHasPointsIn) {

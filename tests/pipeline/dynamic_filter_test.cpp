@@ -11,6 +11,7 @@
 #include <set>
 
 #include "dynamic_filter/error.hpp"
+#include "dynamic_filter/geometry/pose.hpp"
 #include "dynamic_filter/parallel.hpp"
 #include "dynamic_filter/submaps_observe/front_end.hpp"
 #include "dynamic_filter/submaps_observe/submap.hpp"
@@ -599,6 +600,85 @@ TEST(DynamicFilter, TimesThatAreNotOnePerPointAreAnError) {
     auto scans = without_poses(1);
     scans[0].scan.times.assign(3, 0.0F);
     EXPECT_THROW(DynamicFilter{Config{}}.push(scans[0].scan), Error);
+}
+
+/// Final verdicts of a filter that is limited to a part of the world.
+std::vector<Verdict> run_region(const std::vector<RoomScan>& scans, const Region& region) {
+    DynamicFilter filter(preset("default"), region);
+    for (const RoomScan& s : scans) filter.push(s.scan);
+    filter.finish();
+    std::vector<Verdict> verdicts;
+    for (const RoomScan& s : scans) verdicts.push_back(filter.verdict(s.scan));
+    return verdicts;
+}
+
+// Votes reach two voxels far, and nothing else crosses the border of a region here: the tracks of
+// objects lie inside.
+TEST(DynamicFilter, InsideOfARegionTheVerdictsAreThoseOfTheWhole) {
+    const auto scans = drive(24, true);
+    const Outcome whole = run(scans, preset("default"));
+    const Eigen::Vector3d origin = nearby_origin(scans.front().scan.T_world_sensor, 0.2);
+    const double halo = 1.6;  // [m]
+    const Eigen::AlignedBox2d inside(Eigen::Vector2d(-60.0, -40.0), Eigen::Vector2d(1.6, 40.0));
+    const Region region{.origin = origin,
+                        .bounds = {inside.min() - Eigen::Vector2d::Constant(halo),
+                                   inside.max() + Eigen::Vector2d::Constant(halo)}};
+    const auto part = run_region(scans, region);
+    std::size_t within = 0, without = 0, other = 0;
+    for (std::size_t s = 0; s < scans.size(); ++s) {
+        for (std::size_t i = 0; i < scans[s].truth.size(); ++i) {
+            const Eigen::Vector3d world =
+                scans[s].scan.T_world_sensor * scans[s].scan.points[i].cast<double>();
+            const Eigen::Vector2d at = (world - origin).head<2>();
+            if (!region.bounds.contains(at)) {
+                without += part[s].labels[i] == Label::unknown ? 0 : 1;
+            } else if (inside.contains(at)) {
+                ++within;
+                other += part[s].labels[i] == whole.final[s].labels[i] ? 0 : 1;
+            }
+        }
+    }
+    EXPECT_EQ(without, 0U);
+    EXPECT_GT(within, 1000U);
+    EXPECT_LE(other, within / 1000);
+}
+
+TEST(DynamicFilter, OnlyTheMethodScansFiltersARegion) {
+    EXPECT_THROW(DynamicFilter(small_windows(), Region{}), ConfigError);
+}
+
+/// Scans of an empty room and of one with a box that stands there all the time.
+std::vector<RoomScan> standing(bool box, std::size_t first) {
+    const test::Box room{{-20.0, -6.0, 0.0}, {20.0, 6.0, 3.0}}, parked{{3, 2, 0.2}, {5, 3.4, 1.6}};
+    std::vector<RoomScan> scans;
+    for (std::size_t i = 0; i < 24; ++i) {
+        Pose pose = Pose::Identity();
+        pose.translation() = Eigen::Vector3d(-6.0 + 0.5 * static_cast<double>(i), 0.25, 1.0);
+        auto scan = test::scan_room(pose, room, box ? std::vector{parked} : std::vector<test::Box>{},
+                                    {.rings = 32, .columns = 720});
+        scan.scan.stamp = 0.25 * static_cast<double>(i);
+        scan.scan.index = first + i;
+        scans.push_back(std::move(scan));
+    }
+    return scans;
+}
+
+// A box that stands still in one drive, and is not there in the other one, comes or goes.
+TEST(DynamicFilter, WhatOnlyOneDriveSawIsDynamic) {
+    for (const bool comes : {false, true}) {
+        const auto first = standing(!comes, 0), second = standing(comes, 24);
+        DynamicFilter filter(preset("default"));
+        for (const RoomScan& s : first) filter.push(s.scan);
+        filter.begin_drive();
+        for (const RoomScan& s : second) filter.push(s.scan);  // whose stamps begin again
+        filter.finish();
+        std::vector<RoomScan> all = first;
+        all.insert(all.end(), second.begin(), second.end());
+        std::vector<Verdict> final;
+        for (const RoomScan& s : all) final.push_back(filter.verdict(s.scan));
+        EXPECT_GT(share(all, final, Label::dynamic, Label::dynamic), 0.9) << comes;
+        EXPECT_GT(share(all, final, Label::static_, Label::static_), 0.99) << comes;
+    }
 }
 
 }  // namespace

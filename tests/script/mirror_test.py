@@ -22,6 +22,9 @@ OTHERS = {
     f"{APP}/edits/edits.cpp": "tests/apps/edits_test.cpp",
     f"{APP}/edits/map_gaps.cpp": "tests/apps/edits_test.cpp",
     f"{APP}/edits/run_edits.cpp": "tests/apps/edits_test.cpp",
+    **{f"{APP}/city/{unit}.cpp": "tests/apps/city/city_test.sh" for unit in (
+        "city", "filter_tile", "filter_tiles", "merge", "plan_command", "run_city", "write_city")},
+    f"{APP}/city/plan_file.cpp": "tests/apps/city/plan_test.cpp",
     f"{APP}/live/dds_configuration.cpp": "tests/apps/live/dds_peer_test.cpp",
     f"{APP}/live/dds_log.cpp": "tests/apps/live/dds_bus_test.cpp",
     f"{APP}/live/dds_type.cpp": "tests/apps/live/dds_bus_test.cpp",
@@ -35,8 +38,8 @@ OTHERS = {
     f"{APP}/view/viewer_page.cpp": "tests/apps/view/page_test.cpp",
     **{f"{APP}/{unit}.cpp": COMMAND for unit in (
         "check", "compare", "convert", "demo", "evaluate", "frames", "info", "main", "motion", "render", "run", "run_reports",
-        "run_sequence", "serve", "simulate", "sinks", "draw/animation", "draw/canvas", "draw/cleaning",
-        "draw/picture")},
+        "run_sequence", "run_state", "serve", "simulate", "sinks", "draw/animation", "draw/canvas", "draw/cleaning",
+        "draw/picture", "write_scans")},
 }
 
 

@@ -1,0 +1,92 @@
+#!/bin/sh
+# Several drives, tiles and parts, as a user has them: the parts of any number give the bytes of the
+# unbroken run, and wrong input is named.   city_test.sh COMMAND
+set -eu
+command=$1
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+fail() { echo "$1"; [ ! -e said ] || cat said; exit 1; }
+bytes_of() { (cd "$1" && find . -type f ! -name timing.json ! -name run.log ! -name .run ! -name .lock | sort | xargs md5sum); }
+expect() {  # expect CODE TEXT ARGUMENTS...: the command ends with this code and says this
+    code=$1 text=$2
+    shift 2
+    set +e
+    "$command" "$@" > said 2>&1
+    found=$?
+    set -e
+    [ "$found" = "$code" ] || fail "exit $found, not $code: $*"
+    grep -qF -- "$text" said || fail "did not say '$text': $*"
+}
+
+# Two drives through one world: the first and the second half of a recording.
+"$command" simulate crowd --frames 40 --pedestrians 20 --rate 4 -o data > /dev/null 2>&1
+half() {  # half NAME FIRST LAST
+    mkdir -p "$1/velodyne" "$1/labels"
+    for i in $(seq "$2" "$3"); do
+        name=$(printf %06d "$i")
+        cp "data/velodyne/$name.bin" "$1/velodyne"
+        cp "data/labels/$name.label" "$1/labels"
+    done
+    sed -n "$(($2 + 1)),$(($3 + 1))p" data/poses.txt > "$1/poses.txt"
+    sed -n "$(($2 + 1)),$(($3 + 1))p" data/times.txt > "$1/times.txt"
+}
+half a 0 19
+half b 20 39
+options="--tile-voxels 20000 --deskew off"
+
+# One recording: the same labels and scores as in memory if it fits into one tile.
+"$command" run data -o in_memory > /dev/null 2>&1
+"$command" run data --memory 2G -o one_tile > /dev/null 2>&1
+for file in labels static_map.pcd dynamic_points.pcd metrics.json; do
+    diff -r in_memory/$file one_tile/$file > /dev/null || fail "one tile: $file differs from the run in memory"
+done
+
+# Parts of any number, in any order, one of them twice.
+"$command" run a b $options -o whole > said 2>&1 || fail "two drives"
+[ "$(ls whole/map/*.pcd | wc -l)" -gt 3 ] || fail "too few tiles to test anything"
+[ ! -e whole/tiles ] || fail "the tiles stayed"
+[ "$(ls whole/drives/a/labels | wc -l)" = 20 ] || fail "labels of the first drive"
+bytes_of whole > whole.md5
+for parts in 1 2 5; do
+    for i in $(seq "$parts"); do
+        "$command" run a b $options --part "$i/$parts" --threads 1 -q -o "part$i" > said 2>&1 || fail "part $i"
+    done
+    "$command" merge $(seq "$parts" -1 1 | sed s/^/part/) part1 -o merged > said 2>&1 || fail "merge of $parts"
+    bytes_of merged > merged.md5
+    cmp -s whole.md5 merged.md5 || fail "$parts parts: $(diff whole.md5 merged.md5)"
+    [ "$parts" = 5 ] || rm -r part* merged
+done
+
+# A list and a plan.
+printf '# both\na\nb\tb/poses.txt\n' > drives.txt
+"$command" plan drives.txt $options -o plan.bin --parts 3 > said 2>&1 || fail "plan"
+grep -q "^parts    3" said || fail "plan says nothing of parts"
+"$command" run drives.txt $options --plan plan.bin -o listed > said 2>&1 || fail "a list and a plan"
+bytes_of listed > listed.md5
+cmp -s whole.md5 listed.md5 || fail "list and plan: $(diff whole.md5 listed.md5)"
+"$command" plan a b $options --json -q > plan.json && grep -q '"cost_seconds"' plan.json || fail "plan as JSON"
+
+# Whoever resumes goes on, and only with the same.
+"$command" run a b $options -o whole --resume > said 2>&1 && grep -q "^complete" said || fail "resume of a complete run"
+expect 2 "was begun with" run a b --tile-voxels 30000 --deskew off -o whole --resume
+expect 2 "part 3/5 is missing" merge part1 part2 part4 part5 -o other
+expect 3 "holds no part" merge part1 data -o other
+"$command" run a $options --part 1/5 -q -o alone > said 2>&1 || fail "a part of one drive"
+expect 2 "not parts of the same run" merge part1 alone -o other
+printf spoilt > "$(ls part2/tiles/*.tile | head -1)"
+expect 2 "part 2/5 is missing" merge part1 part2 part3 part4 part5 -o other
+"$command" run a b $options --part 2/5 -q --resume -o part2 > said 2>&1 || fail "a spoilt part is not repeated"
+rm b/velodyne/000030.bin
+expect 3 "" run a b $options -o other
+
+expect 2 "I from 1 to N" run a --part 3/2 -o other
+expect 2 "-o DIR" run a --part 1/2
+expect 2 "expected a size" run a --memory lots -o other
+expect 2 "--tile-voxels" run a --memory 101M -o other
+expect 2 "given twice" run a ./a -o other
+expect 2 "does not go with" run a --memory 1G --online -o other
+expect 2 "default preset" run a --memory 1G --preset paper -o other
+expect 3 "has no poses" run a --memory 1G --poses none -o other
+[ ! -e other/labels ] || fail "something was written"
+echo "parts, lists, plans and wrong input: all as expected"

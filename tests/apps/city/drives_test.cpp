@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "city/drives.hpp"
+
+#include <gtest/gtest.h>
+
+#include "dynamic_filter/error.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace dynamic_filter::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(Drives, AListStandsForItsRecordings) {
+    const test::TemporaryFolder folder;
+    fs::create_directories(folder / "day 1");
+    fs::create_directories(folder / "day2");
+    test::spill(folder / "drives.txt", "# the north\nday 1\tposes/1.tum\n\n day2 \r\n");
+    const auto sources = expand({folder / "drives.txt", "other"});
+    ASSERT_EQ(sources.size(), 3U);
+    EXPECT_EQ(sources[0].recording, folder / "day 1");
+    EXPECT_EQ(sources[0].poses, folder / "poses/1.tum");
+    EXPECT_EQ(sources[1].recording, folder / "day2");
+    EXPECT_FALSE(sources[1].poses);
+    EXPECT_EQ(sources[2].recording, "other");
+}
+
+TEST(Drives, AListNamesTheLineThatIsWrong) {
+    const test::TemporaryFolder folder;
+    test::spill(folder / "drives.txt", "\nmissing\n");
+    try {
+        expand({folder / "drives.txt"});
+        FAIL() << "expected an InputError";
+    } catch (const InputError& error) {
+        const std::string text = error.what();
+        EXPECT_NE(text.find("line 2"), std::string::npos) << text;
+        EXPECT_NE(text.find("missing does not exist"), std::string::npos) << text;
+    }
+    test::spill(folder / "empty.txt", "# nothing\n");
+    EXPECT_THROW(expand({folder / "empty.txt"}), InputError);
+}
+
+TEST(Drives, NamesAreTheEndsOfThePathsAndNeverTheSame) {
+    using Names = std::vector<std::string>;
+    EXPECT_EQ(names_of({{.recording = "/a/x"}, {.recording = "/a/y.mcap"}}), (Names{"x", "y"}));
+    EXPECT_EQ(names_of({{.recording = "/a/x"}, {.recording = "/b/x/"}}), (Names{"a_x", "b_x"}));
+    EXPECT_EQ(names_of({{.recording = "/1/a/x"}, {.recording = "/2/a/x"}}),
+              (Names{"a_x", "a_x_2"}));
+}
+
+TEST(Drives, OnePoseFileIsNotForSeveralRecordings) {
+    DataOptions how;
+    how.open.poses = "poses.txt";
+    EXPECT_THROW(open_drives({{.recording = "a"}, {.recording = "b"}}, how), ConfigError);
+    EXPECT_THROW(open_drives({{.recording = "a"}, {.recording = "./a"}}, {}), ConfigError);
+}
+
+}  // namespace
+}  // namespace dynamic_filter::app
