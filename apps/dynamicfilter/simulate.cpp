@@ -29,7 +29,32 @@ io::Cloud timed_cloud(const sim::SimulatedScan& scan) {
     return cloud;
 }
 
+/// The values of a label file.
+std::vector<std::uint32_t> numbered_labels(const sim::SimulatedScan& scan) {
+    constexpr std::uint32_t moving_other = 259;
+    std::vector<std::uint32_t> out(scan.labels.size());
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        out[i] = scan.kinds[i] == sim::Kind::temporary
+                     ? moving_other | std::uint32_t{scan.instances[i]} << 16U
+                     : static_cast<std::uint32_t>(scan.labels[i]);
+    }
+    return out;
+}
+
 }  // namespace
+
+std::vector<SimulatedRecording> simulated_recordings(const sim::SimulationOptions& options,
+                                                     const std::filesystem::path& folder) {
+    const int drives = sim::drive_count(options);
+    if (drives == 0) return {{options, folder}};
+    std::vector<SimulatedRecording> out;
+    for (int drive = 1; drive <= drives; ++drive) {
+        out.push_back({options, folder / fmt::format("drive_{}", drive)});
+        out.back().options.drives = drives;
+        out.back().options.drive = drive;
+    }
+    return out;
+}
 
 std::size_t write_simulation(const sim::SimulationOptions& options,
                              const std::filesystem::path& folder, bool quiet) {
@@ -49,7 +74,7 @@ std::size_t write_simulation(const sim::SimulationOptions& options,
         } else {
             io::write_bin(scans / (stem + ".bin"), scan.points, scan.intensity);
         }
-        io::write_labels(folder / "labels" / (stem + ".label"), scan.labels);
+        io::write_labels(folder / "labels" / (stem + ".label"), numbered_labels(scan));
         poses.push_back(scan.T_world_sensor);
         stamps.push_back(scan.stamp);
         points += scan.points.size();
@@ -61,11 +86,14 @@ std::size_t write_simulation(const sim::SimulationOptions& options,
 }
 
 int simulate(const SimulateOptions& o) {
-    OutputFolder output(o.output, Contents::recording, replaced_if(o.overwrite));
     catch_interrupts();
-    const std::size_t points = write_simulation(o.simulation, output.path(), o.quiet);
-    output.commit();
-    if (!o.quiet) fmt::print("written  {} ({} points)\n", output.name().string(), points);
+    for (const auto& [options, folder] : simulated_recordings(o.simulation, o.output)) {
+        if (interrupted()) break;
+        OutputFolder output(folder, Contents::recording, replaced_if(o.overwrite));
+        const std::size_t points = write_simulation(options, output.path(), o.quiet);
+        output.commit();
+        if (!o.quiet) fmt::print("written  {} ({} points)\n", output.name().string(), points);
+    }
     return interrupted() ? kInterrupted : kDone;
 }
 
