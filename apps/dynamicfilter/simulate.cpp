@@ -74,7 +74,7 @@ std::size_t write_simulation(const sim::SimulationOptions& options,
         } else {
             io::write_bin(scans / (stem + ".bin"), scan.points, scan.intensity);
         }
-        io::write_labels(folder / "labels" / (stem + ".label"), numbered_labels(scan));
+        io::write_numbered_labels(folder / "labels" / (stem + ".label"), numbered_labels(scan));
         poses.push_back(scan.T_world_sensor);
         stamps.push_back(scan.stamp);
         points += scan.points.size();

@@ -53,11 +53,11 @@ void write_bin(const std::filesystem::path& path, const Points& points,
 void write_labels(const std::filesystem::path& path, const Labels& labels, Durable durable) {
     std::vector<std::uint32_t> wide(labels.size());
     for (std::size_t i = 0; i < labels.size(); ++i) wide[i] = static_cast<std::uint32_t>(labels[i]);
-    write_labels(path, std::span<const std::uint32_t>(wide), durable);
+    write_numbered_labels(path, wide, durable);
 }
 
-void write_labels(const std::filesystem::path& path, std::span<const std::uint32_t> labels,
-                  Durable durable) {
+void write_numbered_labels(const std::filesystem::path& path, std::span<const std::uint32_t> labels,
+                           Durable durable) {
     AtomicFile file(path);
     file.write(std::as_bytes(labels));
     file.commit(durable);

@@ -117,7 +117,7 @@ Hit Caster::cast(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction
         const Mesh& prototype = prototypes_[parts_[i].prototype];
         const Material& material = prototype.materials[query.hit.primID];
         hit.reflectivity = material.reflectivity * parts_[i].brightness;
-        hit.kind = parts_[i].instance == 0 ? material.kind : kinds_[i];
+        hit.kind = parts_[i].is_still ? material.kind : kinds_[i];
         hit.instance = parts_[i].instance;
     }
     hit.cosine = std::abs(normal.normalized().dot(direction));

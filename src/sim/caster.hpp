@@ -13,11 +13,12 @@
 namespace dynamic_filter::sim {
 
 /// A rigid part: its prototype, a factor of its reflectivity (clothes, paint), and the person or
-/// vehicle to which it belongs. A part of none of them is a part of the still world.
+/// vehicle to which it belongs.
 struct Part {
     std::size_t prototype = 0;
     float brightness = 1.0F;
-    std::uint16_t instance = 0;  ///< 0: of the still world; its kinds are those of its materials
+    std::uint16_t instance = 0;
+    bool is_still = false;  ///< true: its kinds are those of its materials
 };
 
 /// The pose of a part at a given time, and its kind at that time.

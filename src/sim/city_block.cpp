@@ -17,7 +17,7 @@ struct Builder {
     std::vector<Fixture>& out;
 
     void add(std::size_t thing, const Vector2d& at, const Vector2d& axis, double scale = 1.0) {
-        out.push_back({.part = {.prototype = thing},
+        out.push_back({.part = {.prototype = thing, .is_still = true},
                        .placement = {standing(at, axis, pavement, scale), Kind::structure}});
     }
     std::size_t any(Thing first, int count) {
@@ -85,7 +85,7 @@ void add_furniture(Builder& builder) {
 std::vector<Fixture> block_fixtures(std::uint64_t seed, const Block& block) {
     std::vector<Fixture> out;
     out.push_back(
-        {.part = {.prototype = slab},
+        {.part = {.prototype = slab, .is_still = true},
          .placement = {standing(node(block.x, block.y), Vector2d::UnitX(), 0.0), Kind::ground}});
     for (int i = 0; i < 4; ++i) {
         Random random{hash(block_seed(seed, block), 0x51de, static_cast<std::uint64_t>(i))};

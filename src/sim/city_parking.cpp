@@ -55,7 +55,8 @@ Fixture car(std::uint64_t bits, const Side& side, int place) {
     const double scale = is_van ? 0.9 : random.uniform(0.92, 1.06);
     const double way = random.chance(0.9) ? -1.0 : 1.0;  // few stand against the traffic
     return {.part = {.prototype = static_cast<std::size_t>(prototype),
-                     .brightness = static_cast<float>(random.uniform(0.4, 1.4))},
+                     .brightness = static_cast<float>(random.uniform(0.4, 1.4)),
+                     .is_still = true},
             .placement = {standing(side.at(u, v), way * side.along, 0.0, scale), Kind::structure}};
 }
 
@@ -127,6 +128,7 @@ std::vector<Fixture> parked(std::uint64_t seed, const Block& block, const Day& d
             Fixture fixture = car(hash(bits, 3, static_cast<std::uint64_t>(which)), side, place);
             if (!is_there_in_all(seed, block, s, place, day)) {
                 fixture.part.instance = static_cast<std::uint16_t>(first + 2 * place + which - 1);
+                fixture.part.is_still = false;
                 fixture.placement.kind = Kind::temporary;
             }
             out.push_back(fixture);

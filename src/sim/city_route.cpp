@@ -109,9 +109,16 @@ std::vector<double> speed_limits(const std::vector<Limit>& limits, double length
     return out;
 }
 
-/// Drives along the way from its beginning at full speed. The last steps to a halt are slow.
+/// The limit between two of the speed_limits(), at constant braking.
+double limit_at(const std::vector<double>& allowed, double s) {
+    const auto i = static_cast<std::size_t>(s / grain);
+    const double u = s / grain - static_cast<double>(i);
+    return std::sqrt((1.0 - u) * allowed[i] * allowed[i] + u * allowed[i + 1] * allowed[i + 1]);
+}
+
+/// Drives along the way from its beginning at full speed.
 Log drive(const std::vector<Limit>& limits, double length) {
-    constexpr double creep = 0.4;  // [m/s] least speed but for halts
+    constexpr double creep = 0.2;  // [m/s] least speed but for halts
     const std::vector<double> allowed = speed_limits(limits, length);
     Log log;
     double s = 0.0, speed = allowed.front();
@@ -119,9 +126,7 @@ Log drive(const std::vector<Limit>& limits, double length) {
     while (s < length) {
         log.way.push_back(s);
         while (halt != limits.end() && (halt->halt == 0.0 || halt->begin < s)) ++halt;
-        const auto i = static_cast<std::size_t>(s / grain);
-        const double limit = std::max(creep, std::min(allowed[i], allowed[i + 1]));
-        speed = std::min(speed + accelerate * log_step, limit);
+        speed = std::min(speed + accelerate * log_step, std::max(creep, limit_at(allowed, s)));
         const double next = s + speed * log_step;
         if (halt != limits.end() && next >= halt->begin) {
             s = halt->begin;
@@ -165,12 +170,13 @@ Route route(std::uint64_t seed, double km, int drive_number) {
         if (i == 0) drawing.add(leg.from + begin * d + lane * right_of(d));
         leg.begin = drawing.length;
         const double cruise = random.uniform(8.2, 10.0);
-        const bool halts = random.chance(0.2);
+        const bool halts = random.chance(0.12);
         const double halt = random.uniform(4.0, 12.0);
         const Vector2d line = leg.to - stop_line * d + lane * right_of(d);
         drawing.add(line);
         limits.push_back({.begin = leg.begin, .end = drawing.length, .speed = cruise});
-        if (halts) limits.push_back({.begin = drawing.length, .end = drawing.length, .halt = halt});
+        const double place = grain * std::floor(drawing.length / grain);
+        if (halts) limits.push_back({.begin = place, .end = place, .halt = halt});
         if (i + 2 < nodes.size()) {
             const Vector2d e = (at_node(nodes[i + 2]) - leg.to).normalized();
             const Vector2d corner = leg.to + lane * (right_of(d) + right_of(e));

@@ -85,8 +85,8 @@ void write_bin(const std::filesystem::path& path, const Points& points,
 void write_labels(const std::filesystem::path& path, const Labels& labels,
                   Durable durable = Durable::name);
 /// The same for raw values: the label in the lower 16 bits, the number of an object in the upper.
-void write_labels(const std::filesystem::path& path, std::span<const std::uint32_t> labels,
-                  Durable durable = Durable::name);
+void write_numbered_labels(const std::filesystem::path& path, std::span<const std::uint32_t> labels,
+                           Durable durable = Durable::name);
 /// Writes one row-major 3x4 matrix T_world_sensor per line, with 17 significant digits where
 /// needed.
 void write_poses_kitti(const std::filesystem::path& path, std::span<const Pose> T_world_sensor);
