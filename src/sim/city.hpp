@@ -17,7 +17,7 @@
 namespace dynamic_filter::sim::city {
 
 // [m] from the middle of a street.
-constexpr double lane = 1.75, cycle_lane = 3.1, parking = 4.6, kerb = 5.7, front = 10.0;
+constexpr double lane = 1.75, cycle_lane = 3.2, parking = 4.6, kerb = 5.7, front = 10.0;
 constexpr double pavement = 0.15;       // [m] above the street
 constexpr double bay_width = 3.6;       // [m] of the houses
 constexpr int bays_along[] = {25, 18};  ///< of the houses of a block that look at a street along x

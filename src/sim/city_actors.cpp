@@ -83,7 +83,7 @@ bool Town::limit(Actor& actor, double meeting) const {
 bool Town::is_free(const Actor& actor) const {
     constexpr double far = 20.0;  // [m] beyond which two bodies cannot touch
     const Vector2d room = room_of(actor);
-    const Vector2d own = half_footprint(VehicleKind::car) + Vector2d(2.0, 0.25);
+    const Vector2d own = half_footprint(VehicleKind::car) + Vector2d(2.0, 0.12);
     std::vector<const Actor*> others;
     for (const Actor& other : actors) {
         if (other.from < actor.until && other.until > actor.from) others.push_back(&other);
