@@ -36,7 +36,7 @@ void PcdWriter::commit() {
 }
 
 void write_bin(const std::filesystem::path& path, const Points& points,
-               std::span<const float> intensity) {
+               std::span<const float> intensity, Durable durable) {
     if (points.size() != intensity.size()) {
         throw OutputError(
             path, fmt::format("{} points but {} intensities", points.size(), intensity.size()));
@@ -47,7 +47,7 @@ void write_bin(const std::filesystem::path& path, const Points& points,
         records[i] = {points[i].x(), points[i].y(), points[i].z(), intensity[i]};
     }
     file.write(std::as_bytes(std::span(records)));
-    file.commit();
+    file.commit(durable);
 }
 
 void write_labels(const std::filesystem::path& path, const Labels& labels, Durable durable) {

@@ -14,7 +14,7 @@ namespace {
 using Eigen::Vector2d;
 using Node = std::array<int, 2>;
 
-constexpr double brake = 1.5, accelerate = 1.5;          // [m/s2]
+constexpr double brake = 1.8, accelerate = 1.8;          // [m/s2]
 constexpr double right_radius = 6.0, left_radius = 9.0;  // [m] of turns
 constexpr double right_speed = 3.8, left_speed = 4.6;    // [m/s] in turns
 constexpr double stop_line = 13.0;                       // [m] before the node
@@ -35,7 +35,7 @@ Node step(const Node& from, int direction) {
 Vector2d at_node(const Node& n) { return node(n[0], n[1]); }
 
 /// A walk over the streets of a rectangle, without turning back. Of the streets that go on from a
-/// node, it takes one of those that it took least often.
+/// node, it takes one of those that it took least often, more often straight ahead.
 std::vector<Node> walk(Random& random, int across, double length) {
     const auto inside = [&](const Node& n) {
         return n[0] >= 0 && n[0] <= across && n[1] >= 0 && n[1] <= across;
@@ -52,7 +52,8 @@ std::vector<Node> walk(Random& random, int across, double length) {
             if (direction == back || !inside(next)) continue;
             const int times = taken[street(here, next)];
             if (best.empty() || times < least) best.clear(), least = times;
-            if (times == least) best.push_back(direction);
+            const bool straight = direction == (back + 2) % 4;
+            if (times == least) best.insert(best.end(), straight ? 3 : 1, direction);
         }
         const int direction =
             best[static_cast<std::size_t>(random.below(static_cast<int>(best.size())))];

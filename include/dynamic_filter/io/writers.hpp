@@ -79,7 +79,7 @@ std::string write_bin(const std::filesystem::path& path, const Cloud& cloud);
 /// Writes float32 x y z [m] intensity per point, like KITTI's velodyne/*.bin; `intensity` is
 /// parallel.
 void write_bin(const std::filesystem::path& path, const Points& points,
-               std::span<const float> intensity);
+               std::span<const float> intensity, Durable durable = Durable::name);
 /// Writes one uint32 per point, like SemanticKITTI's labels/*.label. To write many files into a
 /// folder, Durable::contents with one sync_folder() at the end is faster.
 void write_labels(const std::filesystem::path& path, const Labels& labels,
