@@ -263,6 +263,14 @@ void add_simulate(CLI::App& app, std::function<int()>& chosen) {
     c.add_option("--rounds", s.rounds,
                  "rounds that the robot drives in the scene crowd (default: 2)")
         ->check(CLI::Range(1, 100));
+    c.add_option("--km", s.km,
+                 "length of each drive [km], in the scene city: up to 80 (default: 1)")
+        ->check(CLI::Range(0.01, 80.0));
+    c.add_option(
+         "--drives", s.drives,
+         "drives on different days, in the scene city (default: 3); they become OUTPUT/drive_1 "
+         "and so on")
+        ->check(CLI::Range(1, 1000));
     c.add_flag("--sweep", s.sweep,
                "measure the points of a scan one after the other while everything moves, as a real "
                "sensor does; the scans are then PCD files with the time of each point");

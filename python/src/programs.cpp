@@ -144,10 +144,14 @@ std::size_t simulate(const sim::SimulationOptions& options, const fs::path& fold
     {
         const py::gil_scoped_release others_go_on;
         const Interruptible guard;
-        app::OutputFolder output(folder, app::Contents::recording, app::replaced_if(overwrite));
-        points = app::write_simulation(options, output.path(), quiet);
-        stopped = app::interrupted();
-        if (!stopped) output.commit();
+        for (const auto& recording : app::simulated_recordings(options, folder)) {
+            app::OutputFolder output(recording.folder, app::Contents::recording,
+                                     app::replaced_if(overwrite));
+            points += app::write_simulation(recording.options, output.path(), quiet);
+            stopped = app::interrupted();
+            if (stopped) break;
+            output.commit();
+        }
     }
     raise_if(stopped);
     return points;
@@ -163,20 +167,21 @@ void bind_programs(py::module_& module) {
         "simulate",
         [](const std::string& scene, const fs::path& output, const std::string& sensor,
            int pedestrians, std::uint64_t seed, std::optional<std::size_t> frames, double rate,
-           double pose_noise, double pose_noise_deg, bool sweep, int rounds, bool overwrite,
-           bool quiet) {
+           double pose_noise, double pose_noise_deg, bool sweep, int rounds, double km, int drives,
+           bool overwrite, bool quiet) {
             return simulate({scene, sensor, pedestrians, seed, frames, rate, pose_noise,
-                             pose_noise_deg, sweep, rounds},
+                             pose_noise_deg, sweep, rounds, km, drives},
                             output, overwrite, quiet);
         },
         py::arg("scene"), py::arg("output"), py::kw_only(), py::arg("sensor") = "vlp16",
         py::arg("pedestrians") = -1, py::arg("seed") = 1, py::arg("frames") = py::none(),
         py::arg("rate") = 0.0, py::arg("pose_noise") = 0.0, py::arg("pose_noise_deg") = 0.0,
-        py::arg("sweep") = false, py::arg("rounds") = 0, py::arg("overwrite") = false,
-        py::arg("quiet") = true,
+        py::arg("sweep") = false, py::arg("rounds") = 0, py::arg("km") = 0.0, py::arg("drives") = 0,
+        py::arg("overwrite") = false, py::arg("quiet") = true,
         R"(Simulates a recording with exact labels, and writes it in KITTI's layout to the folder `output`.
 
-scene: crowd, street, square, hall, jam or platform.
+scene: crowd, street, square, hall, jam, platform or city. The drives of a city become recordings in
+`output`: drive_1 and so on.
 sensor: see `dynamicfilter simulate --help`.
 pedestrians: number of people; -1: the default of the scene.
 seed: the same seed gives the same bytes.
@@ -186,9 +191,10 @@ pose_noise [m], pose_noise_deg [deg]: standard deviation of each axis.
 sweep: True measures points one after the other while the sensor moves, like a rotating sensor; scans
 are then PCD files with a field t [s].
 rounds: rounds of the robot in the scene crowd; 0: the default.
+km: length of each drive in the scene city; drives: their number; 0: the defaults.
 overwrite: True replaces an earlier recording. quiet: False shows the progress on stderr.
 Returns the number of points. Raises ConfigError (also if there is an earlier recording), OutputError,
-and KeyboardInterrupt, after which no files are left.)");
+and KeyboardInterrupt, after which no files are left but those of finished drives.)");
 }
 
 }  // namespace dynamic_filter::python

@@ -36,7 +36,7 @@ void PcdWriter::commit() {
 }
 
 void write_bin(const std::filesystem::path& path, const Points& points,
-               std::span<const float> intensity) {
+               std::span<const float> intensity, Durable durable) {
     if (points.size() != intensity.size()) {
         throw OutputError(
             path, fmt::format("{} points but {} intensities", points.size(), intensity.size()));
@@ -47,14 +47,19 @@ void write_bin(const std::filesystem::path& path, const Points& points,
         records[i] = {points[i].x(), points[i].y(), points[i].z(), intensity[i]};
     }
     file.write(std::as_bytes(std::span(records)));
-    file.commit();
+    file.commit(durable);
 }
 
 void write_labels(const std::filesystem::path& path, const Labels& labels, Durable durable) {
-    AtomicFile file(path);
     std::vector<std::uint32_t> wide(labels.size());
     for (std::size_t i = 0; i < labels.size(); ++i) wide[i] = static_cast<std::uint32_t>(labels[i]);
-    file.write(std::as_bytes(std::span(wide)));
+    write_numbered_labels(path, wide, durable);
+}
+
+void write_numbered_labels(const std::filesystem::path& path, std::span<const std::uint32_t> labels,
+                           Durable durable) {
+    AtomicFile file(path);
+    file.write(std::as_bytes(labels));
     file.commit(durable);
 }
 

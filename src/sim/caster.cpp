@@ -10,6 +10,7 @@ namespace dynamic_filter::sim {
 namespace {
 
 void attach_mesh(RTCDevice device, RTCScene scene, const Mesh& mesh) {
+    if (mesh.triangles.empty()) return;
     const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     static_assert(sizeof(Eigen::Vector3f) == 12 && sizeof(Eigen::Vector3i) == 12);
     void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
@@ -42,21 +43,26 @@ RTCScene new_scene(RTCDevice device) {
 Caster::Caster(const Mesh& still, std::vector<Mesh> prototypes, std::vector<Part> parts)
     : still_materials_(still.materials),
       prototypes_(std::move(prototypes)),
-      parts_(std::move(parts)),
-      kinds_(parts_.size(), Kind::structure),
-      normal_to_world_(parts_.size(), Eigen::Matrix3f::Identity()),
-      device_(rtcNewDevice(nullptr)),
-      scene_(new_scene(device_)) {
+      device_(rtcNewDevice(nullptr)) {
     // The static objects are a scene of their own, so that it is not built again when objects move.
     still_scene_ = new_scene(device_);
     attach_mesh(device_, still_scene_, still);
     rtcCommitScene(still_scene_);
-    attach_copy(device_, scene_, still_scene_);  // gets id 0; the parts get 1, 2, ...
     for (const Mesh& mesh : prototypes_) {
         prototype_scenes_.push_back(new_scene(device_));
         attach_mesh(device_, prototype_scenes_.back(), mesh);
         rtcCommitScene(prototype_scenes_.back());
     }
+    replace(std::move(parts));
+}
+
+void Caster::replace(std::vector<Part> parts) {
+    parts_ = std::move(parts);
+    kinds_.assign(parts_.size(), Kind::structure);
+    normal_to_world_.assign(parts_.size(), Eigen::Matrix3f::Identity());
+    if (scene_ != nullptr) rtcReleaseScene(scene_);
+    scene_ = new_scene(device_);
+    attach_copy(device_, scene_, still_scene_);  // gets id 0; the parts get 1, 2, ...
     for (const Part& part : parts_) {
         attach_copy(device_, scene_, prototype_scenes_[part.prototype]);
     }
@@ -109,9 +115,9 @@ Hit Caster::cast(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction
         const std::size_t i = query.hit.instID[0] - 1;
         normal = normal_to_world_[i] * normal;
         const Mesh& prototype = prototypes_[parts_[i].prototype];
-        hit.reflectivity =
-            prototype.materials[query.hit.primID].reflectivity * parts_[i].brightness;
-        hit.kind = kinds_[i];
+        const Material& material = prototype.materials[query.hit.primID];
+        hit.reflectivity = material.reflectivity * parts_[i].brightness;
+        hit.kind = parts_[i].is_still ? material.kind : kinds_[i];
         hit.instance = parts_[i].instance;
     }
     hit.cosine = std::abs(normal.normalized().dot(direction));

@@ -12,12 +12,13 @@
 
 namespace dynamic_filter::sim {
 
-/// A moving rigid part: its prototype, a factor of its reflectivity (clothes, paint), and the
-/// person or vehicle to which it belongs.
+/// A rigid part: its prototype, a factor of its reflectivity (clothes, paint), and the person or
+/// vehicle to which it belongs.
 struct Part {
     std::size_t prototype = 0;
     float brightness = 1.0F;
     std::uint16_t instance = 0;
+    bool is_still = false;  ///< true: its kinds are those of its materials
 };
 
 /// The pose of a part at a given time, and its kind at that time.
@@ -35,13 +36,16 @@ struct Hit {
     bool found = false;
 };
 
-/// cast() may run in many threads at once, but place() may not.
+/// cast() may run in many threads at once, but place() and replace() may not.
 class Caster {
 public:
     Caster(const Mesh& still, std::vector<Mesh> prototypes, std::vector<Part> parts);
     ~Caster();
     Caster(const Caster&) = delete;
     Caster& operator=(const Caster&) = delete;
+
+    /// Puts other parts in the place of all parts. The prototypes stay.
+    void replace(std::vector<Part> parts);
 
     /// Moves the parts; `placements` is parallel to them.
     void place(const std::vector<Placement>& placements);

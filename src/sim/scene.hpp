@@ -16,6 +16,12 @@
 
 namespace dynamic_filter::sim {
 
+/// The parts that are near the robot at a time, and their placements at any time around it.
+struct Surroundings {
+    std::vector<Part> parts;
+    std::function<Placements(double)> placements;
+};
+
 struct Scene {
     Mesh still;
     std::vector<Obstacle> obstacles;
@@ -32,6 +38,18 @@ struct Scene {
     /// Displacement at a time of people at a place (aboard a train); empty: none. The crowd itself
     /// is simulated without it.
     std::function<Eigen::Vector2d(const Eigen::Vector2d&, double)> carried;
+    /// Of a scene that is too large to be cast as a whole: what is within a distance [m] of the
+    /// robot at a time [s]. Its things are copies of `prototypes`. Empty: `still`, `walkers` and
+    /// `vehicles` are the scene.
+    std::function<Surroundings(double, double)> around;
+    std::vector<Mesh> prototypes;
+};
+
+/// One of several drives through a scene.
+struct Trip {
+    double km = 1.0;
+    int drive = 1;  ///< from 1
+    int drives = 3;
 };
 
 struct SceneEntry {
@@ -40,6 +58,8 @@ struct SceneEntry {
     double rate_hz = 10.0;
     int rounds = 0;  ///< of the robot within the duration; 0: its way has no rounds
     std::function<Scene(int pedestrians, std::uint64_t seed)> make;
+    /// Of a scene with several drives; empty: it has none.
+    std::function<Scene(int pedestrians, std::uint64_t seed, const Trip&)> make_trip = {};
 };
 
 const std::vector<SceneEntry>& scene_table();

@@ -9,6 +9,8 @@ Scene square_scene(int pedestrians, std::uint64_t seed);
 Scene hall_scene(int pedestrians, std::uint64_t seed);
 Scene jam_scene(int pedestrians, std::uint64_t seed);
 Scene platform_scene(int pedestrians, std::uint64_t seed);
+Scene city_scene(int pedestrians, std::uint64_t seed);
+Scene city_scene(int pedestrians, std::uint64_t seed, const Trip& trip);
 
 const std::vector<SceneEntry>& scene_table() {
     static const std::vector<SceneEntry> table = {
@@ -18,6 +20,12 @@ const std::vector<SceneEntry>& scene_table() {
         {.name = "hall", .pedestrians = 60, .rate_hz = 10.0, .make = hall_scene},
         {.name = "jam", .pedestrians = 60, .rate_hz = 10.0, .make = jam_scene},
         {.name = "platform", .pedestrians = 80, .rate_hz = 10.0, .make = platform_scene},
+        {.name = "city",
+         .pedestrians = 14,
+         .rate_hz = 10.0,
+         .make = [](int pedestrians, std::uint64_t seed) { return city_scene(pedestrians, seed); },
+         .make_trip = [](int pedestrians, std::uint64_t seed,
+                         const Trip& trip) { return city_scene(pedestrians, seed, trip); }},
     };
     return table;
 }

@@ -17,6 +17,8 @@ namespace {
 
 constexpr int most_pedestrians = 1000;
 constexpr int most_rounds = 100;
+constexpr double longest_drive = 80.0;  // [km] the parked cars of longer ones had too few numbers
+constexpr int most_drives = 1000;
 constexpr double longest_sweep = 0.2;  // [s]
 
 template <typename Entry>
@@ -57,6 +59,45 @@ void check(const SimulationOptions& options) {
     reject_unless_positive("rate_hz", options.rate_hz);
     reject_unless_positive("pose_noise_m", options.pose_noise_m);
     reject_unless_positive("pose_noise_deg", options.pose_noise_deg);
+    reject_unless_positive("km", options.km);
+}
+
+/// The scenes for which `has` holds, for a message.
+template <typename Has>
+std::string scenes_that(const Has& has) {
+    std::string names;
+    for (const SceneEntry& entry : scene_table()) {
+        if (has(entry)) names += (names.empty() ? "" : ", ") + entry.name;
+    }
+    return names;
+}
+
+/// The drive that is asked for; throws if the scene has none, or if it is not among them.
+Trip trip_of(const SimulationOptions& options, const SceneEntry& entry) {
+    if (!entry.make_trip) {
+        if (options.km == 0.0 && options.drives == 0 && options.drive == 0) return {};
+        throw ConfigError("the scene \"" + entry.name +
+                          "\" has no drives, so it takes neither km nor drives; the scenes with "
+                          "drives: " +
+                          scenes_that([](const SceneEntry& e) { return bool(e.make_trip); }));
+    }
+    Trip trip;
+    if (options.km > 0.0) trip.km = options.km;
+    if (options.drives != 0) trip.drives = options.drives;
+    if (options.drive != 0) trip.drive = options.drive;
+    if (trip.km > longest_drive || trip.km < 0.01) {
+        throw ConfigError("km is " + std::to_string(trip.km) + ": expected 0.01 to " +
+                          std::to_string(static_cast<int>(longest_drive)));
+    }
+    if (trip.drives < 1 || trip.drives > most_drives) {
+        throw ConfigError("drives is " + std::to_string(trip.drives) + ": expected 1 to " +
+                          std::to_string(most_drives));
+    }
+    if (trip.drive < 1 || trip.drive > trip.drives) {
+        throw ConfigError("drive is " + std::to_string(trip.drive) + ": expected 1 to " +
+                          std::to_string(trip.drives) + ", the number of drives");
+    }
+    return trip;
 }
 
 std::vector<Part> all_parts(const Scene& scene) {
@@ -78,12 +119,9 @@ std::vector<Part> all_parts(const Scene& scene) {
 double duration_of(const Scene& scene, const SceneEntry& entry, int rounds) {
     if (rounds == 0) return scene.duration;
     if (entry.rounds > 0) return scene.duration * rounds / entry.rounds;
-    std::string choices;
-    for (const SceneEntry& other : scene_table()) {
-        if (other.rounds > 0) choices += (choices.empty() ? "" : ", ") + other.name;
-    }
     throw ConfigError("rounds is " + std::to_string(rounds) + ": in the scene \"" + entry.name +
-                      "\" the robot does not go in rounds; it does in " + choices);
+                      "\" the robot does not go in rounds; it does in " +
+                      scenes_that([](const SceneEntry& e) { return e.rounds > 0; }));
 }
 
 /// The requested number of scans; throws if the scene has fewer.
@@ -93,7 +131,8 @@ std::size_t scan_count(const SimulationOptions& options, double duration, double
     if (scans > full) {
         throw ConfigError("frames is " + std::to_string(scans) + ": the scene \"" + options.scene +
                           "\" has " + std::to_string(full) +
-                          " scans; ask for fewer, or for more per second (rate_hz)");
+                          " scans; ask for fewer, or for more per second (rate_hz)" +
+                          (options.km > 0.0 ? ", or for more km" : ""));
     }
     if (scans == 0) throw ConfigError("frames is 0; ask for 1 or more");
     return scans;
@@ -156,8 +195,19 @@ struct Simulation::World {
     double rate_hz = 1.0;
     std::size_t scans = 0;
     Crowd crowd;
+    /// Of a scene that is too large to be cast as a whole.
+    std::function<Placements(double)> near_placements = {};
+
+    /// Lets the caster hold what can be seen at that time.
+    void gather(double t) {
+        if (!scene.around) return;
+        Surroundings near = scene.around(t, sensor.max_range);
+        caster.replace(std::move(near.parts));
+        near_placements = std::move(near.placements);
+    }
 
     [[nodiscard]] Placements placements(double t) const {
+        if (near_placements) return near_placements(t);
         Placements out;
         for (std::size_t i = 0; i < scene.walkers.size(); ++i) {
             Stride stride = stride_at(crowd, i, t);
@@ -175,6 +225,7 @@ struct Simulation::World {
 
     /// Simulates scan i, which is taken (or begins) at t [s].
     Returns returns(std::size_t i, double t, const Pose& pose) {
+        gather(t);
         if (!options.sweep) {
             caster.place(placements(t));
             return sense(caster, sensor, pose, options.seed, i);
@@ -189,18 +240,26 @@ struct Simulation::World {
 std::vector<std::string> scene_names() { return names(scene_table()); }
 std::vector<std::string> sensor_names() { return names(sensor_table()); }
 
+int drive_count(const SimulationOptions& options) {
+    const SceneEntry& entry = find(scene_table(), "scene", options.scene);
+    return entry.make_trip ? trip_of(options, entry).drives : 0;
+}
+
 Simulation::Simulation(const SimulationOptions& options) {
     check(options);
     const SceneEntry& entry = find(scene_table(), "scene", options.scene);
     const Sensor& sensor = find(sensor_table(), "sensor", options.sensor);
-    Scene scene =
-        entry.make(options.pedestrians < 0 ? entry.pedestrians : options.pedestrians, options.seed);
+    const Trip trip = trip_of(options, entry);
+    const int people = options.pedestrians < 0 ? entry.pedestrians : options.pedestrians;
+    Scene scene = entry.make_trip ? entry.make_trip(people, options.seed, trip)
+                                  : entry.make(people, options.seed);
     const double rate = options.rate_hz > 0.0 ? options.rate_hz : entry.rate_hz;
     const std::size_t scans = scan_count(options, duration_of(scene, entry, options.rounds), rate);
     Crowd crowd = simulated_crowd(scene, static_cast<double>(scans) / rate);
+    std::vector<Mesh> copied = scene.around ? std::move(scene.prototypes) : prototypes();
     // The mesh of the static parts is large, so only the caster keeps it.
     world_.reset(new World{options, sensor, scene,
-                           Caster(scene.still, prototypes(), all_parts(scene)), rate, scans,
+                           Caster(scene.still, std::move(copied), all_parts(scene)), rate, scans,
                            std::move(crowd)});
     world_->scene.still = {};
 }

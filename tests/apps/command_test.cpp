@@ -222,6 +222,19 @@ TEST_F(Command, SimulatesTheSameBytesForTheSameSeed) {
     EXPECT_NE(bytes_of("a"), bytes_of("c"));
 }
 
+TEST_F(Command, SimulatesDrivesAsRecordingsOfTheirOwn) {
+    ASSERT_EQ(run("simulate city --km 0.05 --drives 2 --frames 2 -q -o city"), 0) << said();
+    for (const char* drive : {"drive_1", "drive_2"}) {
+        EXPECT_TRUE(fs::exists(folder_ / "city" / drive / "velodyne/000001.bin"));
+        EXPECT_EQ(run(std::string("info city/") + drive), 0) << said();
+    }
+    EXPECT_FALSE(fs::exists(folder_ / "city/drive_3"));
+    EXPECT_NE(bytes_of("city/drive_1"), bytes_of("city/drive_2"));
+    EXPECT_EQ(run("simulate city --km 0.05 --drives 2 --frames 2 -q -o city"), 2);
+    EXPECT_EQ(run("simulate street --km 1 -o street"), 2);
+    expect_said("with drives: city");
+}
+
 TEST_F(Command, EvalOfLabelsAndOfTheMapAgreeWithTheRun) {
     ASSERT_EQ(run("run " + recording().string() + " -o out"), 0);
     const auto metrics = nlohmann::json::parse(slurp(folder_ / "out/metrics.json"));

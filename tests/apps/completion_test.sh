@@ -24,7 +24,7 @@ offers "auto on off" run data --refine ""
 offers "inverse mm" check data --pose-fix ""
 offers "kitti benchmark folder bag" check data --format ""
 offers "map.voxel_size=" run data --set map.v
-offers "crowd street square hall jam platform" simulate ""
+offers "crowd street square hall jam platform city" simulate ""
 offers "vlp16 os64" simulate crowd --sensor ""
 offers "erasor mos" eval --protocol ""
 offers "kitti benchmark autoware" convert a b --to ""

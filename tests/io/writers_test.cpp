@@ -56,6 +56,15 @@ TEST(Writers, LabelsRoundTrip) {
     EXPECT_EQ(read_labels(folder / "a.label"), labels);
 }
 
+TEST(Writers, NumberedLabelsAreReadAsTheirLowerHalf) {
+    const TemporaryFolder folder;
+    const std::vector<std::uint32_t> labels = {9U, 259U | (7U << 16U), 251U,
+                                               259U | (65535U << 16U)};
+    write_numbered_labels(folder / "a.label", labels);
+    EXPECT_EQ(read_labels(folder / "a.label"),
+              (Labels{Label::static_, Label::dynamic, Label::dynamic, Label::dynamic}));
+}
+
 TEST(Writers, Faults) {
     const TemporaryFolder folder;
     EXPECT_THROW(write_bin(folder / "a.bin", Points(2), std::vector<float>(1)), OutputError);

@@ -13,6 +13,7 @@ OTHERS = {
     "src/io/ros/pose_source.cpp": "tests/io/bag_scans_test.cpp",
     "src/io/las_header.cpp": "tests/io/las_test.cpp",
     "src/io/las_writer.cpp": "tests/io/las_test.cpp",
+    **{f"src/sim/{unit}.cpp": "tests/sim/scene_city_test.cpp" for unit in ("city", "city_block", "city_library")},
     "src/sim/jam_people.cpp": "tests/sim/scene_jam_test.cpp",
     "src/sim/jam_traffic.cpp": "tests/sim/scene_jam_test.cpp",
     "src/sim/platform_people.cpp": "tests/sim/scene_platform_test.cpp",

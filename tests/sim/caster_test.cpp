@@ -85,6 +85,26 @@ TEST(Caster, AgreesWithBruteForceOnMovedPart) {
                      [&](const Vector3d& d) { return brute_force(moved, origin, d); });
 }
 
+TEST(Caster, OtherPartsTakeThePlaceOfAll) {
+    Mesh wall;
+    add_quad(wall, {0, -1, -1}, {0, 2, 0}, {0, 0, 2}, {0.5F, Kind::thin});
+    Caster caster({}, {wall}, {{.prototype = 0}, {.prototype = 0}});
+    Eigen::Affine3f near = Eigen::Affine3f::Identity(), far = near;
+    near.translation().x() = 2.0F;
+    far.translation().x() = 4.0F;
+    caster.place({{near, Kind::vehicle}, {far, Kind::vehicle}});
+    const auto ahead = [&] { return caster.cast({0, 0, 0}, {1, 0, 0}, 50.0F); };
+    EXPECT_FLOAT_EQ(ahead().range, 2.0F);
+    EXPECT_EQ(ahead().kind, Kind::vehicle);
+    caster.replace({{.prototype = 0, .is_still = true}});
+    caster.place({{far, Kind::vehicle}});
+    EXPECT_FLOAT_EQ(ahead().range, 4.0F);
+    EXPECT_EQ(ahead().kind, Kind::thin);
+    caster.replace({});
+    caster.place({});
+    EXPECT_FALSE(ahead().found);
+}
+
 TEST(Caster, TellsSurfaceFromRay) {
     Mesh floor, wall;
     add_quad(floor, {-10, -10, 0}, {20, 0, 0}, {0, 20, 0}, {0.25F, Kind::ground});

@@ -96,7 +96,8 @@ TEST(Simulation, KindsAgreeWithLabels) {
         ASSERT_EQ(scan.kinds.size(), scan.points.size());
         for (std::size_t i = 0; i < scan.kinds.size(); ++i) {
             const bool dynamic = scan.kinds[i] == Kind::walking ||
-                                 scan.kinds[i] == Kind::standing || scan.kinds[i] == Kind::vehicle;
+                                 scan.kinds[i] == Kind::standing ||
+                                 scan.kinds[i] == Kind::vehicle || scan.kinds[i] == Kind::temporary;
             EXPECT_EQ(scan.labels[i], dynamic ? Label::dynamic : Label::static_) << scene;
         }
     }
@@ -110,7 +111,7 @@ TEST(Simulation, PointsOfOnePersonLieTogether) {
         std::map<std::uint16_t, Eigen::AlignedBox3f> people;
         for (std::size_t i = 0; i < scan.points.size(); ++i) {
             EXPECT_EQ(scan.instances[i] > 0, is_dynamic(scan.kinds[i])) << scene;
-            if (is_dynamic(scan.kinds[i]) && scan.kinds[i] != Kind::vehicle) {
+            if (scan.kinds[i] == Kind::walking || scan.kinds[i] == Kind::standing) {
                 people[scan.instances[i]].extend(scan.points[i]);
             }
         }
@@ -131,18 +132,21 @@ TEST(Simulation, EveryKindIsSeenWhereItIs) {
         }
     }
     EXPECT_EQ(seen["crowd"].count(Kind::vehicle), 0U);
-    EXPECT_EQ(seen["crowd"].size(), kind_names.size() - 1);
-    EXPECT_EQ(seen["street"].size(), kind_names.size());
-    EXPECT_EQ(seen["square"].size(), kind_names.size());
-    EXPECT_EQ(seen["hall"].size(), kind_names.size() - 1);  // no vehicles
-    EXPECT_EQ(seen["jam"].size(), kind_names.size());
-    EXPECT_EQ(seen["platform"].size(), kind_names.size() - 1);  // nothing grows
+    for (const auto& [scene, kinds] : seen)  // only the city has several drives
+        EXPECT_EQ(kinds.count(Kind::temporary), scene == "city" ? 1U : 0U) << scene;
+    EXPECT_EQ(seen["crowd"].size(), kind_names.size() - 2);
+    EXPECT_EQ(seen["street"].size(), kind_names.size() - 1);
+    EXPECT_EQ(seen["square"].size(), kind_names.size() - 1);
+    EXPECT_EQ(seen["hall"].size(), kind_names.size() - 2);  // no vehicles
+    EXPECT_EQ(seen["jam"].size(), kind_names.size() - 1);
+    EXPECT_EQ(seen["platform"].size(), kind_names.size() - 2);  // nothing grows
+    EXPECT_EQ(seen["city"].size(), kind_names.size());
 }
 
 TEST(Simulation, GroundIsAtTheGroundAndOthersMostlyAreNot) {
-    const std::map<std::string, double> highest = {{"crowd", 0.0},  {"street", 0.15},
-                                                   {"square", 0.8}, {"hall", 4.0},
-                                                   {"jam", 0.15},   {"platform", 2.4}};
+    const std::map<std::string, double> highest = {
+        {"crowd", 0.0}, {"street", 0.15},  {"square", 0.8}, {"hall", 4.0},
+        {"jam", 0.15},  {"platform", 2.4}, {"city", 0.15}};
     const auto lowest = [](const std::string& scene) { return scene == "platform" ? -1.1 : 0.0; };
     for (const auto& scene : scene_names()) {
         Simulation simulation(short_run(scene));
@@ -246,6 +250,38 @@ SimulationOptions sweeping(const std::string& scene) {
     return options;
 }
 
+TEST(Simulation, DrivesAreInOneWorldAndDoNotDependOnTheirNumber) {
+    SimulationOptions options = short_run("city");
+    options.km = 0.1;
+    options.drive = 2;
+    options.drives = 2;
+    EXPECT_EQ(drive_count(options), 2);
+    const SimulatedScan few = Simulation(options).scan(1);
+    options.drives = 5;
+    const SimulatedScan many = Simulation(options).scan(1);
+    EXPECT_EQ(few.points, many.points);
+    EXPECT_EQ(few.T_world_sensor.matrix(), many.T_world_sensor.matrix());
+    options.drive = 1;
+    const SimulatedScan other = Simulation(options).scan(1);
+    EXPECT_NE(other.T_world_sensor.matrix(), few.T_world_sensor.matrix());
+    EXPECT_EQ(drive_count(short_run("street")), 0);
+}
+
+TEST(Simulation, LengthFollowsKilometres) {
+    SimulationOptions options = short_run("city");
+    options.frames = {};
+    options.km = 0.1;
+    Simulation simulation(options);
+    double way = 0.0;
+    Eigen::Vector3d last = simulation.scan(0).T_world_sensor.translation();
+    for (std::size_t i = 1; i < simulation.size(); i += 5) {
+        const Eigen::Vector3d next = simulation.scan(i).T_world_sensor.translation();
+        way += (next - last).norm();
+        last = next;
+    }
+    EXPECT_NEAR(way, 100.0, 6.0);
+}
+
 TEST(Simulation, SweepsHaveTheSameBytesWhateverTheThreadsAndTheOrder) {
     Simulation one(sweeping("street")), two(sweeping("street"));
     for (const std::size_t i : {2U, 0U, 1U}) {
@@ -332,6 +368,17 @@ TEST(Simulation, WrongOptionsAreNamed) {
         options.scene = scene;
         EXPECT_NE(message(options).find("it does in crowd"), std::string::npos) << scene;
     }
+    options = {};
+    options.km = 2.0;
+    EXPECT_NE(message(options).find("with drives: city"), std::string::npos);
+    options.scene = "city";
+    options.km = 81.0;
+    EXPECT_NE(message(options).find("km is 81"), std::string::npos);
+    options.km = 0.1;
+    options.drive = 4;
+    EXPECT_NE(message(options).find("expected 1 to 3"), std::string::npos);
+    options.drives = -1;
+    EXPECT_NE(message(options).find("drives is -1"), std::string::npos);
 }
 
 }  // namespace dynamic_filter::sim

@@ -79,11 +79,14 @@ std::string write_bin(const std::filesystem::path& path, const Cloud& cloud);
 /// Writes float32 x y z [m] intensity per point, like KITTI's velodyne/*.bin; `intensity` is
 /// parallel.
 void write_bin(const std::filesystem::path& path, const Points& points,
-               std::span<const float> intensity);
+               std::span<const float> intensity, Durable durable = Durable::name);
 /// Writes one uint32 per point, like SemanticKITTI's labels/*.label. To write many files into a
 /// folder, Durable::contents with one sync_folder() at the end is faster.
 void write_labels(const std::filesystem::path& path, const Labels& labels,
                   Durable durable = Durable::name);
+/// The same for raw values: the label in the lower 16 bits, the number of an object in the upper.
+void write_numbered_labels(const std::filesystem::path& path, std::span<const std::uint32_t> labels,
+                           Durable durable = Durable::name);
 /// Writes one row-major 3x4 matrix T_world_sensor per line, with 17 significant digits where
 /// needed.
 void write_poses_kitti(const std::filesystem::path& path, std::span<const Pose> T_world_sensor);

@@ -17,12 +17,13 @@ enum class Kind : std::uint8_t {
     vegetation,  ///< leaves
     walking,     ///< people on foot who move at that moment
     standing,    ///< people on foot who stand still at that moment
-    vehicle      ///< vehicles and cyclists that move, or that halt on their way
+    vehicle,     ///< vehicles and cyclists that move, or that halt on their way
+    temporary  ///< what rests during a drive, but is absent from another: parked cars, site fences
 };
 
 /// Names of the kinds, indexed by the value of Kind.
-constexpr std::array<std::string_view, 7> kind_names = {
-    "ground", "structure", "thin", "vegetation", "walking", "standing", "vehicle"};
+constexpr std::array<std::string_view, 8> kind_names = {
+    "ground", "structure", "thin", "vegetation", "walking", "standing", "vehicle", "temporary"};
 
 /// True for the kinds whose points are labelled dynamic; all other points are labelled static.
 constexpr bool is_dynamic(Kind kind) { return kind >= Kind::walking; }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Simulated scenes with exact labels: a crowd (Sec. IV-A), a street, a square, a hall, a traffic
-/// jam and a platform. Embree casts the rays.
+/// jam, a platform, and a city for long drives on several days. Embree casts the rays.
 ///
 /// - Units: [m], [s], [deg].
 /// - Frames: points in the sensor frame, poses T_world_sensor; the z axis of the world points up.
@@ -27,8 +27,10 @@ namespace dynamic_filter::sim {
 struct SimulationOptions {
     std::string scene = "crowd";   ///< one of scene_names()
     std::string sensor = "vlp16";  ///< one of sensor_names()
-    int pedestrians = -1;          ///< -1: the default of the scene (crowd: 100)
-    std::uint64_t seed = 1;        ///< the same seed gives the same bytes
+    /// -1: the default of the scene (crowd: 100). In the city: at most so many per street and
+    /// passage.
+    int pedestrians = -1;
+    std::uint64_t seed = 1;  ///< the same seed gives the same bytes
     /// Number of scans; empty: the whole scene (crowd: two rounds).
     std::optional<std::size_t> frames;
     double rate_hz = 0.0;  ///< [Hz] scans per second; 0: the default of the scene
@@ -42,6 +44,13 @@ struct SimulationOptions {
     bool sweep = false;
     /// Of the robot, in scenes where it goes in rounds; 0: the default of the scene.
     int rounds = 0;
+    /// [km] length of the drive, in scenes with several drives (city), up to 80; 0: 1 km.
+    double km = 0.0;
+    /// Number of drives of which this is one, in such scenes, up to 1000; 0: 3. It decides what is
+    /// labelled dynamic (parked cars that are absent from another drive), and nothing else.
+    int drives = 0;
+    /// Which of the drives, from 1; 0: the first. All drives of a seed are in one world frame.
+    int drive = 0;
 };
 
 /// One simulated sweep with its ground truth.
@@ -52,7 +61,9 @@ struct SimulatedScan {
     std::vector<float> intensity;  ///< 0..1, parallel to the points
     Labels labels;                 ///< exact ground truth, parallel: static or dynamic
     std::vector<Kind> kinds;       ///< parallel
-    /// Parallel: number of the person or vehicle, from 1; 0: neither.
+    /// Parallel: number of the person or vehicle, from 1; 0: neither. A thing of Kind::temporary
+    /// has the same number in all drives; those that move are numbered on their own, for each
+    /// drive.
     std::vector<std::uint16_t> instances;
     Pose T_world_sensor;  ///< as a SLAM system would report it (with pose noise, if asked for)
     double stamp = 0.0;   ///< [s] since the scene began; the sweep begins at this time
@@ -63,10 +74,14 @@ struct SimulatedScan {
 std::vector<std::string> scene_names();   ///< values of SimulationOptions::scene
 std::vector<std::string> sensor_names();  ///< values of SimulationOptions::sensor
 
+/// Number of drives that the options ask for: 0 in scenes without several drives. Throws
+/// ConfigError if the scene is unknown.
+int drive_count(const SimulationOptions& options);
+
 /// Simulates scans. The same options give the same bytes. The constructor throws ConfigError if the
 /// scene or sensor is unknown (the message lists the choices), if more frames are asked for than
-/// the scene has, or if rounds are given for a scene without rounds. scan() may be called in any
-/// order.
+/// the scene has, or if rounds are given for a scene without rounds, or drives for one without
+/// drives. scan() may be called in any order.
 class Simulation {
 public:
     explicit Simulation(const SimulationOptions& options);  ///< builds the scene
