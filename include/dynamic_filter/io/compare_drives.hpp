@@ -23,12 +23,13 @@ namespace dynamic_filter::io {
 
 /// What the places that two drives pass say about the frames of their poses.
 enum class FrameMatch {
-    equal,       ///< the scans overlay as they are
-    shifted,     ///< one offset makes the scans overlay at nearly all places
-    drifting,    ///< scans overlay with an offset that differs from place to place
-    unlike,      ///< the drives should meet, but their scans overlay with no offset
-    apart,       ///< no place of one drive is near a place of the other
-    not_known,   ///< the scans of the common places show too little, or cannot be read
+    equal,     ///< the scans overlay as they are
+    shifted,   ///< one offset makes the scans overlay at nearly all places
+    drifting,  ///< scans overlay with an offset that differs from place to place
+    unlike,    ///< the drives should meet, but their scans overlay with no offset
+    apart,     ///< no place of one drive is near a place of the other
+    /// The scans of the common places show too little, cannot be read, or were not looked at.
+    not_known,
     same_poses,  ///< both drives have the same poses: they are probably one recording
 };
 
@@ -55,14 +56,17 @@ struct DriveOffset {
         0.0;  ///< [m] largest difference between the offset of a place and the common one
 };
 
-/// Measures the offset of each pair of drives, in the order (0,1), (0,2), (1,2), and so on for more
-/// drives: at most 8 places of each pair, and 8 scans of each place. Drives without poses are left
-/// out.
+/// Measures the offsets between pairs of drives, in the order (0,1), (0,2), (1,2), (0,3), and so
+/// on: 8 scans at each of at most 8 places of a pair. A drive is compared with the three drives
+/// before it that it meets at most places; its other pairs are `not_known` or `apart`. Drives
+/// without poses are left out.
 std::vector<DriveOffset> measure_drive_offsets(std::span<const Sequence* const> drives);
 
 /// Sentences with advice about offsets between drives; empty if nothing is suspicious or if there
-/// are fewer than two drives. A drive that meets no other one is reported if no two drives meet, or
-/// if it is more than 20 km away from all others. Drives without poses are reported.
+/// are fewer than two drives. Of two drives that differ by a constant offset, the one with which
+/// fewer others agree is said to be off; otherwise the later one. A drive that meets no other one
+/// is reported if no two drives meet, or if it is more than 20 km away from all others. Drives
+/// without poses are reported.
 std::vector<Finding> compare_drives(std::span<const Sequence* const> drives);
 
 /// The same, for offsets that are known already.

@@ -19,6 +19,9 @@ constexpr double kStepA = 4.0, kStepB = 3.0;       // [m] of the way between the
 constexpr std::size_t kAroundA = 2, kAroundB = 1;  // scans before and after the place
 // With one place, a scene that changed or another storey cannot be told from another frame.
 constexpr std::size_t kFewestUnlike = 2;
+// Number of drives before it with which a drive is compared, so that the time does not grow with
+// the number of pairs. Others agree if these do.
+constexpr std::size_t kMostCompared = 3;
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// A drive of which the poses are known.
@@ -73,28 +76,38 @@ void set_offset(DriveOffset& offset, const CommonOffset& correction,
     }
 }
 
-DriveOffset measure_offset(const Drive& a, const Drive& b) {
+/// What two drives are to each other before their scans are looked at.
+struct DrivePair {
     DriveOffset offset;
+    Meeting meeting;
+};
+
+DrivePair pair_of(const Drive& a, const Drive& b) {
+    DrivePair pair;
+    DriveOffset& offset = pair.offset;
     offset.a = a.index;
     offset.b = b.index;
     if (have_same_poses(a, b)) {
         offset.match = FrameMatch::same_poses;
-        return offset;
+        return pair;
     }
-    const Meeting meeting = find_meeting(a.positions, b.positions, kMostPlaces);
-    offset.gap = meeting.gap;
-    offset.places = meeting.places.size();
-    if (meeting.places.empty()) {
-        if (std::isfinite(meeting.gap)) offset.match = FrameMatch::apart;
-        return offset;
-    }
-    std::vector<PlaceOffset> places = measure_places(a, b, meeting.places);
+    pair.meeting = find_meeting(a.positions, b.positions, kMostPlaces);
+    offset.gap = pair.meeting.gap;
+    const bool meet = !pair.meeting.places.empty();
+    if (!meet && std::isfinite(offset.gap)) offset.match = FrameMatch::apart;
+    return pair;
+}
+
+void measure(DrivePair& pair, const Drive& a, const Drive& b) {
+    DriveOffset& offset = pair.offset;
+    offset.places = pair.meeting.places.size();
+    std::vector<PlaceOffset> places = measure_places(a, b, pair.meeting.places);
     const std::size_t known = places.size();
     std::erase_if(places, [](const PlaceOffset& place) { return !place.fits(); });
     offset.fitting = places.size();
     if (places.empty()) {
         if (known >= kFewestUnlike) offset.match = FrameMatch::unlike;
-        return offset;
+        return;
     }
     const CommonOffset none = no_offset(places), common = fit_common(places);
     if (none.is_agreed()) {
@@ -103,7 +116,19 @@ DriveOffset measure_offset(const Drive& a, const Drive& b) {
         offset.match = common.is_agreed() ? FrameMatch::shifted : FrameMatch::drifting;
     }
     set_offset(offset, common, places);
-    return offset;
+}
+
+/// The pairs of drive `b` with those drives before it that it meets most.
+std::vector<std::size_t> most_met(const std::vector<DrivePair>& pairs) {
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        if (!pairs[i].meeting.places.empty()) order.push_back(i);
+    }
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
+        return pairs[i].meeting.passes > pairs[j].meeting.passes;
+    });
+    if (order.size() > kMostCompared) order.resize(kMostCompared);
+    return order;
 }
 
 }  // namespace
@@ -114,10 +139,11 @@ std::vector<DriveOffset> measure_drive_offsets(std::span<const Sequence* const> 
         if (drives[i]->has_poses) known.push_back({i, drives[i], positions_of(*drives[i])});
     }
     std::vector<DriveOffset> offsets;
-    for (std::size_t a = 0; a < known.size(); ++a) {
-        for (std::size_t b = a + 1; b < known.size(); ++b) {
-            offsets.push_back(measure_offset(known[a], known[b]));
-        }
+    for (std::size_t b = 1; b < known.size(); ++b) {
+        std::vector<DrivePair> pairs;
+        for (std::size_t a = 0; a < b; ++a) pairs.push_back(pair_of(known[a], known[b]));
+        for (const std::size_t a : most_met(pairs)) measure(pairs[a], known[a], known[b]);
+        for (const DrivePair& pair : pairs) offsets.push_back(pair.offset);
     }
     return offsets;
 }

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numbers>
+#include <numeric>
 #include <string>
+#include <utility>
 
 #include "dynamic_filter/io/compare_drives.hpp"
 
@@ -14,6 +16,7 @@ namespace {
 
 using Drives = std::span<const Sequence* const>;
 
+constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kNoTurn = 0.2;         // [deg] smaller turns are not mentioned
 constexpr double kOneWorld = 20'000.0;  // [m] drives of one map are not farther apart
 constexpr double kUnrelated = 2.0;      // [m] drift is smaller than this spread
@@ -60,20 +63,21 @@ std::string likely_cause(const DriveOffset& offset) {
     return "another origin, or a constant error of the satellite positions";
 }
 
-Finding shifted_finding(Drives drives, const DriveOffset& o) {
+/// `to_move`: names of the drives whose poses have the offset.
+Finding shifted_finding(Drives drives, const DriveOffset& o,
+                        const std::vector<std::string>& to_move) {
     const std::string a = name_of(drives, o.a), b = name_of(drives, o.b);
     const bool turns = std::abs(o.yaw_deg) >= kNoTurn;
     const Eigen::Vector3d shift = rounded(o.shift), back = rounded(-o.shift);
     const std::string about =
         fmt::format("about the vertical through ({:.1f}, {:.1f})", o.pivot.x(), o.pivot.y());
     std::string what = fmt::format(
-        "the frames of {} and {} differ by a constant offset: {} lies {} "
-        "from where {} lies",
-        a, b, b, vector_text(shift), a);
-    if (turns) what += fmt::format(", and is turned by {:.2f} deg {}", o.yaw_deg, about);
-    what += fmt::format(" (at {} of {} places where they meet)", o.agreeing, o.fitting);
-    std::string advice =
-        fmt::format("add {} to the positions of the poses of {}", vector_text(back), b);
+        "the world frames of {} and {} differ: {} shows things {} from where {} shows them", a, b,
+        b, vector_text(shift), a);
+    if (turns) what += fmt::format(", and turned by {:.2f} deg {}", o.yaw_deg, about);
+    what += fmt::format("; this holds at {} of {} places where they meet", o.agreeing, o.fitting);
+    std::string advice = fmt::format("add {} to the positions of the poses of {}",
+                                     vector_text(back), fmt::join(to_move, " and "));
     if (turns) advice += fmt::format(", and then turn them by {:.2f} deg {}", -o.yaw_deg, about);
     advice += fmt::format("; the cause may be {}", likely_cause(o));
     return {what, advice};
@@ -115,13 +119,67 @@ Finding apart_finding(Drives drives, const DriveOffset& o) {
                   "separate runs"};
 }
 
+/// Groups of drives.
+class Groups {
+public:
+    explicit Groups(std::size_t drives) : group_(drives) {
+        std::iota(group_.begin(), group_.end(), std::size_t{0});
+    }
+    [[nodiscard]] bool together(std::size_t a, std::size_t b) const {
+        return group_[a] == group_[b];
+    }
+    [[nodiscard]] std::ptrdiff_t size_of(std::size_t drive) const {
+        return std::count(group_.begin(), group_.end(), group_[drive]);
+    }
+    void join(std::size_t a, std::size_t b) {
+        std::replace(group_.begin(), group_.end(), std::size_t{group_[b]}, std::size_t{group_[a]});
+    }
+
+private:
+    std::vector<std::size_t> group_;
+};
+
+/// The same offset, seen from the other drive.
+DriveOffset turned_round(DriveOffset offset) {
+    std::swap(offset.a, offset.b);
+    const Eigen::AngleAxisd back(-offset.yaw_deg * kDegree, Eigen::Vector3d::UnitZ());
+    offset.shift = -(back * offset.shift);
+    offset.yaw_deg = -offset.yaw_deg;
+    return offset;
+}
+
+/// One finding for each drive that is off, and none that follows from others. Of two drives, the
+/// one with which fewer drives agree is to be moved; otherwise the later one.
+void add_shifted(Drives drives, std::span<const DriveOffset> offsets,
+                 std::vector<Finding>& findings) {
+    Groups equal(drives.size());
+    std::vector<DriveOffset> shifted;
+    for (const DriveOffset& offset : offsets) {
+        if (offset.match == FrameMatch::equal) equal.join(offset.a, offset.b);
+        if (offset.match == FrameMatch::shifted) shifted.push_back(offset);
+    }
+    for (DriveOffset& offset : shifted) {
+        if (equal.size_of(offset.a) < equal.size_of(offset.b)) offset = turned_round(offset);
+    }
+    std::stable_sort(shifted.begin(), shifted.end(), [&](const auto& a, const auto& b) {
+        return equal.size_of(a.a) > equal.size_of(b.a);
+    });
+    Groups told = equal;
+    for (const DriveOffset& offset : shifted) {
+        if (told.together(offset.a, offset.b)) continue;
+        told.join(offset.a, offset.b);
+        std::vector<std::string> to_move;
+        for (std::size_t i = 0; i < drives.size(); ++i) {
+            if (equal.together(i, offset.b)) to_move.push_back(name_of(drives, i));
+        }
+        findings.push_back(shifted_finding(drives, offset, to_move));
+    }
+}
+
 void add_differing(Drives drives, std::span<const DriveOffset> offsets,
                    std::vector<Finding>& findings) {
     for (const DriveOffset& offset : offsets) {
         switch (offset.match) {
-            case FrameMatch::shifted:
-                findings.push_back(shifted_finding(drives, offset));
-                break;
             case FrameMatch::drifting:
                 findings.push_back(drifting_finding(drives, offset));
                 break;
@@ -132,6 +190,7 @@ void add_differing(Drives drives, std::span<const DriveOffset> offsets,
                 findings.push_back(same_finding(drives, offset));
                 break;
             case FrameMatch::equal:
+            case FrameMatch::shifted:
             case FrameMatch::apart:
             case FrameMatch::not_known:
                 break;
@@ -187,6 +246,7 @@ std::vector<Finding> findings_of(std::span<const Sequence* const> drives,
     std::vector<Finding> findings;
     if (drives.size() < 2) return findings;
     add_without_poses(drives, findings);
+    add_shifted(drives, offsets, findings);
     add_differing(drives, offsets, findings);
     if (!offsets.empty()) add_apart(drives, offsets, findings);
     return findings;

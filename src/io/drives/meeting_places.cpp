@@ -158,6 +158,7 @@ Meeting find_meeting(std::span<const Eigen::Vector3d> a, std::span<const Eigen::
         meeting.gap = std::min(meeting.gap, flat_distance(a[*in_a], b[in_b]));
     }
     if (all.empty()) meeting.gap = coarse_gap(a, b, of_a, of_b);
+    meeting.passes = all.size();
     meeting.places = spread_out(all, b, most);
     return meeting;
 }

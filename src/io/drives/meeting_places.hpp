@@ -24,6 +24,7 @@ struct MeetingPlace {
 /// Where two drives meet.
 struct Meeting {
     std::vector<MeetingPlace> places;  ///< far apart from each other
+    std::size_t passes = 0;            ///< number of all places, one after each 2 m of the way
     double gap = 0.0;                  ///< [m] smallest horizontal distance between the drives
 };
 
