@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <filesystem>
+#include <system_error>
 
 #include "advice.hpp"
+#include "city/drives.hpp"
 #include "commands.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/io/compare_drives.hpp"
@@ -48,24 +50,36 @@ bool check_one(io::Sequence sequence, const DataOptions& options) {
     return preflight.findings.empty() && preflight.unusable.empty() && sequence.losses.empty();
 }
 
-void refuse_repeated(const std::vector<std::filesystem::path>& recordings) {
-    for (std::size_t b = 1; b < recordings.size(); ++b) {
+void refuse_repeated(const std::vector<DriveSource>& sources) {
+    for (std::size_t b = 1; b < sources.size(); ++b) {
         for (std::size_t a = 0; a < b; ++a) {
             std::error_code none;
-            if (!std::filesystem::equivalent(recordings[a], recordings[b], none)) continue;
-            throw ConfigError(recordings[b].string() +
-                              ": is given twice; name each recording once");
+            const auto& again = sources[b].recording;
+            if (!std::filesystem::equivalent(sources[a].recording, again, none)) continue;
+            throw ConfigError(again.string() + ": is given twice; name each recording once");
         }
     }
 }
 
-/// A pose file belongs to one recording.
-void refuse_one_pose_file(const CheckOptions& options) {
+/// How to read each recording.
+std::vector<DataOptions> options_of(const CheckOptions& options) {
+    const std::vector<DriveSource> sources = expand(options.recordings);
+    refuse_repeated(sources);
     const auto& poses = options.how.open.poses;
-    if (options.recordings.size() < 2 || !poses || *poses == "none") return;
-    throw ConfigError("--poses " + poses->string() +
-                      ": belongs to one recording, but several are given; put each pose file into "
-                      "its recording");
+    if (sources.size() > 1 && poses && *poses != "none") {
+        throw ConfigError(
+            "--poses " + poses->string() +
+            ": belongs to one recording, but several are given; leave the pose file of each one in "
+            "its folder, or give a list (.txt) with a line for each: the recording, a tab, its "
+            "pose file");
+    }
+    std::vector<DataOptions> each;
+    for (const DriveSource& source : sources) {
+        each.push_back(options.how);
+        each.back().data = source.recording;
+        if (source.poses && !poses) each.back().open.poses = source.poses;
+    }
+    return each;
 }
 
 std::string match_text(const io::DriveOffset& offset) {
@@ -91,48 +105,43 @@ std::string match_text(const io::DriveOffset& offset) {
 }
 
 /// True if nothing was found.
-bool check_together(const std::vector<io::Sequence>& sequences, const CheckOptions& options) {
+bool check_together(const std::vector<io::Sequence>& sequences,
+                    const std::vector<DataOptions>& each) {
     // Scans that the motion of the sensor distorts overlay badly, so it is undone as in a run.
     std::vector<io::Sequence> drives = sequences;
     std::vector<const io::Sequence*> all;
     for (io::Sequence& drive : drives) {
         Config config = preset("default");
         if (drive.has_poses) {
-            choose_motion(drive, config, {.refine = "off", .deskew = options.how.deskew});
+            choose_motion(drive, config, {.refine = "off", .deskew = each.front().deskew});
         }
         all.push_back(&drive);
     }
     const std::vector<io::DriveOffset> offsets = io::measure_drive_offsets(all);
     fmt::print("together\n");
     for (const io::DriveOffset& offset : offsets) {
-        fmt::print("frames    {} and {}: {}\n", options.recordings[offset.a].string(),
-                   options.recordings[offset.b].string(), match_text(offset));
+        fmt::print("frames    {} and {}: {}\n", each[offset.a].data.string(),
+                   each[offset.b].data.string(), match_text(offset));
     }
     const std::vector<io::Finding> findings = io::findings_of(all, offsets);
-    for (const io::Finding& finding : findings) print_finding(finding, options.how);
+    for (const io::Finding& finding : findings) print_finding(finding, each.front());
     return findings.empty();
 }
 
 }  // namespace
 
 int check(const CheckOptions& options) {
-    refuse_repeated(options.recordings);
-    refuse_one_pose_file(options);
-    const bool several = options.recordings.size() > 1;
-    std::vector<DataOptions> each;
+    const std::vector<DataOptions> each = options_of(options);
+    const bool several = each.size() > 1;
     std::vector<io::Sequence> sequences;
-    for (const auto& recording : options.recordings) {
-        each.push_back(options.how);
-        each.back().data = recording;
-        sequences.push_back(open(each.back()));
-    }
+    for (const DataOptions& one : each) sequences.push_back(open(one));
     bool fine = true;
     for (std::size_t i = 0; i < sequences.size(); ++i) {
-        if (several) fmt::print("recording {}\n", options.recordings[i].string());
+        if (several) fmt::print("recording {}\n", each[i].data.string());
         fine = check_one(sequences[i], each[i]) && fine;
         if (several) fmt::print("\n");
     }
-    if (several) fine = check_together(sequences, options) && fine;
+    if (several) fine = check_together(sequences, each) && fine;
     if (!fine) return kRejected;
     fmt::print("nothing suspicious\nnext      {}\n",
                next_command(options.recordings, options.how, ""));

@@ -147,7 +147,7 @@ struct MergeOptions {
 
 struct CheckOptions {
     std::vector<std::filesystem::path> recordings;  ///< or lists of them
-    DataOptions how;                                ///< how to read each of them; its `data` is not used
+    DataOptions how;  ///< how to read each of them; its `data` is not used
 };
 
 struct DemoOptions {

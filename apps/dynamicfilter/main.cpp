@@ -194,8 +194,7 @@ void add_plan(CLI::App& app, std::function<int()>& chosen) {
 
 void add_merge(CLI::App& app, std::function<int()>& chosen) {
     auto o = std::make_shared<MergeOptions>();
-    CLI::App& c =
-        *app.add_subcommand("merge", "Put the parts of a run together (see run --part)");
+    CLI::App& c = *app.add_subcommand("merge", "Put the parts of a run together (see run --part)");
     c.add_option("PART", o->parts, "output folders of all parts")->required()->type_name("PATH");
     c.add_option("-o,--output", o->output, "output folder")->required();
     c.add_option("--threads", o->threads, "number of threads; 0 uses all cores")
@@ -377,8 +376,10 @@ void add_others(CLI::App& app, std::function<int()>& chosen) {
     CLI::App& check_command =
         *app.add_subcommand("check", "Look for mistakes in poses, frames and stamps of recordings");
     check_command
-        .add_option("DATA", checked->recordings,
-                    "recording, or several in one world frame, which are then compared")
+        .add_option(
+            "DATA", checked->recordings,
+            "recording; or several in one world frame, or a list of them (.txt), which are then "
+            "compared")
         ->required();
     add_reading_options(check_command, checked->how);
     add_selection_options(check_command, checked->how);
