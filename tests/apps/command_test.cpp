@@ -753,6 +753,9 @@ TEST_F(Command, CheckComparesTheFramesOfSeveralRecordings) {
     expect_said("tuesday shows things (0.00, 0.50, 0.00) m from where monday shows them");
     expect_said("advice    add (0.00, -0.50, 0.00) m to the positions of the poses of tuesday");
     EXPECT_EQ(run("check tuesday"), 0) << said();  // alone it is right
+    spill(folder_ / "list.txt", "monday\n# a comment\ntuesday\tmonday/poses.txt\n");
+    EXPECT_EQ(run("check list.txt"), 4) << said();
+    expect_said("monday and tuesday have the same poses");
 
     EXPECT_EQ(run("check monday tuesday --poses none"), 4) << said();
     expect_said("monday, tuesday have no poses");
