@@ -33,7 +33,13 @@ io::Finding blame_needless_fix(io::Finding finding, const DataOptions& given) {
 }
 
 std::string next_command(const DataOptions& given, const std::string& option) {
-    std::string line = "dynamicfilter run " + quoted(given.data.string());
+    return next_command({given.data}, given, option);
+}
+
+std::string next_command(const std::vector<std::filesystem::path>& recordings,
+                         const DataOptions& given, const std::string& option) {
+    std::string line = "dynamicfilter run";
+    for (const auto& recording : recordings) line += " " + quoted(recording.string());
     const auto add = [&](const std::string& name, const std::string& value) {
         if (!value.empty() && !option.starts_with(name)) line += " " + name + " " + quoted(value);
     };

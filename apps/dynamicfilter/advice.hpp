@@ -2,7 +2,9 @@
 /// What to type next, after a finding of the preflight check.
 #pragma once
 
+#include <filesystem>
 #include <string>
+#include <vector>
 
 #include "commands.hpp"
 #include "dynamic_filter/io/preflight.hpp"
@@ -16,5 +18,9 @@ io::Finding blame_needless_fix(io::Finding finding, const DataOptions& given);
 /// The command that follows: `dynamicfilter run` with the recording, the options that were given to
 /// read it, and `option`, which replaces a given one of the same name.
 std::string next_command(const DataOptions& given, const std::string& option);
+
+/// The same with several recordings, all of which are read with the given options.
+std::string next_command(const std::vector<std::filesystem::path>& recordings,
+                         const DataOptions& given, const std::string& option);
 
 }  // namespace dynamic_filter::app

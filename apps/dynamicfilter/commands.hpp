@@ -145,6 +145,11 @@ struct MergeOptions {
     bool overwrite = false, quiet = false;
 };
 
+struct CheckOptions {
+    std::vector<std::filesystem::path> recordings;  ///< or lists of them
+    DataOptions how;  ///< how to read each of them; its `data` is not used
+};
+
 struct DemoOptions {
     std::filesystem::path output = "demo";
 };
@@ -158,7 +163,7 @@ int merge(const MergeOptions& options);
 int evaluate(const EvalOptions& options);
 int simulate(const SimulateOptions& options);
 int demo(const DemoOptions& options);
-int check(const DataOptions& options);
+int check(const CheckOptions& options);
 int odometry(const OdometryOptions& options);
 int convert(const ConvertOptions& options);
 int report(const ReportOptions& options);

@@ -194,8 +194,7 @@ void add_plan(CLI::App& app, std::function<int()>& chosen) {
 
 void add_merge(CLI::App& app, std::function<int()>& chosen) {
     auto o = std::make_shared<MergeOptions>();
-    CLI::App& c =
-        *app.add_subcommand("merge", "Put the parts of a run together (see run --part)");
+    CLI::App& c = *app.add_subcommand("merge", "Put the parts of a run together (see run --part)");
     c.add_option("PART", o->parts, "output folders of all parts")->required()->type_name("PATH");
     c.add_option("-o,--output", o->output, "output folder")->required();
     c.add_option("--threads", o->threads, "number of threads; 0 uses all cores")
@@ -381,13 +380,18 @@ void add_others(CLI::App& app, std::function<int()>& chosen) {
     d.add_option("-o,--output", demo_options->output, "output folder")->capture_default_str();
     d.callback([=, &chosen] { chosen = [=] { return demo(*demo_options); }; });
 
-    auto data = std::make_shared<DataOptions>();
+    auto checked = std::make_shared<CheckOptions>();
     CLI::App& check_command =
-        *app.add_subcommand("check", "Look for mistakes in a recording's poses, frames and stamps");
-    check_command.add_option("DATA", data->data, "recording")->required();
-    add_reading_options(check_command, *data);
-    add_selection_options(check_command, *data);
-    check_command.callback([=, &chosen] { chosen = [=] { return check(*data); }; });
+        *app.add_subcommand("check", "Look for mistakes in poses, frames and stamps of recordings");
+    check_command
+        .add_option(
+            "DATA", checked->recordings,
+            "recording; or several in one world frame, or a list of them (.txt), which are then "
+            "compared")
+        ->required();
+    add_reading_options(check_command, checked->how);
+    add_selection_options(check_command, checked->how);
+    check_command.callback([=, &chosen] { chosen = [=] { return check(*checked); }; });
 
     auto track = std::make_shared<OdometryOptions>();
     CLI::App& o = *app.add_subcommand("odometry", "Find the poses of a recording from its scans");

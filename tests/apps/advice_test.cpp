@@ -37,6 +37,11 @@ TEST(Advice, TheNextCommandRepeatsWhatWasTyped) {
               "dynamicfilter run drive --topic /points --pose-topic /odom --pose-fix mm");
 }
 
+TEST(Advice, TheNextCommandNamesAllRecordings) {
+    EXPECT_EQ(next_command({"monday", "my drive"}, with_fix("mm"), ""),
+              "dynamicfilter run monday 'my drive' --pose-fix mm");
+}
+
 TEST(Advice, ANeedlessCorrectionIsNamedAsTheMistake) {
     const io::Finding inverse{"the poses are inverse: scans overlay by 62 %", "--pose-fix inverse"};
     const io::Finding blamed = blame_needless_fix(inverse, with_fix("inverse"));

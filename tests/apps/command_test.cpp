@@ -749,5 +749,35 @@ TEST_F(Command, CheckSaysWhatToTypeAndThatWorks) {
     expect_said("warning: the poses are inverse");
 }
 
+TEST_F(Command, CheckComparesTheFramesOfSeveralRecordings) {
+    const std::string data = recording().string();
+    ASSERT_EQ(run("convert " + data + " monday --stride 2"), 0) << said();
+    ASSERT_EQ(run("convert " + data + " tuesday --first 1 --stride 2"), 0) << said();
+    EXPECT_EQ(run("check monday tuesday"), 0) << said();
+    expect_said("recording monday\n");
+    expect_said("recording tuesday\n");
+    expect_said("frames    monday and tuesday: their scans overlay at ");
+    expect_said("next      dynamicfilter run monday tuesday\n");
+
+    io::Sequence moved = io::open_sequence(folder_ / "tuesday");
+    for (Pose& pose : moved.T_world_sensor) pose.pretranslate(Eigen::Vector3d(0.0, 0.5, 0.0));
+    io::write_poses_kitti(folder_ / "tuesday/poses.txt", moved.T_world_sensor);
+    EXPECT_EQ(run("check monday tuesday"), 4) << said();
+    expect_said("tuesday shows things (0.00, 0.50, 0.00) m from where monday shows them");
+    expect_said("advice    add (0.00, -0.50, 0.00) m to the positions of the poses of tuesday");
+    EXPECT_EQ(run("check tuesday"), 0) << said();  // alone it is right
+    spill(folder_ / "list.txt", "monday\n# a comment\ntuesday\tmonday/poses.txt\n");
+    EXPECT_EQ(run("check list.txt"), 4) << said();
+    expect_said("monday and tuesday have the same poses");
+
+    EXPECT_EQ(run("check monday tuesday --poses none"), 4) << said();
+    expect_said("monday, tuesday have no poses");
+    EXPECT_EQ(run("check monday tuesday monday"), 2);
+    expect_said("monday: is given twice");
+    EXPECT_EQ(run("check monday tuesday --poses monday/poses.txt"), 2);
+    expect_said("belongs to one recording");
+    EXPECT_EQ(run("check monday nowhere"), 3);
+}
+
 }  // namespace
 }  // namespace dynamic_filter

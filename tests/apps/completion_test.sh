@@ -30,4 +30,5 @@ offers "erasor mos" eval --protocol ""
 offers "kitti benchmark autoware" convert a b --to ""
 offers "" run data --poses ""
 offers "" run ""
+offers "" check monday ""
 exit $failed

@@ -1,5 +1,6 @@
 foreach(unit bag/bag bag/chunked_file bag/mcap_writer bag/rosbag2_writer bag/bag_writers bag/decompress bag/mcap bag/rosbag1 bag/rosbag1_writer bag/rosbag2 bag_scans
-             benchmark byte_writer cloud cloud_writers field_types file folders frame las layout layouts/apollo
+             benchmark byte_writer cloud cloud_writers drives/common_offset drives/drive_findings drives/meeting_places
+             drives/place_offset field_types file folders frame las layout layouts/apollo
              layouts/argoverse layouts/below layouts/bin_points layouts/drive layouts/glim layouts/kitti_360
              layouts/kitti_raw layouts/matrix layouts/mulran layouts/numbers layouts/nuscenes layouts/pairs
              layouts/pose_notes layouts/several lzf matching motion/pose_mistakes natural_order npy pcd pcd_header
@@ -22,4 +23,5 @@ add_test(NAME io/read_back
 set_tests_properties(io/read_back PROPERTIES SKIP_RETURN_CODE 77)
 
 df_test(io/preflight/preflight dynamic_filter_app)  # on copies of a simulated recording
+df_test(io/drives/compare_drives dynamic_filter_app)  # on parts of simulated recordings
 df_test(io/motion/recorded_motion dynamic_filter_io dynamic_filter_sim)  # its scans are simulated
