@@ -5,7 +5,8 @@
 # OUT         output folder; plan and parts are in OUT.parts, which may be deleted afterwards
 # RECORDINGS  recordings or lists of them, quoted as for a shell
 # PARTS       number of parts (16); give several for each process that -j permits
-# OPTIONS     options of `dynamicfilter run`, quoted as for a shell
+# OPTIONS     options of `dynamicfilter run` and of `dynamicfilter plan`, quoted as for a shell
+# RUN         options of `dynamicfilter run` alone, for instance --memory 1.5G
 # MERGE       options of `dynamicfilter merge`, for instance --overwrite
 # THREADS     threads of each process (1)
 # RETRIES     how often a part that fails is tried again at once (1)
@@ -39,7 +40,7 @@ plan:
 
 # 2 and 3 are wrong options or recordings, which no repetition helps.
 $(tasks): part-%: plan
-	@tries=0; until $(DYNAMICFILTER) run $(RECORDINGS) $(OPTIONS) --threads $(THREADS) --plan $(folder)/plan \
+	@tries=0; until $(DYNAMICFILTER) run $(RECORDINGS) $(OPTIONS) $(RUN) --threads $(THREADS) --plan $(folder)/plan \
 	    --part $*/$(PARTS) -o $(folder)/$*-of-$(PARTS) --resume; do \
 	    code=$$?; [ $$code -ne 4 ] || exit 0; \
 	    tries=$$((tries + 1)); \

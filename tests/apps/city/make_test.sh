@@ -14,7 +14,7 @@ is_expected() { bytes_of "$1" > out.md5; cmp expected.md5 out.md5 || fail "$1: o
 for seed in 1 2; do
     "$real" simulate crowd --frames 24 --pedestrians 20 --seed $seed -o "it's $seed" > /dev/null 2>&1
 done
-"$real" run "it's 1" "it's 2" -o expected > /dev/null 2>&1
+"$real" run "it's 1" "it's 2" --tile-voxels 4000 -o expected > /dev/null 2>&1
 bytes_of expected > expected.md5
 [ "$(wc -l < expected.md5)" -gt 10 ]
 
@@ -29,7 +29,7 @@ kill -9 \$!
 exit 137
 END
 chmod +x ./command
-run() { make -f "$makefile" -j 2 DYNAMICFILTER=./command OUT="out's" RECORDINGS="\"it's 1\" \"it's 2\"" PARTS=3 "$@" > said.txt 2>&1; }
+run() { make -f "$makefile" -j 2 DYNAMICFILTER=./command OUT="out's" RECORDINGS="\"it's 1\" \"it's 2\"" PARTS=3 OPTIONS="--tile-voxels 4000" "$@" > said.txt 2>&1; }
 
 # The part that fails is tried again at once.
 run || fail "make failed"
@@ -58,8 +58,8 @@ grep -q "OUT is missing" said.txt || fail "make does not say what is missing"
 # As docs/many-machines.md has it for GNU parallel.
 if command -v parallel > /dev/null; then
     mkdir by.parts
-    "$real" plan "it's 1" "it's 2" -o by.parts/plan > said.txt 2>&1
-    seq 3 | parallel --will-cite -j 2 "'$real' run \"it's 1\" \"it's 2\" --plan by.parts/plan --part {}/3 -o by.parts/{} --resume" >> said.txt 2>&1 ||
+    "$real" plan "it's 1" "it's 2" --tile-voxels 4000 -o by.parts/plan > said.txt 2>&1
+    seq 3 | parallel --will-cite -j 2 "'$real' run \"it's 1\" \"it's 2\" --tile-voxels 4000 --plan by.parts/plan --part {}/3 -o by.parts/{} --resume" >> said.txt 2>&1 ||
         fail "parallel failed"
     "$real" merge by.parts/1 by.parts/2 by.parts/3 -o by >> said.txt 2>&1 || fail "merge failed"
     is_expected by

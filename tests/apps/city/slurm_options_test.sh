@@ -40,7 +40,7 @@ refuses "give another --command" --parts 2 -o out --command nope -- B
 
 # The scripts must call the command with the very words that were given.
 # shellcheck disable=SC2086
-"$script" --parts 2 -o "out put" --memory 2G --set 'a.b="x y"' --cpus 3 --slurm "--comment=two words" $command \
+"$script" --parts 2 -o "out put" --memory 2G --no-maps --set 'a.b="x y"' --cpus 3 --slurm "--comment=two words" $command \
     --dry-run -- "it's 1" B > said.txt
 [ ! -e "out put.parts" ] || { echo "--dry-run made a folder"; failed=1; }
 [ "$(grep -c '^sbatch ' said.txt)" -eq 3 ] || { echo "not three jobs"; failed=1; }
@@ -53,8 +53,8 @@ says() {  # JOB EXPECTED
     [ "$got" = "$2" ] || { echo "job $1: '$got', not '$2'"; failed=1; }
 }
 mkdir "out put.parts"
-says 1 "plan it's 1 B --memory 2G --set a.b=\"x y\" --threads 3 -o out put.parts/plan"
-says 2 "run it's 1 B --memory 2G --set a.b=\"x y\" --threads 3 --plan out put.parts/plan --part 2/2 -o out put.parts/2-of-2 --resume"
+says 1 "plan it's 1 B --set a.b=\"x y\" --threads 3 -o out put.parts/plan"
+says 2 "run it's 1 B --set a.b=\"x y\" --memory 2G --no-maps --threads 3 --plan out put.parts/plan --part 2/2 -o out put.parts/2-of-2 --resume"
 says 3 "merge out put.parts/1-of-2 out put.parts/2-of-2 -o out put"
 restart=1 says 3 "merge out put.parts/1-of-2 out put.parts/2-of-2 -o out put --overwrite"
 : > "out put.parts/plan"

@@ -17,7 +17,7 @@ for seed in 1 2; do
     "$real" simulate crowd --frames 24 --pedestrians 20 --seed $seed -o "drive '$seed' %a" > /dev/null 2>&1
 done
 recordings=("drive '1' %a" "drive '2' %a")
-"$real" run "${recordings[@]}" -o expected > /dev/null 2>&1
+"$real" run "${recordings[@]}" --tile-voxels 4000 -o expected > /dev/null 2>&1
 bytes_of expected > expected.md5
 [ "$(wc -l < expected.md5)" -gt 10 ]
 
@@ -45,7 +45,7 @@ END
 chmod +x ./command
 
 start_cluster "$folder/cluster"
-"$script" --parts 4 -o "out %a" --command ./command --wait -- "${recordings[@]}" > said.txt 2>&1 &
+"$script" --parts 4 --tile-voxels 4000 -o "out %a" --command ./command --wait -- "${recordings[@]}" > said.txt 2>&1 &
 submitted=$!
 until [ -e lost ]; do
     kill -0 $submitted || fail "ended early" said.txt
@@ -66,7 +66,7 @@ done
 echo "the same bytes, though a task was killed and node $lost was lost"
 
 # The same again: all parts are there, so only the merge remains, which needs leave to overwrite.
-"$script" --parts 4 -o "out %a" --command ./command --wait --overwrite -- "${recordings[@]}" > said.txt 2>&1 ||
+"$script" --parts 4 --tile-voxels 4000 -o "out %a" --command ./command --wait --overwrite -- "${recordings[@]}" > said.txt 2>&1 ||
     fail "exit $? when all parts were there" said.txt
 bytes_of "out %a" > out.md5
 cmp expected.md5 out.md5 || fail "other bytes after the second merge" said.txt
