@@ -2,13 +2,22 @@ foreach(unit advice config_file edits label_store map_files output_folder progre
   df_test(apps/${unit} dynamic_filter_app)
 endforeach()
 df_test(apps/city/workers dynamic_filter_app)
+set(slurm ${PROJECT_SOURCE_DIR}/packaging/slurm/dynamicfilter-slurm)
+add_test(NAME apps/city/slurm_options COMMAND ${CMAKE_CURRENT_LIST_DIR}/city/slurm_options_test.sh ${slurm})
+add_test(NAME apps/city/slurm COMMAND ${CMAKE_CURRENT_LIST_DIR}/city/slurm_test.sh $<TARGET_FILE:dynamicfilter> ${slurm})
+add_test(NAME apps/city/make COMMAND ${CMAKE_CURRENT_LIST_DIR}/city/make_test.sh $<TARGET_FILE:dynamicfilter>
+  ${PROJECT_SOURCE_DIR}/packaging/make/dynamicfilter.mk)
+set_tests_properties(apps/city/slurm apps/city/make PROPERTIES LABELS slow)
 # Open MPI keeps memory until the end of the process, which the sanitizers report.
 if(TARGET dynamicfilter_mpi AND NOT CMAKE_BUILD_TYPE STREQUAL Sanitize)
   add_executable(mpi_rank ${CMAKE_CURRENT_LIST_DIR}/mpi/mpi_rank.cpp)
   target_link_libraries(mpi_rank PRIVATE dynamic_filter_app dynamic_filter_flags)
+  set_target_properties(mpi_rank PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})  # the plug-in is there
   df_test(apps/mpi/mpi_workers fmt::fmt)
   target_compile_definitions(apps_mpi_mpi_workers_test PRIVATE MPI_RANK="$<TARGET_FILE:mpi_rank>")
   add_dependencies(apps_mpi_mpi_workers_test mpi_rank dynamicfilter_mpi)
+  add_test(NAME apps/city/mpi COMMAND ${CMAKE_CURRENT_LIST_DIR}/city/mpi_test.sh $<TARGET_FILE:dynamicfilter>)
+  set_tests_properties(apps/city/mpi PROPERTIES LABELS slow)
 endif()
 foreach(unit http_request http_server live_feed page run_view thinned_cloud)
   df_test(apps/view/${unit} dynamic_filter_app)
