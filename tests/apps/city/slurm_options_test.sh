@@ -49,7 +49,7 @@ for option in "'--comment=two words'" --cpus-per-task=3 --mem=2400M --requeue; d
 done
 job() { awk -v n="$1" '/^sbatch /{at++; next} /^END$/{next} at == n' said.txt; }
 says() {  # JOB EXPECTED
-    got=$(job "$1" | SLURM_JOB_ID=7 SLURM_ARRAY_TASK_ID=2 SLURM_RESTART_COUNT=${restart:-0} sh | tail -1)
+    got=$(job "$1" | SLURM_ARRAY_JOB_ID=7 SLURM_ARRAY_TASK_ID=2 SLURM_RESTART_COUNT=${restart:-0} sh | tail -1)
     [ "$got" = "$2" ] || { echo "job $1: '$got', not '$2'"; failed=1; }
 }
 mkdir "out put.parts"
