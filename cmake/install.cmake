@@ -1,6 +1,6 @@
 # What is installed: the command (component `command`); the libraries, their headers and
 # DynamicFilterConfig.cmake (`dev`); shared libraries (`library`), if BUILD_SHARED_LIBS is set; the
-# Python package (`python`); the ROS 1 node (`ros`).
+# Python package (`python`); the ROS 1 node (`ros`); the plug-in for MPI (`mpi`).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(DF_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/DynamicFilter)
@@ -45,6 +45,10 @@ install(FILES ${PROJECT_BINARY_DIR}/DynamicFilterConfig.cmake ${PROJECT_BINARY_D
         DESTINATION ${DF_CMAKE_DIR} COMPONENT dev)
 
 install(TARGETS dynamicfilter RUNTIME COMPONENT command)
+
+if(TARGET dynamicfilter_mpi)
+  install(TARGETS dynamicfilter_mpi LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/dynamicfilter COMPONENT mpi)
+endif()
 
 # Where roslaunch looks for what belongs to a package of ROS.
 if(TARGET dynamicfilter_ros1)

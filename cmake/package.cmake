@@ -2,16 +2,19 @@
 set(DF_DEBIAN ${PROJECT_SOURCE_DIR}/packaging/debian)
 set(DF_PREPARED ${PROJECT_BINARY_DIR}/packaging)
 foreach(plain ${DF_DEBIAN}/changelog ${PROJECT_SOURCE_DIR}/packaging/dynamicfilter.1
-        ${PROJECT_SOURCE_DIR}/packaging/dynamicfilter_ros1.1 ${PROJECT_SOURCE_DIR}/CHANGELOG.md)
+        ${PROJECT_SOURCE_DIR}/packaging/dynamicfilter-slurm.1 ${PROJECT_SOURCE_DIR}/packaging/dynamicfilter_ros1.1
+        ${PROJECT_SOURCE_DIR}/CHANGELOG.md)
   cmake_path(GET plain FILENAME name)
   file(MAKE_DIRECTORY ${DF_PREPARED})
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${plain})
   execute_process(COMMAND gzip -9nc ${plain} OUTPUT_FILE ${DF_PREPARED}/${name}.gz COMMAND_ERROR_IS_FATAL ANY)
 endforeach()
-install(FILES ${DF_PREPARED}/dynamicfilter.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT command)
+install(FILES ${DF_PREPARED}/dynamicfilter.1.gz ${DF_PREPARED}/dynamicfilter-slurm.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT command)
 if(TARGET dynamicfilter_ros1)
   install(FILES ${DF_PREPARED}/dynamicfilter_ros1.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT ros)
 endif()
+install(PROGRAMS packaging/slurm/dynamicfilter-slurm DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT command)
+install(FILES packaging/make/dynamicfilter.mk DESTINATION ${CMAKE_INSTALL_DATADIR}/dynamicfilter COMPONENT command)
 install(FILES packaging/dynamicfilter.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
         RENAME dynamicfilter COMPONENT command)
 configure_file(packaging/systemd/dynamicfilter-live@.service.in ${DF_PREPARED}/dynamicfilter-live@.service @ONLY)
@@ -32,6 +35,11 @@ set(sections libs libdevel science python)
 if(TARGET dynamicfilter_ros1)
   list(APPEND CPACK_COMPONENTS_ALL ros)
   list(APPEND packages dynamicfilter-ros)
+  list(APPEND sections science)
+endif()
+if(TARGET dynamicfilter_mpi)
+  list(APPEND CPACK_COMPONENTS_ALL mpi)
+  list(APPEND packages dynamicfilter-mpi)
   list(APPEND sections science)
 endif()
 foreach(component package section IN ZIP_LISTS CPACK_COMPONENTS_ALL packages sections)
@@ -68,6 +76,7 @@ set(CPACK_COMPONENT_DEV_DEPENDS library)
 set(CPACK_COMPONENT_COMMAND_DEPENDS library)
 set(CPACK_COMPONENT_PYTHON_DEPENDS library)
 set(CPACK_COMPONENT_ROS_DEPENDS library)
+set(CPACK_COMPONENT_MPI_DEPENDS command)  # in exactly the same version, which the command checks
 
 foreach(library IN LISTS DF_LIBRARIES)
   get_target_property(soversion ${library} SOVERSION)
@@ -89,6 +98,11 @@ set(CPACK_COMPONENT_COMMAND_DESCRIPTION "remove moving objects from LiDAR scans 
 Labels every point of a recording as static, dynamic or unknown, from scans
 and poses alone, and writes the map without what moves. Reads ROS bags, KITTI
 and folders of clouds.")
+set(CPACK_DEBIAN_COMMAND_PACKAGE_SUGGESTS "dynamicfilter-mpi, parallel, slurm-client")
+set(CPACK_DEBIAN_MPI_PACKAGE_DEPENDS openmpi-bin)
+set(CPACK_COMPONENT_MPI_DESCRIPTION "remove moving objects from LiDAR scans, on many machines by MPI
+The plug-in for `dynamicfilter run --mpi`, by which the processes that mpirun
+started share the tiles of a large run among them.")
 # roslaunch brings the master.
 set(CPACK_DEBIAN_ROS_PACKAGE_RECOMMENDS python3-roslaunch)
 set(CPACK_COMPONENT_ROS_DESCRIPTION "remove moving objects from LiDAR scans, node of ROS 1

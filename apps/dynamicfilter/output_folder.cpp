@@ -34,11 +34,17 @@ Names written_by(Contents contents) {
     switch (contents) {
         case Contents::result:
             return {{"static_map.pcd", "dynamic_points.pcd", "metrics.json", "timing.json",
-                     "config.toml", "run.log", "report.html", "map_gaps.bin", kRunState},
+                     "config.toml", "run.log", "report.html", "map_gaps.bin", "part.json", kRunState},
                     {{"labels", ".label"},
                      {"unedited", ".label"},
                      {"unedited", ".pcd"},
-                     {"unedited", ".json"}}};
+                     {"unedited", ".json"},
+                     {"map", ".pcd"},
+                     {"map", ".html"},
+                     {"map", ".json"},
+                     {"tiles", ".pcd"},
+                     {"tiles", ".tile"},
+                     {"tiles", ""}}};
         case Contents::recording:
             return {{"poses.txt", "times.txt"}, {{"labels", ".label"}, {"velodyne", ".bin"}}};
         case Contents::benchmark:
@@ -73,6 +79,26 @@ void remove_earlier_output(const fs::path& path, Contents contents) {
         remove_files(path / name,
                      [&, s = suffix](const fs::path& file) { return file.extension() == s; });
         if (fs::is_empty(path / name)) fs::remove(path / name);
+    }
+    const fs::path drives = path / "drives";  // each with what a run leaves
+    if (contents != Contents::result || !fs::is_directory(drives)) return;
+    for (const auto& drive : fs::directory_iterator(drives)) {
+        if (!drive.is_directory()) continue;
+        remove_earlier_output(drive.path(), contents);
+        if (fs::is_empty(drive.path())) fs::remove(drive.path());
+    }
+    if (fs::is_empty(drives)) fs::remove(drives);
+}
+
+/// Folders at the new place may hold files of the user, which stay.
+void move_into(const fs::path& from, const fs::path& to) {
+    if (!fs::is_directory(from)) {
+        fs::rename(from, to);
+        return;
+    }
+    fs::create_directories(to);
+    for (const auto& entry : fs::directory_iterator(from)) {
+        move_into(entry.path(), to / entry.path().filename());
     }
 }
 
@@ -168,17 +194,7 @@ void OutputFolder::commit() {
     if (beside_.empty()) return;
     try {
         remove_earlier_output(path_, contents_);
-        for (const auto& entry : fs::directory_iterator(beside_)) {
-            const fs::path to = path_ / entry.path().filename();
-            if (!entry.is_directory()) {
-                fs::rename(entry.path(), to);
-                continue;
-            }
-            fs::create_directories(to);  // it may hold files of the user
-            for (const auto& file : fs::directory_iterator(entry.path())) {
-                fs::rename(file.path(), to / file.path().filename());
-            }
-        }
+        move_into(beside_, path_);
         fs::remove_all(beside_);
         beside_.clear();
         made_ = false;

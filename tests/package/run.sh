@@ -15,8 +15,9 @@ dev=$(echo "$packages"/libdynamicfilter-dev_*.deb)
 command=$(echo "$packages"/dynamicfilter_*.deb)
 python=$(echo "$packages"/python3-dynamicfilter_*.deb)
 ros=$(echo "$packages"/dynamicfilter-ros_*.deb)
+mpi=$(echo "$packages"/dynamicfilter-mpi_*.deb)
 if command -v lintian > /dev/null; then
-    lintian --allow-root --fail-on error "$library" "$dev" "$command" "$python" "$ros"
+    lintian --allow-root --fail-on error "$library" "$dev" "$command" "$python" "$ros" "$mpi"
 else
     echo "lintian is missing: the packages are not checked by it"
 fi
@@ -56,10 +57,14 @@ needs "$dev" "$ours" libeigen3-dev
 [ "$(wc -l < depends)" -eq 2 ] || { echo "$dev depends on more"; exit 1; }
 holds "$command" bin/dynamicfilter share/man/man1/dynamicfilter.1.gz share/bash-completion/completions/dynamicfilter \
     share/doc/dynamicfilter/copyright share/doc/dynamicfilter/changelog.Debian.gz \
+    bin/dynamicfilter-slurm share/man/man1/dynamicfilter-slurm.1.gz share/dynamicfilter/dynamicfilter.mk \
     lib/systemd/system/dynamicfilter-live@.service share/doc/dynamicfilter/examples/live.toml
 holds_none '/include/|/lib/[^s]'
 needs "$command" "$ours" 'libc6 .*' 'libfmt9 .*'
-if grep ros depends; then echo "$command depends on ROS"; exit 1; fi
+if grep -E 'ros|mpi' depends; then echo "$command depends on ROS or MPI"; exit 1; fi
+holds "$mpi" "$arch/dynamicfilter/libdynamicfilter_mpi.so" share/doc/dynamicfilter-mpi/copyright
+holds_none '/(include|bin|python3)/'
+needs "$mpi" "dynamicfilter \\(= $version-1\\)" openmpi-bin 'libopenmpi3 .*'
 holds "$ros" bin/dynamicfilter_ros1 share/man/man1/dynamicfilter_ros1.1.gz share/dynamicfilter_ros/package.xml \
     share/dynamicfilter_ros/dynamicfilter_ros1 share/dynamicfilter_ros/launch/dynamicfilter.launch
 holds_none '/(include|lib)/'
@@ -71,7 +76,7 @@ holds_none '/(include|bin)/'
 needs "$python" "$ours" python3-numpy 'python3 \(>= 3\.[0-9]+\)' 'python3 \(<< 3\.[0-9]+\)'
 
 # Unpacked: all the packages in one root, and the tarball somewhere else. Each finds its own libraries.
-for package in "$library" "$dev" "$command" "$python" "$ros"; do
+for package in "$library" "$dev" "$command" "$python" "$ros" "$mpi"; do
     dpkg-deb -x "$package" root
 done
 tar -xzf "$packages"/dynamicfilter-*.tar.gz -C anywhere --strip-components 1
@@ -79,10 +84,12 @@ tar -xzf "$packages"/dynamicfilter-*.tar.gz -C anywhere --strip-components 1
 for prefix in "$work/root/usr" "$work/anywhere"; do
     "$prefix/bin/dynamicfilter" --version | grep -qF "$version"
     "$prefix/bin/dynamicfilter_ros1" --version | grep -qF "$version"
-    for program in "$prefix"/bin/dynamicfilter* "$prefix/$modules"/dynamicfilter/_*.so; do
+    for program in "$prefix"/bin/dynamicfilter "$prefix"/bin/dynamicfilter_ros1 "$prefix/$modules"/dynamicfilter/_*.so; do
         [ "$(ldd "$program" | grep -c "libdynamic_filter.* => $prefix")" -eq 4 ] ||
             { echo "$program finds not its own libraries"; exit 1; }
     done
+    ! "$prefix/bin/dynamicfilter" run "$prefix" --mpi -o none 2> said.txt || { echo "--mpi needs no mpirun"; exit 1; }
+    grep -q "Open MPI did not start this process" said.txt || { echo "the plug-in is not found:"; cat said.txt; exit 1; }
     rm -rf demo from_python
     "$prefix/bin/dynamicfilter" simulate crowd -o demo/recording --frames 20
     PYTHONPATH=$prefix/$modules /usr/bin/python3 lines.py

@@ -33,6 +33,7 @@ OTHERS = {
     **{f"{APP}/live/{unit}.cpp": "tests/apps/live/live_test.sh" for unit in (
         "dry_run", "live", "live_command")},
     f"{APP}/live/recorder.cpp": "tests/apps/live/session_test.cpp",
+    f"{APP}/mpi/plugin.cpp": "tests/apps/mpi/mpi_workers_test.cpp",
     f"{APP}/view/edit_server.cpp": "tests/viewer/edit_checks.mjs",
     f"{APP}/view/live_view.cpp": "tests/viewer/live_checks.mjs",
     f"{APP}/view/shown.cpp": "tests/viewer/report_checks.mjs",

@@ -11,6 +11,7 @@
 #include "city/write_city.hpp"
 #include "config_file.hpp"
 #include "dynamic_filter/error.hpp"
+#include "dynamic_filter/io/compare_drives.hpp"
 #include "dynamic_filter/io/file.hpp"
 #include "dynamic_filter/parallel.hpp"
 #include "progress.hpp"
@@ -34,6 +35,17 @@ void refuse_unnamed(const RunOptions& o) {
     }
 }
 
+/// Drives that do not fit each other would see each other's walls as moving.
+void warn_of_offsets(const City& city) {
+    if (city.drives.size() < 2) return;
+    std::vector<const io::Sequence*> sequences;
+    for (const Drive& drive : city.drives) sequences.push_back(&drive.sequence);
+    for (const io::Finding& finding : io::compare_drives(sequences)) {
+        fmt::print(stderr, "warning: {}; {} (`dynamicfilter check` with all drives looks closer)\n",
+                   finding.what, finding.advice);
+    }
+}
+
 /// The plan of the run: from a file, if there is one; otherwise it is made, and written there.
 void find_plan(City& city, const RunOptions& o, const fs::path& file) {
     if (o.city.plan || fs::exists(file)) {
@@ -43,12 +55,17 @@ void find_plan(City& city, const RunOptions& o, const fs::path& file) {
         return;
     }
     with_threads(o.threads, [&] {
+        warn_of_offsets(city);
         city.plan = make_plan(city.drives, city.config, o.data, o.city.tile_voxels, o.quiet);
     });
     if (!interrupted()) write_plan(file, city.plan, city.run);
 }
 
-int say_interrupted(const std::optional<OutputFolder>& output) {
+/// After all_done() was false on all processes.
+int stop(const std::optional<OutputFolder>& output) {
+    if (output && !interrupted()) {
+        throw Error("another process of this run failed, as it says; --resume goes on");
+    }
     if (output) {
         fmt::print("interrupted; the tiles that are done stay in {}, and --resume goes on\n",
                    output->path().string());
@@ -126,14 +143,14 @@ int run_city(const RunOptions& o) {
         find_plan(city, o, place.tiles() / kPlan);
         tell_notes(city, o.quiet);
     }
-    if (!workers->all_done(!interrupted())) return say_interrupted(place.output);
+    if (!workers->all_done(!interrupted())) return stop(place.output);
     if (!leads) find_plan(city, o, place.tiles() / kPlan);
     clock.finish("plan");
 
     const std::vector<std::size_t> tiles =
         part ? tiles_of_part(city.plan.tiles, part->part, part->parts) : by_cost(city.plan.tiles);
     const bool well = filter_tiles(city, tiles, place.tiles(), *workers, effort);
-    if (!workers->all_done(well)) return say_interrupted(place.output);
+    if (!workers->all_done(well)) return stop(place.output);
     clock.finish("filter");
     if (!leads) return kDone;
     if (part) return conclude_part(city, sources, *part, o, *place.output, tiles.size());

@@ -77,8 +77,14 @@ expect 2 "not parts of the same run" merge part1 alone -o other
 printf spoilt > "$(ls part2/tiles/*.tile | head -1)"
 expect 2 "part 2/5 is missing" merge part1 part2 part3 part4 part5 -o other
 "$command" run a b $options --part 2/5 -q --resume -o part2 > said 2>&1 || fail "a spoilt part is not repeated"
-rm b/velodyne/000030.bin
-expect 3 "" run a b $options -o other
+
+mkdir merged/drives/a/own
+touch merged/drives/a/own/notes
+"$command" merge part1 part2 part3 part4 part5 -o merged --overwrite > said 2>&1 || fail "merge over a result"
+[ -e merged/drives/a/own/notes ] || fail "a file of the user is gone"
+rm -r merged/drives/a/own
+bytes_of merged > merged.md5
+cmp -s whole.md5 merged.md5 || fail "overwritten: $(diff whole.md5 merged.md5)"
 
 expect 2 "I from 1 to N" run a --part 3/2 -o other
 expect 2 "-o DIR" run a --part 1/2
@@ -88,5 +94,7 @@ expect 2 "given twice" run a ./a -o other
 expect 2 "does not go with" run a --memory 1G --online -o other
 expect 2 "default preset" run a --memory 1G --preset paper -o other
 expect 3 "has no poses" run a --memory 1G --poses none -o other
+rm b/velodyne/000030.bin
+expect 3 "" run a b $options -o other
 [ ! -e other/labels ] || fail "something was written"
 echo "parts, lists, plans and wrong input: all as expected"

@@ -53,7 +53,7 @@ struct Planned {
 };
 
 TEST(Plan, ATileHasAllScansThatShowOrSeeIt) {
-    const Planned p(40, 10.0, 4000);
+    const Planned p(40, 10.0, 1000);
     ASSERT_GT(p.plan.tiles.size(), 2U);
     for (const TileWork& work : p.plan.tiles) {
         const double side = cells_of(work.tile.level) * p.plan.cell;
