@@ -45,6 +45,10 @@ Names written_by(Contents contents) {
             return {{"gt_cloud.pcd"}, {{"pcd", ".pcd"}}};
         case Contents::tiles:
             return {{"pointcloud_map_metadata.yaml"}, {{"pointcloud_map", ".pcd"}}};
+        case Contents::tiles_3d:
+            return {{"tileset.json"}, {{"tiles", ".glb"}}};
+        case Contents::las_tiles:
+            return {{"index.json"}, {{"las", ".las"}}};
         case Contents::demo:
             break;  // its recording and its result are folders with contents of their own
     }
