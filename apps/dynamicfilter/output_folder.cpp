@@ -38,7 +38,10 @@ Names written_by(Contents contents) {
                     {{"labels", ".label"},
                      {"unedited", ".label"},
                      {"unedited", ".pcd"},
-                     {"unedited", ".json"}}};
+                     {"unedited", ".json"},
+                     {"report", ".html"},
+                     {"report", ".js"},
+                     {"report", ".css"}}};
         case Contents::recording:
             return {{"poses.txt", "times.txt"}, {{"labels", ".label"}, {"velodyne", ".bin"}}};
         case Contents::benchmark:

@@ -1,7 +1,7 @@
 foreach(unit advice config_file edits label_store map_files output_folder progress protocols report stage_clock)
   df_test(apps/${unit} dynamic_filter_app)
 endforeach()
-foreach(unit autoware_tiles las_tiles map_index tile_points tile_tree tileset)
+foreach(unit autoware_tiles city_report heights las_tiles map_index tile_page tile_picture tile_points tile_tree tileset)
   df_test(apps/city/${unit} dynamic_filter_app)
 endforeach()
 foreach(unit http_request http_server live_feed page run_view thinned_cloud)

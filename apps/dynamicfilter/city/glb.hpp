@@ -4,14 +4,10 @@
 
 #include <string>
 
+#include "city/heights.hpp"
 #include "city/tile_points.hpp"
 
 namespace dynamic_filter::app {
-
-/// The heights [m] between which the colours change.
-struct HeightRange {
-    double low = 0.0, high = 1.0;
-};
 
 /// The bytes of a .glb. Positions are floats from `origin` [m], and the node has the rest: y is up
 /// in glTF, and viewers of 3D Tiles turn it back. Each point has a colour by height, and the

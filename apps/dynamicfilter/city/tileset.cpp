@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -141,19 +140,6 @@ Done write_node(Writer& writer, const TreeNode& node, double spacing_above) {
     return write_above(writer, node, std::move(below), spacing_above);
 }
 
-/// Between most of the tiles' bottoms and tops, so that one stray voxel does not take the colours.
-HeightRange heights_of(const MapIndex& index) {
-    std::vector<double> low, high;
-    for (const MapTile& tile : index.tiles) {
-        low.push_back(tile.min.z());
-        high.push_back(tile.max.z());
-    }
-    std::sort(low.begin(), low.end());
-    std::sort(high.begin(), high.end());
-    const std::size_t cut = low.size() / 50;
-    return {low[cut], std::max(high[high.size() - 1 - cut], low[cut] + 1.0)};
-}
-
 ordered_json column_major(const Eigen::Matrix4d& matrix) {
     ordered_json list = ordered_json::array();
     for (int i = 0; i < 16; ++i) list.push_back(matrix.data()[i]);
@@ -212,7 +198,7 @@ std::size_t write_tileset(const MapIndex& index, const fs::path& folder,
     MapIndex filled = index;  // a box around no voxels is none
     std::erase_if(filled.tiles, [](const MapTile& tile) { return tile.voxels == 0; });
     const TreeNode tree = tree_of(filled, folder);
-    Writer writer{index, folder, output / "tiles", heights_of(filled)};
+    Writer writer{index, folder, output / "tiles", usual_heights(filled)};
     fs::create_directories(writer.tiles);
     Done root = write_node(writer, tree, spacing_of(tree.level + 1));
     root.json["refine"] = "REPLACE";
