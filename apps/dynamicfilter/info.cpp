@@ -158,8 +158,10 @@ void describe_map(const std::filesystem::path& path) {
     }
     fmt::print("{}\n  format  map of several drives, version {}\n  tiles   {}\n", path.string(),
                index.version, index.tiles.size());
+    const bool is_whole = !index.tiles.empty() && index.tiles.front().is_whole;
+    if (is_whole) levels.clear();  // it has no side
     for (const auto& [level, tiles] : levels)
-        fmt::print("          {} with a side of {} m\n", tiles, side_of(level));
+        fmt::print("          {} with a side of {} m\n", tiles, side_of(index.voxel_size, level));
     fmt::print("  voxels  {} of {} m\n", voxels, index.voxel_size);
     if (!box.isEmpty()) {
         fmt::print("  from    {:.1f} {:.1f} {:.1f}\n  to      {:.1f} {:.1f} {:.1f}\n",

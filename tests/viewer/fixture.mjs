@@ -189,7 +189,7 @@ export function makeCity() {
   const edge = 32;
   const squares = [[2, 0, 0, [0]], [2, 1, 0, [0]], [2, 0, 1, [0, 1]], [1, 2, 2, [1]], [1, 3, 2, [1]], [1, 2, 3, [1]]];
   const tiles = squares.map(([level, x, y, drives], i) => ({
-    name: `${level}_${x}_${y}`, level, x, y, voxels: 1000 * (i + 1), scans: 100 * (i + 1), edge, drives, bottom: -1, top: 9,
+    name: `${level}_${x}_${y}`, west: x * 25.6 * 2 ** level, south: y * 25.6 * 2 ** level, side: 25.6 * 2 ** level, voxels: 1000 * (i + 1), scans: 100 * (i + 1), edge, drives, bottom: -1, top: 9,
   }));
   const pictures = new Uint8Array(tiles.length * edge * edge);
   tiles.forEach((_, i) => {
@@ -198,7 +198,7 @@ export function makeCity() {
   const track = Float32Array.from([5, 5, 190, 10, 195, 90, 20, 195, 120, 180, 150, 120]);
   return {
     meta: {
-      kind: "city", name: "Map of several drives", command: "run", version: "0", voxel_size: VOXEL, side: 25.6, origin: [0, 0, 0], heights: [-1, 9],
+      kind: "city", name: "Map of several drives", command: "run", version: "0", voxel_size: VOXEL, origin: [0, 0, 0], heights: [-1, 9],
       drives: [{ name: "south", scans: 500 }, { name: "north", scans: 700 }], tracks: ["south", "north"], tiles, scores: { tiles: 6 }, timing: null,
     },
     arrays: {

@@ -121,7 +121,7 @@ export async function startCity(run) {
   try {
     await run.loadAll(["track-position", "track-begin"]);
     const tracks = { begin: run.arrays["track-begin"] ?? [0], positions: run.arrays["track-position"] ?? [] };
-    const map = new CityMap(cell, { tiles: city.tiles, side: city.side, origin: city.origin, tracks }, store.values);
+    const map = new CityMap(cell, { tiles: city.tiles, origin: city.origin, tracks }, store.values);
     automation = expose(store, map);
     const openTile = (i) => map.tiles[i] && location.assign(pageOf(map.tiles[i]));
     steer(map, {

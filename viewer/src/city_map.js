@@ -69,13 +69,10 @@ export class CityMap {
   #wanted = false;
 
   /** `settings`: {colour, drive, tracks, outlines, names, selected}. */
-  constructor(element, { tiles, side, origin, tracks }, settings) {
+  constructor(element, { tiles, origin, tracks }, settings) {
     this.element = element;
     this.settings = settings;
-    this.tiles = tiles.map((tile) => {
-      const length = side * 2 ** tile.level;
-      return { ...tile, side: length, west: tile.x * length - origin[0], south: tile.y * length - origin[1] };
-    });
+    this.tiles = tiles.map((tile) => ({ ...tile, west: tile.west - origin[0], south: tile.south - origin[1] }));
     this.tracks = tracks;
     this.canvas = document.createElement("canvas");
     this.canvas.tabIndex = 0;

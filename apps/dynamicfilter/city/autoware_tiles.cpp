@@ -18,16 +18,16 @@ namespace dynamic_filter::app {
 
 namespace {
 
-/// The squares that a tile lies in, whole or in part.
-std::vector<Corner> squares_of(const MapTile& tile) {
-    const double side = side_of(tile.level);
-    const double x = static_cast<double>(tile.x) * side, y = static_cast<double>(tile.y) * side;
+/// The squares that a tile lies in, whole or in part, or that its voxels are in.
+std::vector<Corner> squares_of(const MapIndex& index, const MapTile& tile) {
+    const TileSquare square = square_of(index, tile);
+    const double slack = index.voxel_size;
+    const std::int64_t east = autoware_corner(square.west + square.side + slack);
+    const std::int64_t north = autoware_corner(square.south + square.side + slack);
     std::vector<Corner> squares;
-    for (std::int64_t at = autoware_corner(x); static_cast<double>(at) <= x + side;
-         at += kAutowareTile)
-        for (std::int64_t to = autoware_corner(y); static_cast<double>(to) <= y + side;
-             to += kAutowareTile)
-            squares.emplace_back(at, to);
+    for (std::int64_t x = autoware_corner(square.west - slack); x <= east; x += kAutowareTile)
+        for (std::int64_t y = autoware_corner(square.south - slack); y <= north; y += kAutowareTile)
+            squares.emplace_back(x, y);
     return squares;
 }
 
@@ -55,9 +55,9 @@ void append(io::Cloud& cloud, const TilePoints& points, std::size_t i) {
 class Squares {
 public:
     Squares(const MapIndex& index, fs::path folder)
-        : folder_(std::move(folder)), words_(session_words(index.drives.size())) {
+        : index_(index), folder_(std::move(folder)), words_(session_words(index.drives.size())) {
         for (const MapTile& tile : index.tiles)
-            for (const Corner& corner : squares_of(tile)) ++to_come_[corner];
+            for (const Corner& corner : squares_of(index_, tile)) ++to_come_[corner];
     }
 
     void add(const TilePoints& points, const MapTile& tile) {
@@ -67,7 +67,7 @@ public:
             io::Cloud& cloud = open_.try_emplace(corner, empty_square(words_)).first->second;
             append(cloud, points, i);
         }
-        for (const Corner& corner : squares_of(tile)) {
+        for (const Corner& corner : squares_of(index_, tile)) {
             if (--to_come_[corner] == 0) write(corner);
         }
     }
@@ -82,6 +82,7 @@ private:
         written_.insert(corner);
     }
 
+    const MapIndex& index_;
     fs::path folder_;
     std::size_t words_;
     std::map<Corner, std::size_t> to_come_;

@@ -37,16 +37,18 @@ std::size_t most_page_points(std::size_t tiles) {
 /// All that the overview says of a tile; its picture goes to the others.
 ordered_json entry_of(const MapIndex& index, const MapTile& tile, const TilePoints& points,
                       const HeightRange& heights, std::vector<std::uint8_t>& pictures) {
-    const int edge = picture_edge(tile, index.voxel_size, most_picture_edge(index.tiles.size()));
-    const std::vector<std::uint8_t> picture = picture_from_above(points, tile, edge, heights);
+    const TileSquare square = square_of(index, tile);
+    const int edge = picture_edge(square, index.voxel_size, most_picture_edge(index.tiles.size()));
+    const std::vector<std::uint8_t> picture = picture_from_above(points, square, edge, heights);
     pictures.insert(pictures.end(), picture.begin(), picture.end());
     ordered_json drives = ordered_json::array();
     const std::vector<std::uint64_t> voxels = voxels_by_drive(points, index.drives.size());
     for (std::size_t d = 0; d < voxels.size(); ++d)
         if (voxels[d] > 0) drives.push_back(d);
-    return {{"name", tile.name},      {"level", tile.level}, {"x", tile.x},  {"y", tile.y},
-            {"voxels", tile.voxels},  {"scans", tile.scans}, {"edge", edge}, {"drives", drives},
-            {"bottom", tile.min.z()}, {"top", tile.max.z()}};
+    return {{"name", tile.name},   {"west", square.west},   {"south", square.south},
+            {"side", square.side}, {"voxels", tile.voxels}, {"scans", tile.scans},
+            {"edge", edge},        {"drives", drives},      {"bottom", tile.min.z()},
+            {"top", tile.max.z()}};
 }
 
 /// Every so many positions, and the last, relative to `origin`.
@@ -75,10 +77,8 @@ void add_tracks(const std::vector<DriveTrack>& tracks, const Eigen::Vector3d& or
 /// Whole metres, so that floats hold what is relative to it.
 Eigen::Vector3d origin_of(const MapIndex& index) {
     if (index.tiles.empty()) return Eigen::Vector3d::Zero();
-    const MapTile& first = index.tiles.front();
-    const double side = side_of(first.level);
-    return {std::floor(static_cast<double>(first.x) * side),
-            std::floor(static_cast<double>(first.y) * side), 0.0};
+    const TileSquare first = square_of(index, index.tiles.front());
+    return {std::floor(first.west), std::floor(first.south), 0.0};
 }
 
 PageRun overview_of(const MapIndex& index, const ordered_json& metrics,
@@ -89,7 +89,6 @@ PageRun overview_of(const MapIndex& index, const ordered_json& metrics,
     run.info["command"] = "run";
     run.info["version"] = DYNAMIC_FILTER_VERSION;
     run.info["voxel_size"] = index.voxel_size;
-    run.info["side"] = kTileSide;
     run.info["drives"] = ordered_json::array();
     for (const MapDrive& drive : index.drives)
         run.info["drives"].push_back({{"name", drive.name}, {"scans", drive.scans}});

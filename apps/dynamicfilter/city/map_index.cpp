@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -21,6 +22,7 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr const char* kIndex = "index.json";
+constexpr const char* kWhole = "all";
 constexpr int kMostLevel = 30;
 
 /// A part of the file, and where it is, for messages.
@@ -90,7 +92,8 @@ MapTile tile_of(const ordered_json& json, const Place& place) {
     tile.voxels = place.count(json, "voxels");
     tile.scans = place.count(json, "scans");
     tile.file = place.text(json, "file");
-    if (tile.name != tile_name(tile.level, tile.x, tile.y)) {
+    tile.is_whole = tile.name == kWhole;
+    if (!tile.is_whole && tile.name != tile_name(tile.level, tile.x, tile.y)) {
         place.refuse(fmt::format("the name '{}' is not that of level {}, x {}, y {}", tile.name,
                                  tile.level, tile.x, tile.y));
     }
@@ -104,6 +107,10 @@ using Key = std::tuple<int, std::int64_t, std::int64_t>;
 /// A place that two tiles cover would be in every export twice.
 void refuse_overlaps(const MapIndex& index, const Place& place) {
     std::set<Key> keys;
+    const bool has_whole = std::any_of(index.tiles.begin(), index.tiles.end(),
+                                       [](const MapTile& tile) { return tile.is_whole; });
+    if (has_whole && index.tiles.size() > 1)
+        place.refuse("tile all covers everything, but there are others");
     for (const MapTile& tile : index.tiles) {
         if (!keys.emplace(tile.level, tile.x, tile.y).second)
             place.refuse(fmt::format("tile {} is listed twice", tile.name));
@@ -146,7 +153,17 @@ std::string lines_of(const List& list, const ToJson& to_object) {
 
 }  // namespace
 
-double side_of(int level) { return std::ldexp(kTileSide, level); }
+double side_of(double voxel_size, int level) { return std::ldexp(kTileVoxels * voxel_size, level); }
+
+TileSquare square_of(const MapIndex& index, const MapTile& tile) {
+    if (tile.is_whole) {
+        const Eigen::Vector2d low = tile.min.head<2>().array() - index.voxel_size / 2.0;
+        const Eigen::Vector2d size = (tile.max - tile.min).head<2>();
+        return {low.x(), low.y(), size.maxCoeff() + index.voxel_size};
+    }
+    const double side = side_of(index.voxel_size, tile.level);
+    return {static_cast<double>(tile.x) * side, static_cast<double>(tile.y) * side, side};
+}
 
 std::string tile_name(int level, std::int64_t x, std::int64_t y) {
     return fmt::format("{}_{}_{}", level, x, y);

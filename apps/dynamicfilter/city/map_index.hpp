@@ -10,8 +10,9 @@
 
 namespace dynamic_filter::app {
 
-inline constexpr double kTileSide = 25.6;  ///< [m] of a tile of level 0; each level doubles it
-inline constexpr int kMapVersion = 1;      ///< of the index; others are refused
+inline constexpr int kTileVoxels =
+    128;  ///< along the side of a tile of level 0; each level doubles it
+inline constexpr int kMapVersion = 1;  ///< of the index; others are refused
 
 /// A recording that the map was made of.
 struct MapDrive {
@@ -22,14 +23,15 @@ struct MapDrive {
 
 /// A square of the ground, with all voxels above and below it.
 struct MapTile {
-    std::string name;                               ///< "LEVEL_X_Y"
-    int level = 0;                                  ///< its side is kTileSide * 2^level
+    std::string name;                               ///< "LEVEL_X_Y", or "all"
+    int level = 0;                                  ///< its side is side_of(voxel_size, level)
     std::int64_t x = 0, y = 0;                      ///< it covers [x, x+1) * side, [y, y+1) * side
     Eigen::Vector3d min = Eigen::Vector3d::Zero();  ///< [m] of its voxels, in the world frame
     Eigen::Vector3d max = Eigen::Vector3d::Zero();  ///< [m]
     std::uint64_t voxels = 0;                       ///< in its file
     std::uint64_t scans = 0;                        ///< that reached it
     std::string file;                               ///< beside the index
+    bool is_whole = false;                          ///< "all": the only tile, without bounds
     bool operator==(const MapTile&) const = default;
 };
 
@@ -41,8 +43,17 @@ struct MapIndex {
     bool operator==(const MapIndex&) const = default;
 };
 
-/// [m]
-double side_of(int level);
+/// Of the tiles of a level [m].
+double side_of(double voxel_size, int level);
+
+/// A square of the ground [m], in the world frame.
+struct TileSquare {
+    double west = 0.0, south = 0.0, side = 0.0;
+};
+
+/// What a tile covers; of the only tile, a square around its voxels.
+TileSquare square_of(const MapIndex& index, const MapTile& tile);
+
 std::string tile_name(int level, std::int64_t x, std::int64_t y);
 
 /// Whether this is the output folder of a run over many drives, its map folder, or map/index.json.

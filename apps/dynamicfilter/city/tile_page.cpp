@@ -19,7 +19,7 @@ struct Square {
     std::int64_t west, south, east, north;
 };
 
-Square square_of(const MapTile& tile) {
+Square units_of(const MapTile& tile) {
     const std::int64_t side = std::int64_t{1} << tile.level;
     return {tile.x * side, tile.y * side, (tile.x + 1) * side, (tile.y + 1) * side};
 }
@@ -36,9 +36,9 @@ std::string direction_of(const Square& tile, const Square& other) {
 
 ordered_json neighbours_of(const MapIndex& index, const MapTile& tile) {
     ordered_json list = ordered_json::array();
-    const Square square = square_of(tile);
+    const Square square = units_of(tile);
     for (const MapTile& other : index.tiles) {
-        const std::string direction = direction_of(square, square_of(other));
+        const std::string direction = direction_of(square, units_of(other));
         if (!direction.empty()) list.push_back({{"name", other.name}, {"where", direction}});
     }
     return list;
@@ -141,7 +141,7 @@ ordered_json facts_of(const MapIndex& index, const MapTile& tile, const TilePoin
         if (voxels[d] > 0)
             drives.push_back({{"name", index.drives[d].name}, {"voxels", voxels[d]}});
     return {{"overview", "../report.html"},
-            {"side", side_of(tile.level)},
+            {"side", square_of(index, tile).side},
             {"voxels", tile.voxels},
             {"scans", tile.scans},
             {"drives", drives},

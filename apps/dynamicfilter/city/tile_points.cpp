@@ -65,14 +65,15 @@ void take_positions(const io::Cloud& cloud, const fs::path& file, TilePoints& po
     }
 }
 
-/// A voxel elsewhere would be in no export, or in the wrong place of one.
-void check_places(const TilePoints& points, const MapTile& tile, const fs::path& file) {
-    const double side = side_of(tile.level);
-    const Eigen::Array2d low =
-        side * Eigen::Array2d(static_cast<double>(tile.x), static_cast<double>(tile.y));
+/// A voxel elsewhere would be in the wrong place of an export. Centres are sums of floats.
+void check_places(const TilePoints& points, const MapIndex& index, const MapTile& tile,
+                  const fs::path& file) {
+    const TileSquare square = square_of(index, tile);
+    const double slack = index.voxel_size / 2.0;
+    const Eigen::Array2d low = Eigen::Array2d(square.west, square.south) - slack;
     for (const Eigen::Vector3d& p : points.positions) {
         const Eigen::Array2d at = p.head<2>().array() - low;
-        if (p.allFinite() && (at >= 0.0).all() && (at < side).all()) continue;
+        if (p.allFinite() && (at >= 0.0).all() && (at <= square.side + 2.0 * slack).all()) continue;
         throw InputError(file, "",
                          fmt::format("the voxel at {:.2f} {:.2f} {:.2f} lies outside of tile {}; "
                                      "is the file damaged?",
@@ -96,6 +97,11 @@ std::size_t session_words(std::size_t drives) {
 
 TilePoints read_tile(const fs::path& folder, const MapIndex& index, const MapTile& tile) {
     const fs::path file = folder / tile.file;
+    if (tile.voxels == 0) {  // then there need not be a file
+        TilePoints none;
+        none.words = session_words(index.drives.size());
+        return none;
+    }
     const io::Cloud cloud = io::read_pcd(file);
     if (cloud.size() != tile.voxels) {
         throw InputError(file, "",
@@ -110,7 +116,7 @@ TilePoints read_tile(const fs::path& folder, const MapIndex& index, const MapTil
     take(cloud, field_of(cloud, file, "scans", io::FieldType::u32, 1), points.scans);
     take(cloud, field_of(cloud, file, "sessions", io::FieldType::u32, points.words),
          points.sessions);
-    check_places(points, tile, file);
+    check_places(points, index, tile, file);
     return points;
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -59,7 +60,11 @@ void write_content(Writer& writer, const std::string& name, const TilePoints& po
     ++writer.written;
 }
 
-double spacing_of(int level) { return side_of(level) / kCubesPerSide; }
+double side_at(const Writer& writer, int level) { return side_of(writer.index.voxel_size, level); }
+
+double spacing_of(const Writer& writer, int level) {
+    return side_at(writer, level) / kCubesPerSide;
+}
 
 /// A square whose content is what is left of its parts.
 Done write_above(Writer& writer, const TreeNode& node, std::vector<Done> below,
@@ -74,7 +79,7 @@ Done write_above(Writer& writer, const TreeNode& node, std::vector<Done> below,
         children.push_back(std::move(child.json));
     }
     done.json = {{"boundingVolume", box_of(done.box)},
-                 {"geometricError", side_of(node.level) / kErrorsPerSide}};
+                 {"geometricError", side_at(writer, node.level) / kErrorsPerSide}};
     write_content(writer, node.name, points, done.box, done.json);
     done.json["children"] = std::move(children);
     done.above = thinned(points, spacing_above);
@@ -93,34 +98,41 @@ Done write_whole(Writer& writer, const std::string& name, const TilePoints& poin
     return done;
 }
 
-/// A quarter of a square, and the voxels in it.
-struct Quarter {
+/// A square of the quadtree, and the voxels in it.
+struct Square {
     std::int64_t x = 0, y = 0;
     TilePoints points;
 };
 
-std::vector<Quarter> quarters_of(const TilePoints& points, int level) {
-    std::map<std::pair<std::int64_t, std::int64_t>, TilePoints> quarters;
+/// By the squares of this side. `parent`: the square that all lie in; voxels on its border count as
+/// within, so that no file has the name of another tile's.
+std::vector<Square> squares_of(const TilePoints& points, double side, const Square* parent) {
+    std::map<std::pair<std::int64_t, std::int64_t>, TilePoints> squares;
     for (std::size_t i = 0; i < points.size(); ++i) {
-        const Eigen::Array3d at = (points.positions[i].array() / side_of(level)).floor();
-        TilePoints& quarter = quarters[{std::llround(at.y()), std::llround(at.x())}];
-        quarter.words = points.words;
-        quarter.append(points, i);
+        std::int64_t x = std::llround(std::floor(points.positions[i].x() / side));
+        std::int64_t y = std::llround(std::floor(points.positions[i].y() / side));
+        if (parent != nullptr) {
+            x = std::clamp(x, 2 * parent->x, 2 * parent->x + 1);
+            y = std::clamp(y, 2 * parent->y, 2 * parent->y + 1);
+        }
+        TilePoints& square = squares[{y, x}];
+        square.words = points.words;
+        square.append(points, i);
     }
-    std::vector<Quarter> result;
-    for (auto& [at, quarter] : quarters)
-        result.push_back({at.second, at.first, std::move(quarter)});
+    std::vector<Square> result;
+    for (auto& [at, square] : squares) result.push_back({at.second, at.first, std::move(square)});
     return result;
 }
 
 /// A tile, or a part of one that has more voxels than a viewer takes at once.
-Done write_square(Writer& writer, int level, const Quarter& square, double spacing_above) {
+Done write_square(Writer& writer, int level, const Square& square, double spacing_above) {
     const std::string name = tile_name(level, square.x, square.y);
     if (level == 0 || square.points.size() <= kMostTogether)
         return write_whole(writer, name, square.points, spacing_above);
     std::vector<Done> parts;
-    for (const Quarter& quarter : quarters_of(square.points, level - 1))
-        parts.push_back(write_square(writer, level - 1, quarter, spacing_of(level)));
+    const double half = side_at(writer, level - 1);
+    for (const Square& quarter : squares_of(square.points, half, &square))
+        parts.push_back(write_square(writer, level - 1, quarter, spacing_of(writer, level)));
     if (parts.size() == 1) {
         parts.front().above = thinned(parts.front().above, spacing_above);
         return std::move(parts.front());
@@ -128,15 +140,30 @@ Done write_square(Writer& writer, int level, const Quarter& square, double spaci
     return write_above(writer, {name, level, nullptr, {}}, std::move(parts), spacing_above);
 }
 
+/// The only tile has no square of its own: those of the first level at which they are few.
+Done write_everything(Writer& writer, const MapTile& tile, const TreeNode& node) {
+    const TilePoints points = read_tile(writer.folder, writer.index, tile);
+    const double extent = square_of(writer.index, tile).side;
+    int level = 0;
+    while (side_at(writer, level) < extent) ++level;
+    std::vector<Done> parts;
+    for (const Square& square : squares_of(points, side_at(writer, level), nullptr))
+        parts.push_back(write_square(writer, level, square, spacing_of(writer, level + 1)));
+    if (parts.size() == 1) return std::move(parts.front());
+    return write_above(writer, {node.name, level + 1, nullptr, {}}, std::move(parts),
+                       spacing_of(writer, level + 2));
+}
+
 Done write_node(Writer& writer, const TreeNode& node, double spacing_above) {
     if (const MapTile* tile = node.tile) {
+        if (tile->is_whole) return write_everything(writer, *tile, node);
         return write_square(writer, tile->level,
                             {tile->x, tile->y, read_tile(writer.folder, writer.index, *tile)},
                             spacing_above);
     }
     std::vector<Done> below;
     for (const TreeNode& child : node.children)
-        below.push_back(write_node(writer, child, spacing_of(node.level)));
+        below.push_back(write_node(writer, child, spacing_of(writer, node.level)));
     return write_above(writer, node, std::move(below), spacing_above);
 }
 
@@ -200,12 +227,13 @@ std::size_t write_tileset(const MapIndex& index, const fs::path& folder,
     const TreeNode tree = tree_of(filled, folder);
     Writer writer{index, folder, output / "tiles", usual_heights(filled)};
     fs::create_directories(writer.tiles);
-    Done root = write_node(writer, tree, spacing_of(tree.level + 1));
+    Done root = write_node(writer, tree, spacing_of(writer, tree.level + 1));
     root.json["refine"] = "REPLACE";
     if (origin) root.json["transform"] = column_major(earth_from_world(*origin));
     const ordered_json tileset = {
         {"asset", {{"version", "1.1"}, {"generator", "DynamicFilter " DYNAMIC_FILTER_VERSION}}},
-        {"geometricError", side_of(tree.level + 1) / kErrorsPerSide},
+        {"geometricError", root.json["geometricError"].get<double>() +
+                               side_at(writer, tree.level + 1) / kErrorsPerSide},
         {"root", std::move(root.json)}};
     io::write_file(output / "tileset.json", tileset.dump() + "\n");
     return writer.written;

@@ -90,6 +90,37 @@ TEST(MapIndex, TilesDoNotOverlap) {
     expect_complaint(to_json(index), "tile 0_-1_0 lies within tile 3_-1_0");
 }
 
+/// A map that needs no tiles has a single one without bounds.
+TEST(MapIndex, TheOnlyTileCoversItsVoxels) {
+    MapTile all = tile(0, 0, 0);
+    all.name = "all";
+    all.file = "all.pcd";
+    all.min = {-3.0, 10.0, 0.0};
+    all.max = {200.0, 30.0, 5.0};
+    MapIndex index{kMapVersion, 0.2, {{"a", 1}}, {all}};
+    const test::TemporaryFolder folder;
+    write_map_index(folder.path(), index);
+    index.tiles[0].is_whole = true;
+    EXPECT_EQ(read_map_index(folder.path()), index);
+    const TileSquare square = square_of(index, index.tiles[0]);
+    EXPECT_NEAR(square.west, -3.1, 1e-12);
+    EXPECT_NEAR(square.south, 9.9, 1e-12);
+    EXPECT_NEAR(square.side, 203.2, 1e-12);
+    index.tiles.push_back(tile(1, 0, 3));
+    expect_complaint(to_json(index), "but there are others");
+}
+
+TEST(MapIndex, TheSideOfATileIsAPowerOfTwoOfVoxels) {
+    EXPECT_DOUBLE_EQ(side_of(0.2, 0), 25.6);
+    EXPECT_DOUBLE_EQ(side_of(0.1, 3), 102.4);
+    MapIndex index = small_index();
+    index.voxel_size = 0.5;
+    const TileSquare square = square_of(index, tile(1, -2, 3));
+    EXPECT_EQ(square.west, -256.0);
+    EXPECT_EQ(square.south, 384.0);
+    EXPECT_EQ(square.side, 128.0);
+}
+
 TEST(MapIndex, IsFoundFromEachOfItsFolders) {
     const test::TemporaryFolder folder;
     EXPECT_FALSE(is_city_map(folder.path()));

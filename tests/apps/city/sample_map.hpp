@@ -34,7 +34,7 @@ inline double sample_height(double x, double y) {
 /// Roofs, walls and ground of a square; one column of voxels every `step`.
 inline std::vector<SampleVoxel> sample_voxels(const MapTile& tile, std::size_t drives,
                                               double step) {
-    const double side = side_of(tile.level);
+    const double side = side_of(kSampleVoxel, tile.level);
     const Eigen::Vector2d low(static_cast<double>(tile.x) * side,
                               static_cast<double>(tile.y) * side);
     const std::size_t words = std::max<std::size_t>(1, (drives + 31) / 32);

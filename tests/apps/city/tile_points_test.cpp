@@ -57,6 +57,12 @@ TEST(TilePoints, FilesThatDoNotFitTheIndexAreRefused) {
     expect_refused(index.tiles[0], "field 'sessions'");
 }
 
+TEST(TilePoints, ATileWithoutVoxelsNeedsNoFile) {
+    MapIndex index;
+    index.tiles.emplace_back();
+    EXPECT_EQ(read_tile("/nowhere", index, index.tiles[0]).size(), 0U);
+}
+
 TEST(TilePoints, ThinningKeepsOnePerCube) {
     const test::TemporaryFolder folder;
     const MapIndex index = write_sample_map(folder.path());

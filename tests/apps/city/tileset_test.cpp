@@ -163,6 +163,38 @@ TEST_F(Tileset, ATileOfManyVoxelsIsCutIntoQuarters) {
     EXPECT_GT(written_, 2 * index_.tiles.size());
 }
 
+/// As if the map of one tile had been written without tiles, around the origin.
+TEST_F(Tileset, TheOnlyTileIsCutIntoSquaresOfTheTree) {
+    MapIndex index = write_sample_map(folder_.path(), 3, 2, 0.8);
+    MapTile all = index.tiles.front();
+    const std::vector<std::string> around{"2_-1_-1", "2_-1_0", "2_0_-1", "2_0_0"};
+    io::Cloud cloud;
+    for (const std::string& name : around) {
+        const io::Cloud part = io::read_cloud(folder_ / ("map/" + name + ".pcd"));
+        if (cloud.fields.empty())
+            cloud = part;
+        else
+            cloud.data.insert(cloud.data.end(), part.data.begin(), part.data.end());
+    }
+    io::write_pcd(folder_ / "map/all.pcd", cloud);
+    all.name = "all";
+    all.file = "all.pcd";
+    all.is_whole = true;
+    all.level = 0;
+    all.x = all.y = 0;
+    all.voxels = cloud.size();
+    all.min = {-102.3, -102.3, -3.0};
+    all.max = {102.3, 102.3, 30.0};
+    index.tiles = {all};
+    write_tileset(index, folder_ / "map", std::nullopt, folder_ / "out");
+    const json tileset = json::parse(test::slurp(folder_ / "out/tileset.json"));
+    std::size_t points = 0;
+    visit(tileset["root"], [&](const json& tile) {
+        if (!tile.contains("children")) points += content(tile).positions().size();
+    });
+    EXPECT_EQ(points, all.voxels);
+}
+
 TEST_F(Tileset, TilesWithoutVoxelsAreLeftOut) {
     MapIndex index = write_sample_map(folder_.path());
     MapTile none;
