@@ -189,7 +189,7 @@ export function makeCity() {
   const edge = 32;
   const squares = [[2, 0, 0, [0]], [2, 1, 0, [0]], [2, 0, 1, [0, 1]], [1, 2, 2, [1]], [1, 3, 2, [1]], [1, 2, 3, [1]]];
   const tiles = squares.map(([level, x, y, drives], i) => ({
-    name: `${level}_${x}_${y}`, west: x * 25.6 * 2 ** level, south: y * 25.6 * 2 ** level, side: 25.6 * 2 ** level, voxels: 1000 * (i + 1), scans: 100 * (i + 1), edge, drives, bottom: -1, top: 9,
+    name: `${level}_${x}_${y}`, west: x * 25.6 * 2 ** level, south: y * 25.6 * 2 ** level, side: 25.6 * 2 ** level, voxels: 1000 * (i + 1), scans: 100 * (i + 1), picture: [x * 25.6 * 2 ** level, y * 25.6 * 2 ** level, 25.6 * 2 ** level], edge, drives, bottom: -1, top: 9,
   }));
   const pictures = new Uint8Array(tiles.length * edge * edge);
   tiles.forEach((_, i) => {

@@ -72,7 +72,8 @@ export class CityMap {
   constructor(element, { tiles, origin, tracks }, settings) {
     this.element = element;
     this.settings = settings;
-    this.tiles = tiles.map((tile) => ({ ...tile, west: tile.west - origin[0], south: tile.south - origin[1] }));
+    const placed = (west, south, side) => ({ west: west - origin[0], south: south - origin[1], side });
+    this.tiles = tiles.map((tile) => ({ ...tile, ...placed(tile.west, tile.south, tile.side), filled: placed(...tile.picture) }));
     this.tracks = tracks;
     this.canvas = document.createElement("canvas");
     this.canvas.tabIndex = 0;
@@ -109,10 +110,10 @@ export class CityMap {
     this.redraw();
   }
 
-  /** The box of all tiles [west, south, east, north], m. */
+  /** The box of what all tiles hold [west, south, east, north], m. */
   get extent() {
     const box = [Infinity, Infinity, -Infinity, -Infinity];
-    for (const { west, south, side } of this.tiles) {
+    for (const { filled: { west, south, side } } of this.tiles) {
       box[0] = Math.min(box[0], west);
       box[1] = Math.min(box[1], south);
       box[2] = Math.max(box[2], west + side);
@@ -197,8 +198,9 @@ export class CityMap {
     const { context, settings } = this;
     const { value } = MEASURES[settings.colour];
     if (this.atlas && tile.edge) {
-      context.imageSmoothingEnabled = size < 2 * tile.edge;
-      context.drawImage(this.atlas.canvas, ...this.atlas.place(i), tile.edge, tile.edge, left, top, size, size);
+      const [x, y, pixels] = this.#boxOf(tile.filled);
+      context.imageSmoothingEnabled = pixels < 2 * tile.edge;
+      context.drawImage(this.atlas.canvas, ...this.atlas.place(i), tile.edge, tile.edge, x, y, pixels, pixels);
     }
     if (value) {
       this.most ??= {};
@@ -244,14 +246,15 @@ export class CityMap {
   #drawName(tile, [left, top, size]) {
     if (!this.settings.outlines || size < 74) return;
     const { context } = this;
+    const x = Math.max(left, 0), y = Math.max(top, 0);  // of a large tile the corner may be far away
     const { value } = MEASURES[this.settings.colour];
     const lines = [tile.name, ...(value ? [value(tile).toLocaleString("en-GB")] : [])];
     context.font = "12px system-ui, sans-serif";
     const width = Math.max(...lines.map((line) => context.measureText(line).width));
     context.fillStyle = currentTheme() === "dark" ? "rgb(14 17 22 / 72%)" : "rgb(255 255 255 / 78%)";
-    context.fillRect(left + 4, top + 4, width + 10, 16 * lines.length + 4);
+    context.fillRect(x + 4, y + 4, width + 10, 16 * lines.length + 4);
     context.fillStyle = kindColour(currentTheme(), "mark");
-    lines.forEach((line, i) => context.fillText(line, left + 9, top + 18 + 16 * i));
+    lines.forEach((line, i) => context.fillText(line, x + 9, y + 18 + 16 * i));
   }
 
   #drawSelected() {

@@ -37,17 +37,24 @@ std::size_t most_page_points(std::size_t tiles) {
 /// All that the overview says of a tile; its picture goes to the others.
 ordered_json entry_of(const MapIndex& index, const MapTile& tile, const TilePoints& points,
                       const HeightRange& heights, std::vector<std::uint8_t>& pictures) {
-    const TileSquare square = square_of(index, tile);
-    const int edge = picture_edge(square, index.voxel_size, most_picture_edge(index.tiles.size()));
-    const std::vector<std::uint8_t> picture = picture_from_above(points, square, edge, heights);
+    const TileSquare square = square_of(index, tile), filled = filled_square(index, tile);
+    const int edge = picture_edge(filled, index.voxel_size, most_picture_edge(index.tiles.size()));
+    const std::vector<std::uint8_t> picture = picture_from_above(points, filled, edge, heights);
     pictures.insert(pictures.end(), picture.begin(), picture.end());
     ordered_json drives = ordered_json::array();
     const std::vector<std::uint64_t> voxels = voxels_by_drive(points, index.drives.size());
     for (std::size_t d = 0; d < voxels.size(); ++d)
         if (voxels[d] > 0) drives.push_back(d);
-    return {{"name", tile.name},   {"west", square.west},   {"south", square.south},
-            {"side", square.side}, {"voxels", tile.voxels}, {"scans", tile.scans},
-            {"edge", edge},        {"drives", drives},      {"bottom", tile.min.z()},
+    return {{"name", tile.name},
+            {"west", square.west},
+            {"south", square.south},
+            {"side", square.side},
+            {"voxels", tile.voxels},
+            {"scans", tile.scans},
+            {"picture", {filled.west, filled.south, filled.side}},
+            {"edge", edge},
+            {"drives", drives},
+            {"bottom", tile.min.z()},
             {"top", tile.max.z()}};
 }
 

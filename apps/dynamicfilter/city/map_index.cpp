@@ -155,12 +155,14 @@ std::string lines_of(const List& list, const ToJson& to_object) {
 
 double side_of(double voxel_size, int level) { return std::ldexp(kTileVoxels * voxel_size, level); }
 
+TileSquare filled_square(const MapIndex& index, const MapTile& tile) {
+    const Eigen::Vector2d low = tile.min.head<2>().array() - index.voxel_size / 2.0;
+    const Eigen::Vector2d size = (tile.max - tile.min).head<2>();
+    return {low.x(), low.y(), size.maxCoeff() + index.voxel_size};
+}
+
 TileSquare square_of(const MapIndex& index, const MapTile& tile) {
-    if (tile.is_whole) {
-        const Eigen::Vector2d low = tile.min.head<2>().array() - index.voxel_size / 2.0;
-        const Eigen::Vector2d size = (tile.max - tile.min).head<2>();
-        return {low.x(), low.y(), size.maxCoeff() + index.voxel_size};
-    }
+    if (tile.is_whole) return filled_square(index, tile);
     const double side = side_of(index.voxel_size, tile.level);
     return {static_cast<double>(tile.x) * side, static_cast<double>(tile.y) * side, side};
 }

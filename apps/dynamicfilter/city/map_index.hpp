@@ -51,7 +51,10 @@ struct TileSquare {
     double west = 0.0, south = 0.0, side = 0.0;
 };
 
-/// What a tile covers; of the only tile, a square around its voxels.
+/// The smallest square that holds the voxels of a tile: large tiles are often filled in part.
+TileSquare filled_square(const MapIndex& index, const MapTile& tile);
+
+/// What a tile covers; of the only tile, filled_square().
 TileSquare square_of(const MapIndex& index, const MapTile& tile);
 
 std::string tile_name(int level, std::int64_t x, std::int64_t y);
