@@ -97,8 +97,9 @@ struct ConvertOptions {
     DataOptions data;
     std::filesystem::path output;
     std::optional<std::filesystem::path> labels;
-    std::string
-        to;  ///< layout of a folder: kitti, benchmark or autoware; empty: by the output's name
+    std::string to;      ///< layout of a folder: kitti, benchmark, autoware, 3dtiles or las; empty:
+                         ///< by the output's name
+    std::string origin;  ///< of 3dtiles: LAT,LON[,HEIGHT]; may be empty
     bool overwrite = false;
 };
 

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "city/map_index.hpp"
 #include "commands.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/io/cloud.hpp"
@@ -41,6 +42,12 @@ std::string run_of(const fs::path& result, std::size_t number, const io::Sequenc
                    double voxel) {
     if (fs::is_directory(result)) {
         const fs::path page = result / "report.html";
+        if (is_city_map(result)) {
+            throw ConfigError(result.string() +
+                              ": is the map of several drives, whose report has pages of its own; "
+                              "open " +
+                              page.string());
+        }
         if (!fs::exists(page)) {
             throw InputError(result, "",
                              "holds no report.html; expected the output folder of a run (without "

@@ -5,6 +5,9 @@
 #include <map>
 #include <numeric>
 
+#include "city/autoware_tiles.hpp"
+#include "city/convert_map.hpp"
+#include "city/map_index.hpp"
 #include "commands.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/io/bag.hpp"
@@ -41,6 +44,15 @@ Labels labels_of(const ConvertOptions& o, const io::Sequence& sequence, std::siz
         fmt::format("{}: {} labels for the {} points of scan {}; are they of another "
                     "recording?",
                     folder.string(), labels.size(), frame.points.size(), io::stem(sequence, i)));
+}
+
+/// Of options that are for the map of several drives only.
+void refuse_map_options(const ConvertOptions& o) {
+    if (o.to != "3dtiles" && o.to != "las" && o.origin.empty()) return;
+    throw ConfigError(fmt::format(
+        "{}: {} is for the map of several drives, which `dynamicfilter run A B ... -o OUT` makes; "
+        "give OUT as IN",
+        o.data.data.string(), o.origin.empty() ? "--to " + o.to : "--origin"));
 }
 
 int convert_recording(const ConvertOptions& o) {
@@ -80,34 +92,28 @@ int convert_recording(const ConvertOptions& o) {
     return rejected.empty() && sequence.losses.empty() ? kDone : kRejected;
 }
 
-/// Autoware's map tiles: squares of the ground, each a PCD, and where its lower corner is.
 int write_tiles(const io::Cloud& cloud, const ConvertOptions& o) {
-    constexpr int kTile = 20;  // [m]
     OutputFolder output(o.output, Contents::tiles, replaced_if(o.overwrite));
     const auto x = io::values(cloud, *cloud.find("x")), y = io::values(cloud, *cloud.find("y"));
-    std::map<std::pair<int, int>, io::Cloud> tiles;
+    std::map<Corner, io::Cloud> tiles;
     std::size_t nowhere = 0;
     for (std::size_t i = 0; i < cloud.size(); ++i) {
         if (!std::isfinite(x[i]) || !std::isfinite(y[i])) {
             ++nowhere;
             continue;
         }
-        const auto corner = [](double v) {
-            return kTile * static_cast<int>(std::floor(v / kTile));
-        };
-        io::Cloud& tile = tiles[{corner(x[i]), corner(y[i])}];
+        io::Cloud& tile = tiles[{autoware_corner(x[i]), autoware_corner(y[i])}];
         tile.fields = cloud.fields;
         tile.point_bytes = cloud.point_bytes;
         append_record(tile.data, cloud.data, i, cloud.point_bytes);
     }
     const fs::path folder = output.subfolder("pointcloud_map");
-    std::string metadata = fmt::format("x_resolution: {0}.0\ny_resolution: {0}.0\n", kTile);
+    std::vector<Corner> corners;
     for (const auto& [corner, tile] : tiles) {
-        const std::string name = fmt::format("{}_{}.pcd", corner.first, corner.second);
-        io::write_pcd(folder / name, tile);
-        metadata += fmt::format("{}: [{}, {}]\n", name, corner.first, corner.second);
+        io::write_pcd(folder / autoware_name(corner), tile);
+        corners.push_back(corner);
     }
-    io::write_file(output.path() / "pointcloud_map_metadata.yaml", metadata);
+    io::write_file(output.path() / "pointcloud_map_metadata.yaml", autoware_metadata(corners));
     output.commit();
     if (nowhere > 0) say(fmt::format("left out: {} points that are not finite", nowhere));
     fmt::print("written  {} ({} tiles)\n", output.name().string(), tiles.size());
@@ -137,6 +143,8 @@ int convert(const ConvertOptions& o) {
             throw ConfigError(o.output.string() + ": lies within the recording; choose another");
         }
     }
+    if (o.data.format.empty() && is_city_map(o.data.data)) return convert_map(o);
+    refuse_map_options(o);
     const bool recording = !o.data.format.empty() || fs::is_directory(o.data.data, ignored) ||
                            io::Bag::recognises(o.data.data);
     return recording ? convert_recording(o) : convert_cloud(o);

@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
 
+#include "city/map_index.hpp"
 #include "commands.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/io/bag.hpp"
@@ -143,10 +145,40 @@ void describe_bag(const std::filesystem::path& path) {
     }
 }
 
+/// The map of several drives.
+void describe_map(const std::filesystem::path& path) {
+    const MapIndex index = read_map_index(map_folder_of(path));
+    std::map<int, std::size_t> levels;
+    std::uint64_t voxels = 0;
+    Eigen::AlignedBox3d box;
+    for (const MapTile& tile : index.tiles) {
+        ++levels[tile.level];
+        voxels += tile.voxels;
+        if (tile.voxels > 0) box.extend(tile.min).extend(tile.max);
+    }
+    fmt::print("{}\n  format  map of several drives, version {}\n  tiles   {}\n", path.string(),
+               index.version, index.tiles.size());
+    const bool is_whole = !index.tiles.empty() && index.tiles.front().is_whole;
+    if (is_whole) levels.clear();  // it has no side
+    for (const auto& [level, tiles] : levels)
+        fmt::print("          {} with a side of {} m\n", tiles, side_of(index.voxel_size, level));
+    fmt::print("  voxels  {} of {} m\n", voxels, index.voxel_size);
+    if (!box.isEmpty()) {
+        fmt::print("  from    {:.1f} {:.1f} {:.1f}\n  to      {:.1f} {:.1f} {:.1f}\n",
+                   box.min().x(), box.min().y(), box.min().z(), box.max().x(), box.max().y(),
+                   box.max().z());
+    }
+    fmt::print("  drives  {}\n", index.drives.size());
+    for (const MapDrive& drive : index.drives)
+        fmt::print("  {:<28} {:>7} scans\n", drive.name, drive.scans);
+}
+
 }  // namespace
 
 int info(const std::filesystem::path& file) {
-    if (io::Bag::recognises(file)) {
+    if (is_city_map(file)) {
+        describe_map(file);
+    } else if (io::Bag::recognises(file)) {
         describe_bag(file);
         describe_scans_of_bag(file);
     } else if (std::filesystem::is_regular_file(file)) {

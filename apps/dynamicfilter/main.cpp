@@ -291,9 +291,14 @@ void add_convert(CLI::App& app, std::function<int()>& chosen) {
          "bag (.mcap, .bag, .db3), folder, or cloud file (.pcd, .ply, .las, .npy, .bin): of "
          "a recording, all its points in the world's frame")
         ->required();
-    c.add_option("--to", o->to,
-                 "layout of the output folder: kitti (default), benchmark, or autoware (map tiles)")
-        ->check(CLI::IsMember({"kitti", "benchmark", "autoware"}));
+    c.add_option(
+         "--to", o->to,
+         "layout of the output folder: kitti (default), benchmark, or autoware (map tiles); "
+         "of the map of several drives: 3dtiles, las or autoware")
+        ->check(CLI::IsMember({"kitti", "benchmark", "autoware", "3dtiles", "las"}));
+    c.add_option("--origin", o->origin,
+                 "with --to 3dtiles: LAT,LON[,HEIGHT] of the world's origin, whose x points to the "
+                 "east (default: the tiles stay in the world frame)");
     c.add_option(
         "--labels", o->labels,
         "output folder of a run, or its labels (default: the ground truth of the recording)");
@@ -407,7 +412,8 @@ void add_others(CLI::App& app, std::function<int()>& chosen) {
     o.callback([=, &chosen] { chosen = [=] { return odometry(*track); }; });
 
     auto file = std::make_shared<std::filesystem::path>();
-    CLI::App& i = *app.add_subcommand("info", "Describe a point cloud file or a recording");
+    CLI::App& i = *app.add_subcommand(
+        "info", "Describe a point cloud file, a recording, or the map of several drives");
     i.add_option("FILE", *file, "point cloud file, bag or folder")->required();
     i.callback([=, &chosen] { chosen = [=] { return info(*file); }; });
 

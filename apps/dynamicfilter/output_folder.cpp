@@ -44,13 +44,20 @@ Names written_by(Contents contents) {
                      {"map", ".json"},
                      {"tiles", ".pcd"},
                      {"tiles", ".tile"},
-                     {"tiles", ""}}};
+                     {"tiles", ""},
+                     {"report", ".html"},
+                     {"report", ".js"},
+                     {"report", ".css"}}};
         case Contents::recording:
             return {{"poses.txt", "times.txt"}, {{"labels", ".label"}, {"velodyne", ".bin"}}};
         case Contents::benchmark:
             return {{"gt_cloud.pcd"}, {{"pcd", ".pcd"}}};
         case Contents::tiles:
             return {{"pointcloud_map_metadata.yaml"}, {{"pointcloud_map", ".pcd"}}};
+        case Contents::tiles_3d:
+            return {{"tileset.json"}, {{"tiles", ".glb"}}};
+        case Contents::las_tiles:
+            return {{"index.json"}, {{"las", ".las"}}};
         case Contents::demo:
             break;  // its recording and its result are folders with contents of their own
     }

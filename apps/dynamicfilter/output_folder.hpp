@@ -7,7 +7,7 @@
 namespace dynamic_filter::app {
 
 /// What a command writes into its folder: all that --overwrite may remove.
-enum class Contents { result, recording, benchmark, tiles, demo };
+enum class Contents { result, recording, benchmark, tiles, tiles_3d, las_tiles, demo };
 
 /// What becomes of an earlier result in the folder.
 enum class Existing {

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "apps/city/sample_map.hpp"
 #include "dynamic_filter/io/cloud.hpp"
 #include "dynamic_filter/io/sequence.hpp"
 #include "dynamic_filter/io/writers.hpp"
@@ -686,6 +687,47 @@ TEST_F(Command, ConvertWritesMapsAndSplitScans) {
     EXPECT_FALSE(fs::exists(folder_ / "y.mcap"));
     EXPECT_EQ(run("convert " + data + " half --labels " + data + "/velodyne"), 3);
     EXPECT_FALSE(fs::exists(folder_ / "half"));
+}
+
+TEST_F(Command, TheMapOfSeveralDrivesIsConverted) {
+    const app::MapIndex index = app::write_sample_map(folder_ / "city");
+    for (const char* from : {"city", "city/map", "city/map/index.json"}) {
+        ASSERT_EQ(run(fmt::format("convert {} tiles --to 3dtiles --overwrite", from)), 0) << said();
+        expect_said("19 tiles as");
+    }
+    const std::string plain = slurp(folder_ / "tiles/tileset.json");
+    EXPECT_TRUE(fs::exists(folder_ / "tiles/tiles/0_2_2.glb"));
+    EXPECT_EQ(run("convert city tiles --to 3dtiles"), 2);
+    expect_said("not empty");
+    const std::string before = slurp(folder_ / "tiles/tiles/root.glb");
+    ASSERT_EQ(run("convert city tiles --to 3dtiles --overwrite --origin 48.1,11.6"), 0) << said();
+    EXPECT_NE(slurp(folder_ / "tiles/tileset.json"), plain);
+    EXPECT_EQ(slurp(folder_ / "tiles/tiles/root.glb"), before) << "the same bytes again";
+    ASSERT_EQ(run("convert city las --to las"), 0) << said();
+    expect_said("rounded to 1 mm");
+    EXPECT_EQ(io::read_cloud(folder_ / "las/las/0_2_2.las").size(),
+              io::read_cloud(folder_ / "city/map/0_2_2.pcd").size());
+    ASSERT_EQ(run("convert city autoware --to autoware"), 0) << said();
+    EXPECT_TRUE(fs::exists(folder_ / "autoware/pointcloud_map_metadata.yaml"));
+    ASSERT_EQ(run("info city"), 0) << said();
+    for (const char* part : {"tiles   19", "drive_2", "voxels"}) expect_said(part);
+}
+
+TEST_F(Command, OptionsForTheMapOfSeveralDrivesAreChecked) {
+    app::write_sample_map(folder_ / "city");
+    EXPECT_EQ(run("convert city x"), 2);
+    expect_said("--to 3dtiles, --to las or --to autoware");
+    EXPECT_EQ(run("convert city x --to las --origin 1,2"), 2);
+    expect_said("--origin is for --to 3dtiles only");
+    EXPECT_EQ(run("convert city x --to 3dtiles --origin north"), 2);
+    expect_said("expected LAT,LON");
+    EXPECT_EQ(run("convert city x --to 3dtiles --labels city"), 2);
+    EXPECT_EQ(run("convert " + recording().string() + " x --to 3dtiles"), 2);
+    expect_said("is for the map of several drives");
+    fs::remove(folder_ / "city/map/0_2_2.pcd");
+    EXPECT_EQ(run("convert city x --to 3dtiles"), 3);
+    expect_said("0_2_2.pcd");
+    EXPECT_FALSE(fs::exists(folder_ / "x")) << "half an export misleads";
 }
 
 TEST_F(Command, PointsThatLasLeavesOutAreNotCounted) {

@@ -27,7 +27,7 @@ offers "map.voxel_size=" run data --set map.v
 offers "crowd street square hall jam platform city" simulate ""
 offers "vlp16 os64" simulate crowd --sensor ""
 offers "erasor mos" eval --protocol ""
-offers "kitti benchmark autoware" convert a b --to ""
+offers "kitti benchmark autoware 3dtiles las" convert a b --to ""
 offers "" run data --poses ""
 offers "" run ""
 offers "" check monday ""

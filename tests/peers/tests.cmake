@@ -30,6 +30,12 @@ foreach(kind npy bin)
   df_peer(numpy/${kind} write_clouds ${kind} ${DF_PYTHON} read_cloud.py)
 endforeach()
 
+add_executable(write_tileset ${CMAKE_CURRENT_LIST_DIR}/write_tileset.cpp)
+target_include_directories(write_tileset PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+target_link_libraries(write_tileset PRIVATE dynamic_filter_app dynamic_filter_flags)
+add_dependencies(tests_without_simulator write_tileset)
+df_peer(three/3dtiles write_tileset 3dtiles node read_tileset.mjs)
+
 add_executable(serve_foxglove ${CMAKE_CURRENT_LIST_DIR}/serve_foxglove.cpp)
 target_include_directories(serve_foxglove PRIVATE ${PROJECT_SOURCE_DIR}/tests)
 target_link_libraries(serve_foxglove PRIVATE dynamic_filter_live dynamic_filter_flags fmt::fmt)

@@ -18,6 +18,8 @@ OTHERS = {
     "src/sim/jam_traffic.cpp": "tests/sim/scene_jam_test.cpp",
     "src/sim/platform_people.cpp": "tests/sim/scene_platform_test.cpp",
     "src/sim/wagon.cpp": "tests/sim/scene_platform_test.cpp",
+    f"{APP}/city/convert_map.cpp": COMMAND,
+    f"{APP}/city/glb.cpp": "tests/apps/city/tileset_test.cpp",
     f"{APP}/edits/apply_edits.cpp": "tests/apps/edits_test.cpp",
     f"{APP}/edits/edit_lookup.cpp": "tests/apps/edits_test.cpp",
     f"{APP}/edits/edits.cpp": "tests/apps/edits_test.cpp",

@@ -184,6 +184,46 @@ export function makeCloud({ name = "octomap", points = 60_000, seed = 5, origin 
   };
 }
 
+/** The overview of six tiles that two drives saw: heights rise to the north. */
+export function makeCity() {
+  const edge = 32;
+  const squares = [[2, 0, 0, [0]], [2, 1, 0, [0]], [2, 0, 1, [0, 1]], [1, 2, 2, [1]], [1, 3, 2, [1]], [1, 2, 3, [1]]];
+  const tiles = squares.map(([level, x, y, drives], i) => ({
+    name: `${level}_${x}_${y}`, west: x * 25.6 * 2 ** level, south: y * 25.6 * 2 ** level, side: 25.6 * 2 ** level, voxels: 1000 * (i + 1), scans: 100 * (i + 1), picture: [x * 25.6 * 2 ** level, y * 25.6 * 2 ** level, 25.6 * 2 ** level], edge, drives, bottom: -1, top: 9,
+  }));
+  const pictures = new Uint8Array(tiles.length * edge * edge);
+  tiles.forEach((_, i) => {
+    for (let at = 0; at < edge * edge; ++at) pictures[i * edge * edge + at] = at % 7 === 0 ? 0 : 255 - Math.floor(at / edge) * 2;
+  });
+  const track = Float32Array.from([5, 5, 190, 10, 195, 90, 20, 195, 120, 180, 150, 120]);
+  return {
+    meta: {
+      kind: "city", name: "Map of several drives", command: "run", version: "0", voxel_size: VOXEL, origin: [0, 0, 0], heights: [-1, 9],
+      drives: [{ name: "south", scans: 500 }, { name: "north", scans: 700 }], tracks: ["south", "north"], tiles, scores: { tiles: 6 }, timing: null,
+    },
+    arrays: {
+      "tile-picture": array("uint8", 1, pictures),
+      "track-position": array("float32", 2, track), "track-begin": array("uint32", 1, Uint32Array.from([0, 3, 6])),
+    },
+  };
+}
+
+/** The page of a tile with a neighbour on one side. */
+export function makeTile({ name, points = 20_000 }) {
+  const cloud = makeCloud({ name, points, origin: [1000, 2000, 50] });
+  const other = name === "2_0_0" ? { name: "2_1_0", where: "east" } : { name: "2_0_0", where: "west" };
+  return {
+    meta: {
+      ...cloud.meta, kind: "tile", counts: undefined, voxel_size: VOXEL,
+      tile: { overview: "../report.html", side: 102.4, voxels: points, scans: 100, drives: [{ name: "south", voxels: points }], drives_total: 2, neighbours: [other] },
+    },
+    arrays: {
+      ...cloud.arrays, "map-scans": array("uint8", 1, new Uint8Array(points).fill(40)), "map-drives": array("uint8", 1, new Uint8Array(points).fill(128)),
+      "map-voxel": array("uint32", 1, Uint32Array.from({ length: points }, (_, i) => i)), "voxel-probability": array("uint8", 1, new Uint8Array(points).fill(230)),
+    },
+  };
+}
+
 function elements({ meta, arrays }, k) {
   const listed = Object.fromEntries(Object.entries(arrays).map(([name, { type, columns, rows }]) => [name, { type, columns, rows }]));
   const json = JSON.stringify({ ...meta, arrays: listed }).replaceAll("<", "\\u003c");

@@ -10,3 +10,4 @@ import "./live_checks.mjs";
 import "./big_checks.mjs";
 import "./command_checks.mjs";
 import "./edit_checks.mjs";
+import "./city_checks.mjs";

@@ -3,6 +3,7 @@
 import { h } from "./dom.js";
 import { bytes, count, fixed, metres, plural } from "./format.js";
 import { scoreTable } from "./scores.js";
+import { tileFacts } from "./tile_facts.js";
 
 const LISTED = 50;
 
@@ -42,7 +43,7 @@ function lines(title, list, kind) {
 
 export function about({ meta }, withScores) {
   return h("article", {},
-    h("h2", { class: "run-name" }, meta.name), facts(meta),
+    h("h2", { class: "run-name" }, meta.name), meta.tile ? tileFacts(meta) : null, facts(meta),
     h("p", { class: "muted" }, [thinned(meta), playback(meta)].filter(Boolean).join(" ")),
     lines("Notes", meta.notes, "notes"), lines("Rejected scans", meta.rejected, "warning"), lines("Dropped scans", meta.dropped, "warning"),
     withScores && meta.scans ? h("section", {}, h("h2", {}, "Scores"), scoreTable([meta])) : null,

@@ -6,8 +6,8 @@ import { currentTheme, toggleTheme, watchTheme } from "./theme.js";
 
 const NARROW = matchMedia("(max-width: 860px)");
 
-/** `panels`: [{id, label, element}], the first of them the one on the left. */
-export function frame({ title, subtitle, panels, timeline }) {
+/** `panels`: [{id, label, element}], the first of them the one on the left. `help`: whether help.js has the keys of the page. */
+export function frame({ title, subtitle, panels, timeline, help = true }) {
   const stage = h("main", { class: "stage", "aria-label": "Points" });
   const status = h("p", { class: "status", role: "status" });
   const app = document.getElementById("app");
@@ -50,7 +50,7 @@ export function frame({ title, subtitle, panels, timeline }) {
 
   app.replaceChildren(
     h("header", { class: "head" }, h("h1", {}, title), h("p", { class: "subtitle" }, subtitle), status,
-      themeButton, h("button", { type: "button", class: "quiet", title: "Key ?", onclick: openHelp }, "Keys")),
+      themeButton, help ? h("button", { type: "button", class: "quiet", title: "Key ?", onclick: openHelp }, "Keys") : null),
     h("aside", { class: "left", "aria-label": panels[0].label }, bodies[0]),
     stage, timeline, tabBar,
     h("aside", { class: "right", "aria-label": "Details" }, bodies.slice(1)));

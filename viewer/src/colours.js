@@ -39,6 +39,8 @@ export const COLOURINGS = [
   { id: "intensity", label: "Intensity", scale: "cividis", needs: "map-intensity" },
   { id: "probability", label: "Probability of being static", scale: "odds", needs: "map-voxel" },
   { id: "time", label: "Time", scale: "plasma", needs: "map-scan" },
+  { id: "scans", label: "Scans that saw it", scale: "cividis", needs: "map-scans" },
+  { id: "drives", label: "Drives that saw it", scale: "plasma", needs: "map-drives" },
 ];
 
 export const colouringsOf = (run) =>
@@ -73,6 +75,13 @@ export function scaleImage(width) {
     }
   });
   return { image, rows: SCALE_ORDER.length };
+}
+
+/** A scale as 256 rgb triples 0..255. */
+export function scaleColours(name) {
+  const { image } = scaleImage(256);
+  const row = 4 * 256 * SCALE_ORDER.indexOf(name);
+  return Uint8Array.from({ length: 3 * 256 }, (_, i) => image[row + 4 * Math.floor(i / 3) + (i % 3)]);
 }
 
 export const scaleRow = (id) => SCALE_ORDER.indexOf(COLOURINGS.find((c) => c.id === id)?.scale);

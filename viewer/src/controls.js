@@ -57,7 +57,7 @@ export function controls({ store, layers, scanLayers, colourings, heights, reach
   return [
     section("Colour by", colourSelect(store, known)),
     section("Points", ...layerBoxes(store, layers), sizeInput(store)),
-    section("Scan and sensor", ...layerBoxes(store, scanLayers)),
+    scanLayers.length ? section("Scan and sensor", ...layerBoxes(store, scanLayers)) : "",
     section("Cut", height.element, range.element, rangeFromSelect(store)),
     section("Camera",
       h("div", { class: "buttons" }, camera.map(({ label, key, act }) =>

@@ -24,6 +24,7 @@ function reason(verdict, { probability, evidence }, threshold) {
   if (verdict === STATIC && probability < threshold) {
     return `Its voxel is removed (${said}), but the point lies in the ground's plane where something stood on it, and stays.`;
   }
+  if (!evidence && threshold === undefined) return `In its voxel ${said}.`;
   if (!evidence) return `In its voxel ${said}; from ${threshold} on a voxel is static.`;
   const seenThrough = evidence.free === 0 ? "No scan saw through this place" : `${plural(evidence.free, "scan")} saw through this place`;
   const { expected, score } = evidence;
@@ -68,7 +69,7 @@ export function explain(point, facts, meta, words) {
   }
   result.reason = reason(verdict, facts, meta.occupancy_threshold);
   if (facts.probability !== undefined) {
-    result.counters.push(["probability", fixed(facts.probability, 2), `of being static; from ${meta.occupancy_threshold} on it is kept`]);
+    result.counters.push(["probability", fixed(facts.probability, 2), meta.occupancy_threshold === undefined ? "of being static" : `of being static; from ${meta.occupancy_threshold} on it is kept`]);
   }
   const { evidence, span } = facts;
   if (!evidence) return result;

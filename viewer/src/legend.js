@@ -18,6 +18,8 @@ function ends(id, { heights, duration }) {
   if (id === "height") return [`${short(heights[0])} m`, `${short(heights[1])} m`];
   if (id === "time") return ["0 s", `${short(duration)} s`];
   if (id === "probability") return ["0 moving", "1 static"];
+  if (id === "scans") return ["few", "many"];
+  if (id === "drives") return ["none", "all"];
   return ["weak", "strong"];
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+import { startCity } from "./city.js";
 import { runsInPage } from "./data.js";
 import { h } from "./dom.js";
 import { startLive } from "./live.js";
@@ -21,7 +22,10 @@ function start() {
     return;
   }
   const runs = runsInPage();
-  if (runs.length > 0) startReport(runs);
+  const cities = runs.filter(({ meta }) => meta.kind === "city");
+  if (cities.length > 0 && runs.length > 1) say("The map of several drives cannot be shown beside other runs; open its own report.html.");
+  else if (cities.length > 0) startCity(cities[0]);
+  else if (runs.length > 0) startReport(runs);
   else if (location.protocol.startsWith("http")) startLive();
   else say("There are no data in this page, and no server behind it: it is a part of the command dynamicfilter, which fills it in.");
 }

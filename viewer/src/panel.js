@@ -9,9 +9,14 @@ import { fixed, plural } from "./format.js";
 const MOST_LISTED = 200;
 const WITHOUT_VOXEL = 0.1;  // m, of the box around a point
 
-const empty = () => h("div", { class: "empty-state" },
-  h("h2", {}, "Why is this point gone?"),
-  h("p", {}, "Click a point. Here it says what was decided, by which evidence, and which scans saw through its place."),
+const QUESTIONS = {
+  run: ["Why is this point gone?", "Click a point. Here it says what was decided, by which evidence, and which scans saw through its place."],
+  tile: ["How sure is this point?", "Click a point. Here it says with which probability its voxel is static."],
+};
+
+const empty = (isTile) => h("div", { class: "empty-state" },
+  h("h2", {}, QUESTIONS[isTile ? "tile" : "run"][0]),
+  h("p", {}, QUESTIONS[isTile ? "tile" : "run"][1]),
   h("p", { class: "muted" }, "Double click puts it in the middle of the view."));
 
 function scoreBar(score) {
@@ -95,10 +100,10 @@ function markPlace({ views }, point) {
   }
 }
 
-export function pointPanel(session) {
+export function pointPanel(session, isTile = false) {
   const element = h("div", { class: "told", "aria-live": "polite" });
   session.store.watch(["selection"], ({ selection: point }) => {
-    element.replaceChildren(...(point ? about(session, point) : [empty()]));
+    element.replaceChildren(...(point ? about(session, point) : [empty(isTile)]));
     if (!point) return;
     element.closest(".panel")?.scrollTo({ top: 0 });
     markPlace(session, point);

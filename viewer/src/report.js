@@ -8,7 +8,7 @@ import { controls } from "./controls.js";
 import { h } from "./dom.js";
 import { editToken } from "./edit_server.js";
 import { Editor } from "./editor.js";
-import { count, fixed } from "./format.js";
+import { count, fixed, plural } from "./format.js";
 import { errorButtons } from "./errors.js";
 import { fromHash, keepHash } from "./hash.js";
 import { bindKeys } from "./keys.js";
@@ -19,6 +19,7 @@ import { scoreTable } from "./scores.js";
 import { Session } from "./session.js";
 import { AROUND_MIDDLE, bindCanvas, cellsOf, showLegend } from "./stage.js";
 import { watchTheme } from "./theme.js";
+import { overviewLink } from "./tile_facts.js";
 import { Timeline } from "./timeline.js";
 
 const MOST_VIEWS = 4;
@@ -27,9 +28,13 @@ const SHOWN = ["colour", "static", "dynamic", "unknown", "path", "scan", "dim", 
 function subtitleOf(metas, total) {
   if (total > metas.length) return `the first ${metas.length} of ${total} maps side by side`;
   if (metas.length > 1) return `${metas.length} maps side by side`;
-  const [{ scans, counts, preset }] = metas;
+  const [{ scans, counts, preset, tile }] = metas;
+  if (tile) return [overviewLink(metas[0]), ` · ${plural(tile.voxels, "voxel")} · seen by ${tile.drives.length} of ${plural(tile.drives_total, "drive")}`];
   return [scans ? `${count(scans)} scans` : null, counts?.dynamic ? `${count(counts.dynamic)} points removed` : null, preset && `preset ${preset}`].filter(Boolean).join(" · ");
 }
+
+const isTile = (metas) => metas.every(({ kind }) => kind === "tile");
+const titleOf = ({ kind, name }) => (kind === "tile" ? `Tile ${name}` : name);
 
 /** What can be chosen in any of the runs. */
 const allColourings = (runs) => [...new Map(runs.flatMap(colouringsOf).map((c) => [c.id, c])).values()];
@@ -37,6 +42,7 @@ const allColourings = (runs) => [...new Map(runs.flatMap(colouringsOf).map((c) =
 const sum = (metas, name) => metas.reduce((total, { counts }) => total + (counts?.[name] ?? 0), 0);
 
 function layersOf(metas) {
+  if (isTile(metas)) return [];
   const amount = (name) => (metas.length === 1 && metas[0].counts ? metas[0].counts[name] : undefined);
   const layers = [{ name: "static", label: "Static", amount: amount("static"), hint: "Key Z" },
     { name: "dynamic", label: "Removed", amount: amount("dynamic"), hint: "Key X" }];
@@ -78,9 +84,9 @@ function panelsOf(session, runs) {
   const plots = h("div", {}), run = h("div", {}, metas.map((meta) => about({ meta }, metas.length === 1)), licences());
   const panels = [
     { id: "view", label: "View", element: h("div", { class: "controls" }) },
-    { id: "point", label: "Point", element: h("div", {}, pointPanel(session)) },
+    { id: "point", label: "Point", element: h("div", {}, pointPanel(session, isTile(metas))) },
     { id: "plots", label: "Plots", element: plots },
-    { id: "run", label: metas.length > 1 ? "Runs" : "Run", element: run },
+    { id: "run", label: metas.length > 1 ? "Runs" : isTile(metas) ? "Tile" : "Run", element: run },
   ];
   if (metas.length > 1) panels.splice(1, 0, { id: "scores", label: "Scores", element: scoreTable(metas) });
   return panels;
@@ -134,16 +140,18 @@ export async function startReport(runs) {
   const shown = runs.slice(0, MOST_VIEWS);
   const metas = shown.map(({ meta }) => meta);
   const link = fromHash(location.hash);
-  const session = new Session(link.settings);
+  // A tile's points are all static: their verdict says nothing.
+  const session = new Session({ ...(isTile(metas) ? { colour: "height" } : {}), ...link.settings });
   const panels = panelsOf(session, shown);
   const editor = editToken() ? new Editor(session, editToken()) : null;
   if (editor) panels.splice(1, 0, { id: "edit", label: "Edit", element: editor.panel.element });
   const timeline = timelineOf(session);
   document.title = `${metas.map(({ name }) => name).join(", ")} – DynamicFilter`;
-  const page = frame({ title: metas.length > 1 ? "DynamicFilter" : metas[0].name, subtitle: subtitleOf(metas, runs.length), panels, timeline: timeline.element });
+  const page = frame({ title: metas.length > 1 ? "DynamicFilter" : titleOf(metas[0]), subtitle: subtitleOf(metas, runs.length), panels, timeline: timeline.element });
   const automation = expose(session, editor ? { editor: () => editor.state() } : {});
   const openPoint = (id) => editor || page.open(id);  // who edits keeps that panel open
   try {
+    if (isTile(metas)) page.open("run");
     const cells = cellsOf(metas, page.stage);
     const middle = metas[0].origin ?? [0, 0, 0];
     session.views = shown.map((run, i) =>

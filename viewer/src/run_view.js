@@ -37,9 +37,11 @@ export class RunView extends CloudView {
   async loadRest() {
     const { run } = this;
     const { map } = this.clouds;
-    await run.loadAll(["map-scan", "map-intensity", "map-voxel", "voxel-probability"]);
+    await run.loadAll(["map-scan", "map-intensity", "map-scans", "map-drives", "map-voxel", "voxel-probability"]);
     const { arrays } = run;
     if (arrays["map-intensity"]) map.setAttribute("intensity", arrays["map-intensity"], 1, true);
+    if (arrays["map-scans"]) map.setAttribute("intensity", arrays["map-scans"], 1, true);
+    if (arrays["map-drives"]) map.setAttribute("time", arrays["map-drives"], 1, true);
     if (arrays["map-scan"]) map.setAttribute("time", timesOf(arrays["map-scan"], run.meta.scans), 1, true);
     const probability = arrays["voxel-probability"];
     if (arrays["map-voxel"] && probability) {

@@ -57,6 +57,8 @@ void main() {
   else if (mode == ${mode("intensity")}) colour = scaled(intensity);
   else if (mode == ${mode("probability")}) colour = probability > 0.998 ? ${kind("none")} : scaled(probability * 255.0 / 254.0);
   else if (mode == ${mode("time")}) colour = scaled(time);
+  else if (mode == ${mode("scans")}) colour = scaled(intensity);  // the pages of tiles have neither intensity nor time
+  else if (mode == ${mode("drives")}) colour = scaled(time);
   else if (mode == ${mode("error")}) {
     bool removed = settled == 2;
     bool known = truth == 1 || truth == 2;

@@ -7,6 +7,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "city/city_report.hpp"
+#include "city/map_index.hpp"
 #include "city/tile_file.hpp"
 #include "config_file.hpp"
 #include "dynamic_filter/error.hpp"
@@ -16,6 +18,7 @@
 #include "report.hpp"
 #include "run_reports.hpp"
 #include "run_state.hpp"
+#include "view/page.hpp"
 #include "write_scans.hpp"
 
 namespace dynamic_filter::app {
@@ -168,9 +171,9 @@ void bring(const fs::path& from, const fs::path& to, bool moves) {
 void write_map(const City& city, const Tiles& tiles, const TileFolders& folders, bool moves,
                const fs::path& folder) {
     fs::create_directories(folder);
-    Json drives = Json::array(), entries = Json::array();
+    MapIndex index{.voxel_size = city.config.map.voxel_size, .drives = {}, .tiles = {}};
     for (const Drive& drive : city.drives) {
-        drives.push_back({{"name", drive.name}, {"scans", drive.sequence.size()}});
+        index.drives.push_back({.name = drive.name, .scans = drive.sequence.size()});
     }
     for (std::size_t t = 0; t < tiles.readers.size(); ++t) {
         const TileSummary& s = tiles.readers[t]->summary();
@@ -179,21 +182,35 @@ void write_map(const City& city, const Tiles& tiles, const TileFolders& folders,
         if (fs::exists(folders(s.tile) / file)) {
             bring(folders(s.tile) / file, folder / file, moves);
         }
-        entries.push_back({{"name", name_of(s.tile)},
-                           {"level", s.tile.level},
-                           {"x", s.tile.x},
-                           {"y", s.tile.y},
-                           {"min", {s.low.x(), s.low.y(), s.low.z()}},
-                           {"max", {s.high.x(), s.high.y(), s.high.z()}},
-                           {"voxels", s.still},
-                           {"scans", city.plan.tiles[t].inside.size()},
-                           {"file", file}});
+        index.tiles.push_back({.name = name_of(s.tile),
+                               .level = s.tile.level,
+                               .x = s.tile.x,
+                               .y = s.tile.y,
+                               .min = s.low,
+                               .max = s.high,
+                               .voxels = s.still,
+                               .scans = city.plan.tiles[t].inside.size(),
+                               .file = file,
+                               .is_whole = s.tile.is_whole});
     }
-    const Json index{{"version", 1},
-                     {"voxel_size", city.config.map.voxel_size},
-                     {"drives", drives},
-                     {"tiles", entries}};
-    io::write_file(folder / "index.json", text_of(index));
+    write_map_index(folder, index);
+}
+
+/// Where the drives went, for the report: a place every few metres.
+std::vector<DriveTrack> tracks_of(const City& city) {
+    constexpr double kApart = 5.0;  // [m]
+    std::vector<DriveTrack> tracks;
+    for (std::size_t d = 0; d < city.drives.size(); ++d) {
+        DriveTrack track{.name = city.drives[d].name, .positions = {}};
+        for (const PlannedScan& scan : city.plan.drives[d].scans) {
+            if (!scan.is_used) continue;
+            const bool is_near = !track.positions.empty() &&
+                                 (scan.position - track.positions.back()).norm() < kApart;
+            if (!is_near) track.positions.push_back(scan.position);
+        }
+        tracks.push_back(std::move(track));
+    }
+    return tracks;
 }
 
 Json timing(const CitySummary& s, const StageClock& clock, const Pace& pace) {
@@ -254,13 +271,19 @@ CitySummary write_city(const City& city, const TileFolders& folders, bool moves,
     summary.tiles = tiles.readers.size();
     for (const TileWork& work : city.plan.tiles) summary.visits += work.scans.size();
     clock.finish("write");
+    Json metrics = Json::object();
+    for (std::size_t d = 0; d < city.drives.size(); ++d) {
+        metrics["drives"][city.drives[d].name] =
+            metrics_of(summary.drives[d], city.drives[d].sequence.losses);
+    }
     if (city.drives.size() > 1) {
-        Json metrics = Json::object();
-        for (std::size_t d = 0; d < city.drives.size(); ++d) {
-            metrics["drives"][city.drives[d].name] =
-                metrics_of(summary.drives[d], city.drives[d].sequence.losses);
-        }
         io::write_file(output.path() / "metrics.json", text_of(metrics));
+    }
+    if (extras.report && !viewer_page().empty()) {
+        // Without the timing, so that the pages are the same however the work was shared out.
+        write_city_report(output.path(), city.drives.size() > 1 ? metrics : metrics["drives"].front(),
+                          nullptr, tracks_of(city));
+        clock.finish("report");
     }
     summary.seconds = clock.total();
     io::write_file(output.path() / "timing.json", text_of(timing(summary, clock, pace)));

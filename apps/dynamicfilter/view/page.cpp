@@ -67,6 +67,25 @@ std::string safe_json(const nlohmann::ordered_json& json) {
 constexpr std::string_view kFirstTag = "<script type=\"application/json\" id=\"run-0\">";
 constexpr std::string_view kFirstId = "id=\"run-0";
 
+/// Where the data go. Throws Error if there is no page.
+std::size_t marker_of(std::string_view page) {
+    const std::size_t at = page.find(kMarker);
+    if (at != std::string_view::npos) return at;
+    throw Error("this command was built without the viewer; run script/bootstrap and script/build");
+}
+
+/// Takes the contents of the first such element out of the page, and puts `instead` for the whole
+/// element.
+std::string take_element(std::string& page, const std::string& tag, const std::string& instead) {
+    const std::string open = "<" + tag + ">", close = "</" + tag + ">";
+    const std::size_t begin = page.find(open), end = page.find(close, begin);
+    if (begin == std::string::npos || end == std::string::npos)
+        throw Error("the viewer has no <" + tag + ">; run script/build again");
+    std::string contents = page.substr(begin + open.size(), end - begin - open.size());
+    page.replace(begin, end + close.size() - begin, instead);
+    return contents + "\n";
+}
+
 }  // namespace
 
 std::string embedded(const PageRun& run, std::size_t number) {
@@ -90,16 +109,29 @@ std::string embedded(const PageRun& run, std::size_t number) {
 
 std::string page_with(std::span<const std::string> runs) {
     const std::string_view page = viewer_page();
-    const std::size_t at = page.find(kMarker);
-    if (at == std::string_view::npos) {
-        throw Error(
-            "this command was built without the viewer; run script/bootstrap and script/build");
-    }
+    const std::size_t at = marker_of(page);
     std::string text(page.substr(0, at + kMarker.size()));
     text += '\n';
     for (const std::string& run : runs) text += run;
     text += kEnd;
     return text += page.substr(at + kMarker.size());
+}
+
+SharedPage shared_page() {
+    const std::string_view page = viewer_page();
+    const std::size_t at = marker_of(page);
+    SharedPage shared;
+    shared.before = page.substr(0, at + kMarker.size());
+    shared.after = page.substr(at + kMarker.size());
+    shared.style =
+        take_element(shared.before, "style", "<link rel=\"stylesheet\" href=\"viewer.css\">");
+    shared.script = take_element(shared.after, "script", "<script src=\"viewer.js\"></script>");
+    return shared;
+}
+
+std::string SharedPage::with(const std::string& run) const {
+    std::string text = before + "\n" + run;
+    return text.append(kEnd) + after;
 }
 
 std::string run_of_report(const std::filesystem::path& file, std::size_t number) {

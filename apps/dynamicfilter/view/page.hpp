@@ -53,6 +53,20 @@ std::string embedded(const PageRun& run, std::size_t number);
 /// The page with these runs, each from embedded(). Throws Error if there is no page.
 std::string page_with(std::span<const std::string> runs);
 
+/// The page in parts, for many pages in one folder: each refers to viewer.js and viewer.css beside
+/// it, which hold by far the most of the page, and which a browser loads from the disk, too.
+struct SharedPage {
+    std::string style, script;  ///< contents of viewer.css and viewer.js
+
+    /// The page with this run, from embedded().
+    [[nodiscard]] std::string with(const std::string& run) const;
+
+    std::string before, after;  ///< of the data
+};
+
+/// Throws Error if there is no page.
+SharedPage shared_page();
+
 /// The run of a report, to be embedded in another page as number `number`. Throws InputError if the
 /// file is no report of this version.
 std::string run_of_report(const std::filesystem::path& file, std::size_t number);

@@ -2,7 +2,7 @@
 # Several drives, tiles and parts, as a user has them: the parts of any number give the bytes of the
 # unbroken run, and wrong input is named.   city_test.sh COMMAND
 set -eu
-command=$1
+command=$(realpath "$1")
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"

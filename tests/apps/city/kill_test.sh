@@ -2,7 +2,7 @@
 # Kills a run over tiles, or one of its parts, at random moments, and repeats it: the end must be the
 # same bytes.   kill_test.sh COMMAND [TIMES]
 set -eu
-command=$1 times=${2:-8}
+command=$(realpath "$1") times=${2:-8}
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"

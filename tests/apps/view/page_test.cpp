@@ -43,6 +43,27 @@ TEST(Page, ARunMovesFromItsReportToAnotherPage) {
     EXPECT_EQ(run_of_report(report, 3), embedded(small_run("a"), 3));
 }
 
+TEST(Page, InPartsItIsTheSamePage) {
+    if (viewer_page().empty())
+        GTEST_SKIP() << "built WITHOUT THE VIEWER: script/bootstrap fetches what it needs";
+    const std::string own = embedded(small_run("a"), 0);
+    const SharedPage shared = shared_page();
+    std::string page = shared.with(own);
+    EXPECT_LT(page.size(), 10'000U);
+    const auto put = [&](const std::string& reference, const std::string& element) {
+        const std::size_t at = page.find(reference);
+        ASSERT_NE(at, std::string::npos) << reference;
+        page.replace(at, reference.size(), element);
+    };
+    const auto contents = [](const std::string& file) { return file.substr(0, file.size() - 1); };
+    put("<link rel=\"stylesheet\" href=\"viewer.css\">",
+        "<style>" + contents(shared.style) + "</style>");
+    put("<script src=\"viewer.js\"></script>", "<script>" + contents(shared.script) + "</script>");
+    EXPECT_TRUE(page == page_with({&own, 1}));
+    const test::TemporaryFolder folder;
+    EXPECT_EQ(run_of_report(folder.put("tile.html", shared.with(own)), 0), own);
+}
+
 TEST(Page, OtherFilesAreNoReports) {
     const test::TemporaryFolder folder;
     for (const char* text : {"", "<html>", "<script type=\"application/json\" id=\"run-0\">"}) {
