@@ -132,7 +132,8 @@ int run_city(const RunOptions& o) {
     City city = open_city(sources, o);
     Place place{.folder = o.output ? *o.output : default_output(), .output = {}};
     const bool leads = workers->rank() == 0;
-    if (o.resume && is_complete(place.folder, state_of_output(city, o))) {
+    // A part is looked through again, because one of its tiles may have been damaged since.
+    if (o.resume && !part && is_complete(place.folder, state_of_output(city, o))) {
         if (leads && !o.quiet) fmt::print("complete {}\n", place.folder.string());
         return kDone;
     }
