@@ -26,7 +26,7 @@ constexpr std::uint64_t kSampled = 1024;
 
 /// Where a scan has points.
 struct Extent {
-    std::vector<PlaneCell> cells;                              // ascending
+    std::vector<PlaneCell> cells, around;                      // as PlannedScan has them
     std::vector<std::pair<PlaneCell, std::uint64_t>> sampled;  // voxels: their cell and hash
 };
 
@@ -45,16 +45,38 @@ void sort_unique(std::vector<T>& values) {
     values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
+/// Adds the other cells whose halo holds the place.
+void add_around(const Eigen::Vector3d& world, const PlaneCell& cell, double edge,
+                std::vector<PlaneCell>& around) {
+    constexpr double kHalo = double{kHaloVoxels} / kVoxelsPerCell;
+    const auto side = [&](double coordinate, std::int32_t number) {
+        const double within = coordinate / edge - number;
+        return within < kHalo ? -1 : within >= 1.0 - kHalo ? 1 : 0;
+    };
+    const int dx = side(world.x(), cell.x), dy = side(world.y(), cell.y);
+    const auto add = [&](const PlaneCell& other) {
+        if (around.empty() || around.back() != other) around.push_back(other);
+    };
+    if (dx != 0) add({cell.x + dx, cell.y});
+    if (dy != 0) add({cell.x, cell.y + dy});
+    if (dx != 0 && dy != 0) add({cell.x + dx, cell.y + dy});
+}
+
 Extent extent_of(const io::Frame& frame, double voxel_size) {
     const double edge = cell_edge(voxel_size);
     Extent extent;
     each_measured(frame, [&](std::size_t, const Eigen::Vector3d& world) {
         const PlaneCell cell = cell_at(world, edge);
         if (extent.cells.empty() || extent.cells.back() != cell) extent.cells.push_back(cell);
+        add_around(world, cell, edge, extent.around);
         const std::uint64_t hash = hash_of(world, voxel_size);
         if (hash % kSampled == 0) extent.sampled.emplace_back(cell, hash);
     });
     sort_unique(extent.cells);
+    sort_unique(extent.around);
+    std::erase_if(extent.around, [&](const PlaneCell& cell) {
+        return std::binary_search(extent.cells.begin(), extent.cells.end(), cell);
+    });
     sort_unique(extent.sampled);
     return extent;
 }
@@ -90,6 +112,7 @@ public:
         scan.part = part_;
         scan.position = frame.T_world_sensor.translation();
         scan.cells = std::move(extent.cells);
+        scan.around = std::move(extent.around);
         drive_.most_points = std::max(drive_.most_points, frame.points.size());
         before_last_ = std::exchange(last_, now);
     }
@@ -135,11 +158,12 @@ private:
 /// The voxels that were sampled so far.
 class VoxelSample {
 public:
-    void add(const Extent& extent) {
-        for (const auto& [cell, hash] : extent.sampled) {
+    void add(const std::vector<PlaneCell>& cells,
+             const std::vector<std::pair<PlaneCell, std::uint64_t>>& sampled) {
+        for (const auto& [cell, hash] : sampled) {
             if (seen_.emplace(hash, true).second) counts_[cell] += kSampled;
         }
-        for (const PlaneCell& cell : extent.cells) counts_.try_emplace(cell, 0);
+        for (const PlaneCell& cell : cells) counts_.try_emplace(cell, 0);
     }
     [[nodiscard]] const std::map<PlaneCell, std::size_t>& counts() const { return counts_; }
 
@@ -166,7 +190,7 @@ void scan_drive(const Drive& drive, double voxel_size, PlannedDrive& planned, Vo
         Extent extent = std::exchange(extents[i], {});
         if (maybe.frame) {
             gate.take(i, *maybe.frame, extent);
-            if (planned.scans[i].is_used) sample.add({planned.scans[i].cells, extent.sampled});
+            if (planned.scans[i].is_used) sample.add(planned.scans[i].cells, extent.sampled);
         } else {
             gate.reject(i, maybe.error);
         }
@@ -204,29 +228,34 @@ bool has_points_in(const PlannedScan& scan, const Tile& tile) {
            });
 }
 
-/// The tiles for which the scan is evidence: those in whose region it has points, and those that
-/// its sensor can see.
+/// Calls use(cell) for the cells between a place and the middle of a cell, as far as `reach`.
+template <class Use>
+void each_on_the_way(const Eigen::Vector2d& from, const PlaneCell& to, double edge, double reach,
+                     const Use& use) {
+    const Eigen::Vector2d way = edge * Eigen::Vector2d(to.x + 0.5, to.y + 0.5) - from;
+    const double length = std::min(way.norm(), reach);
+    const Eigen::Vector2d direction = way.normalized();
+    for (double at = 0.0; at < length; at += 0.25 * edge) {
+        const Eigen::Vector2d place = from + at * direction;
+        use(cell_at({place.x(), place.y(), 0.0}, edge));
+    }
+}
+
+/// The tiles for which the scan is evidence: those in whose region it has points, and those through
+/// which its beams go, as far as keyframes look.
 std::vector<std::size_t> reached_by(const PlannedScan& scan, double edge, double reach,
                                     const TileLookup& tiles) {
-    std::vector<std::size_t> reached;
-    const auto add = [&](const PlaneCell& cell) {
-        if (const auto tile = tiles.find(cell)) reached.push_back(*tile);
-    };
+    std::vector<PlaneCell> cells = scan.cells;
+    cells.insert(cells.end(), scan.around.begin(), scan.around.end());
     for (const PlaneCell& cell : scan.cells) {
-        for (int dx = -1; dx <= 1; ++dx) {
-            for (int dy = -1; dy <= 1; ++dy) add({cell.x + dx, cell.y + dy});
-        }
+        each_on_the_way(scan.position.head<2>(), cell, edge, reach, [&](const PlaneCell& between) {
+            if (cells.back() != between) cells.push_back(between);
+        });
     }
-    const int cells = static_cast<int>(std::ceil(reach / edge)) + 1;
-    const PlaneCell here = cell_at(scan.position, edge);
-    for (int dx = -cells; dx <= cells; ++dx) {
-        for (int dy = -cells; dy <= cells; ++dy) {
-            // From the sensor to the nearest place of the cell.
-            const Eigen::Vector2d corner(edge * (here.x + dx), edge * (here.y + dy));
-            const Eigen::AlignedBox2d box(corner, corner + Eigen::Vector2d::Constant(edge));
-            const Eigen::Vector2d sensor = scan.position.head<2>();
-            if (box.exteriorDistance(sensor) <= reach + 1.5 * edge) add({here.x + dx, here.y + dy});
-        }
+    sort_unique(cells);
+    std::vector<std::size_t> reached;
+    for (const PlaneCell& cell : cells) {
+        if (const auto tile = tiles.find(cell)) reached.push_back(*tile);
     }
     sort_unique(reached);
     return reached;

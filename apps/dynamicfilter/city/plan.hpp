@@ -20,6 +20,7 @@ struct PlannedScan {
     std::uint32_t part = 0;  ///< of the drive: a jump of the poses begins the next part
     Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] of the sensor, in the world
     std::vector<PlaneCell> cells;                        ///< in which it has points, ascending
+    std::vector<PlaneCell> around;  ///< others that have points in their halo, ascending
 };
 
 struct PlannedDrive {

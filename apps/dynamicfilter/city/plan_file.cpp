@@ -30,19 +30,22 @@ std::vector<T> from_blob(const Json& json) {
 
 Json to_json(const PlannedDrive& drive) {
     std::vector<std::uint8_t> used;
-    std::vector<std::uint32_t> parts, counts;
+    std::vector<std::uint32_t> parts, counts, counts_around;
     std::vector<double> positions;
-    std::vector<PlaneCell> cells;
+    std::vector<PlaneCell> cells, around;
     for (const PlannedScan& scan : drive.scans) {
         used.push_back(scan.is_used ? 1 : 0);
         parts.push_back(scan.part);
         for (const double x : scan.position) positions.push_back(x);
         counts.push_back(static_cast<std::uint32_t>(scan.cells.size()));
+        counts_around.push_back(static_cast<std::uint32_t>(scan.around.size()));
         cells.insert(cells.end(), scan.cells.begin(), scan.cells.end());
+        around.insert(around.end(), scan.around.begin(), scan.around.end());
     }
     Json json{{"used", blob(used)},       {"parts", blob(parts)},
               {"positions", blob(positions)}, {"counts", blob(counts)},
-              {"cells", blob(cells)},     {"rejected", drive.rejected},
+              {"cells", blob(cells)},     {"counts_around", blob(counts_around)},
+              {"around", blob(around)},   {"rejected", drive.rejected},
               {"notes", drive.notes},     {"deskew", drive.deskew},
               {"most_points", drive.most_points}};
     if (drive.sweep) {
@@ -66,15 +69,19 @@ PlannedDrive drive_of(const Json& json) {
     const auto parts = from_blob<std::uint32_t>(json.at("parts"));
     const auto counts = from_blob<std::uint32_t>(json.at("counts"));
     const auto positions = from_blob<double>(json.at("positions"));
+    const auto counts_around = from_blob<std::uint32_t>(json.at("counts_around"));
     const auto cells = from_blob<PlaneCell>(json.at("cells"));
-    auto next = cells.begin();
+    const auto around = from_blob<PlaneCell>(json.at("around"));
+    auto next = cells.begin(), next_around = around.begin();
     for (std::size_t i = 0; i < used.size(); ++i) {
-        const auto end = next + counts[i];
+        const auto end = next + counts[i], end_around = next_around + counts_around[i];
         drive.scans.push_back({.is_used = used[i] != 0,
                                .part = parts[i],
                                .position = Eigen::Vector3d(&positions[3 * i]),
-                               .cells = {next, end}});
+                               .cells = {next, end},
+                               .around = {next_around, end_around}});
         next = end;
+        next_around = end_around;
     }
     return drive;
 }
