@@ -33,21 +33,22 @@ struct Names {
 Names written_by(Contents contents) {
     switch (contents) {
         case Contents::result:
-            return {{"static_map.pcd", "dynamic_points.pcd", "metrics.json", "timing.json",
-                     "config.toml", "run.log", "report.html", "map_gaps.bin", "part.json", kRunState},
-                    {{"labels", ".label"},
-                     {"unedited", ".label"},
-                     {"unedited", ".pcd"},
-                     {"unedited", ".json"},
-                     {"map", ".pcd"},
-                     {"map", ".html"},
-                     {"map", ".json"},
-                     {"tiles", ".pcd"},
-                     {"tiles", ".tile"},
-                     {"tiles", ""},
-                     {"report", ".html"},
-                     {"report", ".js"},
-                     {"report", ".css"}}};
+            return {
+                {"static_map.pcd", "dynamic_points.pcd", "metrics.json", "timing.json",
+                 "config.toml", "run.log", "report.html", "map_gaps.bin", "part.json", kRunState},
+                {{"labels", ".label"},
+                 {"unedited", ".label"},
+                 {"unedited", ".pcd"},
+                 {"unedited", ".json"},
+                 {"map", ".pcd"},
+                 {"map", ".html"},
+                 {"map", ".json"},
+                 {"tiles", ".pcd"},
+                 {"tiles", ".tile"},
+                 {"tiles", ""},
+                 {"report", ".html"},
+                 {"report", ".js"},
+                 {"report", ".css"}}};
         case Contents::recording:
             return {{"poses.txt", "times.txt"}, {{"labels", ".label"}, {"velodyne", ".bin"}}};
         case Contents::benchmark:

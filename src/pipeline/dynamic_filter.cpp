@@ -25,7 +25,8 @@ std::unique_ptr<FilterMethod> make_method(const Config& config) {
 std::unique_ptr<FilterMethod> make_method(const Config& config, const Region& region) {
     validate(config);
     if (config.method != Method::scans) {
-        throw ConfigError("only the method \"scans\" (preset default) can filter a part of the world");
+        throw ConfigError(
+            "only the method \"scans\" (preset default) can filter a part of the world");
     }
     const auto cell = [&](double metres) {
         return static_cast<int>(std::lround(metres / config.map.voxel_size));
@@ -41,9 +42,7 @@ std::unique_ptr<FilterMethod> make_method(const Config& config, const Region& re
 /// The method, and the position of its map in the world.
 struct DynamicFilter::Impl {
     Impl(const Config& config, std::unique_ptr<FilterMethod> chosen)
-        : voxel_size(config.map.voxel_size),
-          method(std::move(chosen)),
-          tracker(config.odometry) {}
+        : voxel_size(config.map.voxel_size), method(std::move(chosen)), tracker(config.odometry) {}
 
     [[nodiscard]] Pose to_map_frame(const Pose& T_world_sensor) const {
         Pose shifted = T_world_sensor;

@@ -654,8 +654,9 @@ std::vector<RoomScan> standing(bool box, std::size_t first) {
     for (std::size_t i = 0; i < 24; ++i) {
         Pose pose = Pose::Identity();
         pose.translation() = Eigen::Vector3d(-6.0 + 0.5 * static_cast<double>(i), 0.25, 1.0);
-        auto scan = test::scan_room(pose, room, box ? std::vector{parked} : std::vector<test::Box>{},
-                                    {.rings = 32, .columns = 720});
+        auto scan =
+            test::scan_room(pose, room, box ? std::vector{parked} : std::vector<test::Box>{},
+                            {.rings = 32, .columns = 720});
         scan.scan.stamp = 0.25 * static_cast<double>(i);
         scan.scan.index = first + i;
         scans.push_back(std::move(scan));

@@ -96,8 +96,8 @@ Eigen::Vector3d TileRun::scoring_origin() const {
     return nearby_origin(corner, eval::kVoxelSize);
 }
 
-/// Calls use(number, scan, frame) for the scans in order; `prepare` (number, frame) runs in parallel
-/// before. False if it was interrupted.
+/// Calls use(number, scan, frame) for the scans in order; `prepare` (number, frame) runs in
+/// parallel before. False if it was interrupted.
 bool each_scan(const City& city, const ScanGroup& group, const std::vector<std::size_t>& numbers,
                const std::function<void(std::size_t, io::Frame&)>& prepare,
                const std::function<void(std::size_t, io::Frame&)>& use) {
@@ -159,8 +159,8 @@ bool TileRun::filter(DynamicFilter& filter, const ScanGroup& scans, LabelStore& 
 
 Seen TileRun::look(const DynamicFilter& filter, const io::Frame& frame, std::size_t number) const {
     Seen seen{.piece = cut(frame, work.tile, city.plan.cell), .verdict = {}, .voxels = {}};
-    seen.verdict = filter.verdict({seen.piece.points, frame.T_world_sensor, frame.stamp, number},
-                                  seen.voxels);
+    seen.verdict =
+        filter.verdict({seen.piece.points, frame.T_world_sensor, frame.stamp, number}, seen.voxels);
     for (std::size_t i = 0; i < seen.voxels.size(); ++i) {
         if (!seen.piece.inside[i]) seen.voxels[i] = kNoVoxel;
     }
@@ -211,10 +211,10 @@ bool TileRun::score_near(const ScanGroup& scans, const LabelStore& finals,
         const Piece piece = cut(frame, work.tile, city.plan.cell);
         const Labels final = finals.get(number);
         const Labels instant = labels_of(piece, instants.get(number));
-        near[number] = scorers.at(scans[number].drive)
-                           .near_removed(labelled_inside(piece, frame.T_world_sensor,
-                                                         scoring_origin()),
-                                         std::array<const Labels*, 2>{&final, &instant});
+        near[number] =
+            scorers.at(scans[number].drive)
+                .near_removed(labelled_inside(piece, frame.T_world_sensor, scoring_origin()),
+                              std::array<const Labels*, 2>{&final, &instant});
     };
     const auto use = [&](std::size_t number, io::Frame&) {
         if (near[number].empty()) return;

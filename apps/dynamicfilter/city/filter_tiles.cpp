@@ -69,8 +69,7 @@ std::size_t tiles_at_a_time(const City& city, const std::vector<std::size_t>& ti
     }
     const auto threads =
         static_cast<std::size_t>(effort.threads > 0 ? effort.threads : available_threads());
-    const std::size_t fit =
-        effort.memory > kOfProgram ? (effort.memory - kOfProgram) / largest : 0;
+    const std::size_t fit = effort.memory > kOfProgram ? (effort.memory - kOfProgram) / largest : 0;
     if (fit == 0) {
         throw ConfigError(fmt::format(
             "the largest tile needs about {:.1f} GB, which is more than --memory allows; give "

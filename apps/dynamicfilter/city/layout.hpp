@@ -59,8 +59,8 @@ std::string name_of(const Tile& tile);                 ///< "3_-1_0", or "all"
 inline int cells_of(int level) { return 2 << level; }  ///< along an edge of a tile
 Tile tile_at(const PlaneCell& cell, int level);
 
-/// Width of the halo around a tile: a quarter of a cell. Votes need two voxels of it; the rest shows
-/// enough of an object on the border to follow it.
+/// Width of the halo around a tile: a quarter of a cell. Votes need two voxels of it; the rest
+/// shows enough of an object on the border to follow it.
 constexpr int kHaloVoxels = 16;
 
 /// The tile and its halo. `height` [m]: of the

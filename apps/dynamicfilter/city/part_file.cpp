@@ -71,8 +71,9 @@ PartNumber part_number_of(const std::string& text) {
     const bool fine = last.ec == std::errc{} && last.ptr == end && number.part >= 1 &&
                       number.part <= number.parts;
     if (fine) return number;
-    throw ConfigError("--part " + text +
-                      ": expected I/N with I from 1 to N, for instance 2/8 for the second of eight");
+    throw ConfigError(
+        "--part " + text +
+        ": expected I/N with I from 1 to N, for instance 2/8 for the second of eight");
 }
 
 void write_part(const fs::path& folder, const Part& part) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// part.json in the folder of a part: how the recordings are read, so that `merge` needs nothing but
-/// the parts.
+/// part.json in the folder of a part: how the recordings are read, so that `merge` needs nothing
+/// but the parts.
 #pragma once
 
 #include <filesystem>

@@ -104,8 +104,7 @@ public:
         }
         if (!begin_part(i, now)) return;
         if (!frame.truth_fault.empty()) {
-            drive_.notes.push_back(frame.truth_fault +
-                                   "; the scan is filtered, but not scored");
+            drive_.notes.push_back(frame.truth_fault + "; the scan is filtered, but not scored");
         }
         PlannedScan& scan = drive_.scans[i];
         scan.is_used = true;
@@ -131,8 +130,9 @@ private:
                 reject(i, "its stamp is before that of the scan before");
                 return false;
             }
-            drive_.notes.push_back(name + ": stamps went back by more than a second; scans are not "
-                                          "compared with those before");
+            drive_.notes.push_back(name +
+                                   ": stamps went back by more than a second; scans are not "
+                                   "compared with those before");
             next_part();
         } else if (const auto jump = pose_jump(before_last_, last_, now)) {
             drive_.notes.push_back(
@@ -215,8 +215,7 @@ void look_at(Drive& drive, const Config& config, const DataOptions& how, Planned
     planned.notes.insert(planned.notes.end(), chosen.begin(), chosen.end());
     planned.deskew = drive.sequence.deskew;
     planned.sweep = drive.sequence.sweep;
-    for (const auto& found :
-         io::check_recording(drive.sequence, io::Depth::quick).findings) {
+    for (const auto& found : io::check_recording(drive.sequence, io::Depth::quick).findings) {
         const io::Finding finding = blame_needless_fix(found, how);
         planned.notes.push_back("warning: " + finding.what + "; " + finding.advice);
     }
@@ -265,8 +264,7 @@ std::vector<std::size_t> reached_by(const PlannedScan& scan, double edge, double
 
 double TileWork::cost() const {
     constexpr double kPerScan = 0.01, kPerVoxel = 6e-8;  // [s]
-    return static_cast<double>(scans.size()) *
-           (kPerScan + kPerVoxel * static_cast<double>(voxels));
+    return static_cast<double>(scans.size()) * (kPerScan + kPerVoxel * static_cast<double>(voxels));
 }
 
 void cut_into_tiles(Plan& plan, const Config& config) {

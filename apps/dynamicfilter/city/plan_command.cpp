@@ -103,7 +103,8 @@ int plan(const PlanOptions& options) {
         }
         write_plan(*o.output, city.plan, city.run);
     }
-    fmt::print("{}", options.json ? plan_json(city, options.parts) : plan_text(city, options.parts));
+    fmt::print("{}",
+               options.json ? plan_json(city, options.parts) : plan_text(city, options.parts));
     return kDone;
 }
 

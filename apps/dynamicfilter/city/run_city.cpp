@@ -155,7 +155,8 @@ int run_city(const RunOptions& o) {
     clock.finish("filter");
     if (!leads) return kDone;
     if (part) return conclude_part(city, sources, *part, o, *place.output, tiles.size());
-    return conclude(city, [&](const Tile&) { return place.tiles(); }, true, o, *place.output, clock);
+    return conclude(
+        city, [&](const Tile&) { return place.tiles(); }, true, o, *place.output, clock);
 }
 
 }  // namespace dynamic_filter::app

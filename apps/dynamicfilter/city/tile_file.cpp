@@ -62,10 +62,8 @@ eval::ScoreSums sums_of(const Json& json) {
                                .dynamic_kept = t.at(3)};
     }
     const Json &c = json.at("cover"), &f = json.at("confusion");
-    sums.cover = {.still = c.at(0),
-                  .dynamic = c.at(1),
-                  .covered_still = c.at(2),
-                  .covered_dynamic = c.at(3)};
+    sums.cover = {
+        .still = c.at(0), .dynamic = c.at(1), .covered_still = c.at(2), .covered_dynamic = c.at(3)};
     sums.confusion = {
         .true_positive = f.at(0), .false_positive = f.at(1), .false_negative = f.at(2)};
     sums.voxels = json.at("voxels").at(0);

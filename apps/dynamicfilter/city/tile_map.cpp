@@ -50,8 +50,7 @@ io::Cloud empty_tile_map(std::size_t words) {
     for (const char* axis : {"x", "y", "z"}) io::add_field(map, axis, io::FieldType::f64);
     io::add_field(map, "probability", io::FieldType::f32);
     io::add_field(map, "scans", io::FieldType::u32);
-    io::add_field(map, "sessions", io::FieldType::u32,
-                  static_cast<std::uint32_t>(words));
+    io::add_field(map, "sessions", io::FieldType::u32, static_cast<std::uint32_t>(words));
     return map;
 }
 

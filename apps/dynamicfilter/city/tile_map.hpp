@@ -18,7 +18,7 @@ public:
     explicit Sightings(std::size_t drives) : words_((drives + 31) / 32) {}
     void add(const ScanOfDrive& scan, const std::vector<std::uint32_t>& voxels);
 
-    [[nodiscard]] std::size_t voxels() const { return seen_; }    ///< number of voxels with points
+    [[nodiscard]] std::size_t voxels() const { return seen_; }  ///< number of voxels with points
     [[nodiscard]] std::size_t words() const { return words_; }  ///< of the drives of a voxel
     [[nodiscard]] std::uint32_t scans(std::uint32_t voxel) const;
     /// Bit d % 32 of word d / 32: drive d had points in it.

@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 
 /// The tiles that are done, and which of them hold points of a scan.
 struct Tiles {
-    std::vector<std::unique_ptr<TileReader>> readers;      // parallel to the plan
+    std::vector<std::unique_ptr<TileReader>> readers;             // parallel to the plan
     std::vector<std::vector<std::vector<std::uint32_t>>> inside;  // by drive and scan
     TileLookup lookup;
 };
@@ -109,10 +109,10 @@ std::string points_text(const RunSummary& s) {
     const auto share = [&](std::size_t n) {
         return s.points == 0 ? 0.0 : 100.0 * static_cast<double>(n) / static_cast<double>(s.points);
     };
-    return fmt::format("{} scans ({} rejected); {} points: {:.1f} % static, {:.1f} % dynamic, "
-                       "{:.1f} % unknown",
-                       s.scans, s.rejected.size(), s.points, share(s.still), share(s.dynamic),
-                       share(s.unknown));
+    return fmt::format(
+        "{} scans ({} rejected); {} points: {:.1f} % static, {:.1f} % dynamic, "
+        "{:.1f} % unknown",
+        s.scans, s.rejected.size(), s.points, share(s.still), share(s.dynamic), share(s.unknown));
 }
 
 void write_log(const fs::path& folder, const Drive& drive, const RunSummary& s) {
@@ -154,8 +154,7 @@ RunSummary write_drive(const City& city, const Tiles& tiles, std::uint32_t numbe
     };
     write_scans(drive.sequence, scans, city.config, maps, folder, {.decide = decide, .use = use});
     add_scores(tiles, number, summary);
-    io::write_file(folder / "metrics.json",
-                   text_of(metrics_of(summary, drive.sequence.losses)));
+    io::write_file(folder / "metrics.json", text_of(metrics_of(summary, drive.sequence.losses)));
     write_log(folder, drive, summary);
     return summary;
 }
@@ -281,8 +280,9 @@ CitySummary write_city(const City& city, const TileFolders& folders, bool moves,
     }
     if (extras.report && !viewer_page().empty()) {
         // Without the timing, so that the pages are the same however the work was shared out.
-        write_city_report(output.path(), city.drives.size() > 1 ? metrics : metrics["drives"].front(),
-                          nullptr, tracks_of(city));
+        write_city_report(output.path(),
+                          city.drives.size() > 1 ? metrics : metrics["drives"].front(), nullptr,
+                          tracks_of(city));
         clock.finish("report");
     }
     summary.seconds = clock.total();
@@ -303,12 +303,12 @@ std::string to_text(const City& city, const CitySummary& s) {
     }
     std::size_t scans = 0;
     for (const RunSummary& drive : s.drives) scans += drive.scans;
-    text += fmt::format("tiles    {}, {} voxels; a scan reaches {:.1f} of them on average\n",
-                        s.tiles, s.voxels,
-                        static_cast<double>(s.visits) / static_cast<double>(std::max<std::size_t>(scans, 1)));
+    text += fmt::format(
+        "tiles    {}, {} voxels; a scan reaches {:.1f} of them on average\n", s.tiles, s.voxels,
+        static_cast<double>(s.visits) / static_cast<double>(std::max<std::size_t>(scans, 1)));
     text += fmt::format("speed    {:.1f} scans/s of this process ({:.1f} s, {:.1f} s of CPU)\n",
-                        static_cast<double>(scans) / std::max(s.seconds.wall, 1e-9),
-                        s.seconds.wall, s.seconds.cpu);
+                        static_cast<double>(scans) / std::max(s.seconds.wall, 1e-9), s.seconds.wall,
+                        s.seconds.cpu);
     return text;
 }
 

@@ -57,14 +57,14 @@ public:
     DynamicFilter& operator=(DynamicFilter&&) noexcept;  ///< see the move constructor
     ~DynamicFilter();
 
-    /// Call it between two drives through the same world. The next scan may be of another sensor, and
-    /// its stamp may be of any time. What one drive saw and another one saw through is dynamic.
+    /// Call it between two drives through the same world. The next scan may be of another sensor,
+    /// and its stamp may be of any time. What one drive saw and another one saw through is dynamic.
     void begin_drive();
 
-    /// Takes a scan with points in the sensor frame. Stamps must not decrease within a drive. Method "scans":
-    /// returns the instant verdict on this scan. Method "submaps": if the scan opens a new window,
-    /// the previous window is processed and the instant verdicts on its scans are returned;
-    /// otherwise nothing is returned.
+    /// Takes a scan with points in the sensor frame. Stamps must not decrease within a drive.
+    /// Method "scans": returns the instant verdict on this scan. Method "submaps": if the scan
+    /// opens a new window, the previous window is processed and the instant verdicts on its scans
+    /// are returned; otherwise nothing is returned.
     std::vector<Verdict> push(Scan scan);
 
     /// Does the work of push() in two steps: it returns the verdicts, and a function for the work

@@ -36,14 +36,16 @@ public:
     /// the map.
     bool add(const Scan& scan);
 
-    /// The next scan is the first one of another drive, perhaps with another sensor. An evenly spaced
-    /// selection of the keyframes so far is kept, because new voxels must be observed by every drive:
-    /// at most a quarter of `scans.max_keyframes` of each drive, and half as many of all.
+    /// The next scan is the first one of another drive, perhaps with another sensor. An evenly
+    /// spaced selection of the keyframes so far is kept, because new voxels must be observed by
+    /// every drive: at most a quarter of `scans.max_keyframes` of each drive, and half as many of
+    /// all.
     void begin_drive();
 
     /// The keyframes that observe a new voxel, oldest first, and the number of keyframes for which
     /// each one stands. Keyframes close in time see nearly the same. So all of the newest keyframes
-    /// are used; of those twice as old every second one, and so on; and all that are kept of earlier drives.
+    /// are used; of those twice as old every second one, and so on; and all that are kept of
+    /// earlier drives.
     struct Asked {
         const Observer* observer;
         unsigned weight;

@@ -52,6 +52,7 @@ for parts in 1 2 5; do
     for i in $(seq "$parts"); do
         "$command" run a b $options --part "$i/$parts" --threads 1 -q -o "part$i" > said 2>&1 || fail "part $i"
     done
+    # shellcheck disable=SC2046  # the names have no spaces
     "$command" merge $(seq "$parts" -1 1 | sed s/^/part/) part1 -o merged > said 2>&1 || fail "merge of $parts"
     bytes_of merged > merged.md5
     cmp -s whole.md5 merged.md5 || fail "$parts parts: $(diff whole.md5 merged.md5)"
