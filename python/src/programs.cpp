@@ -191,7 +191,7 @@ pose_noise [m], pose_noise_deg [deg]: standard deviation of each axis.
 sweep: True measures points one after the other while the sensor moves, like a rotating sensor; scans
 are then PCD files with a field t [s].
 rounds: rounds of the robot in the scene crowd; 0: the default.
-km: length of each drive in the scene city; drives: their number; 0: the defaults.
+km: length [km] of each drive in the scene city; drives: their number; 0: the defaults.
 overwrite: True replaces an earlier recording. quiet: False shows the progress on stderr.
 Returns the number of points. Raises ConfigError (also if there is an earlier recording), OutputError,
 and KeyboardInterrupt, after which no files are left but those of finished drives.)");

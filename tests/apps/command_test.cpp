@@ -307,7 +307,7 @@ TEST_F(Command, UsageErrorsExitWithTwo) {
     EXPECT_EQ(run("--pose-fix inverse"), 2);
     expect_said("options come after a command");
     EXPECT_EQ(run("run data out"), 2);
-    expect_said("unknown argument 'out'; `dynamicfilter run --help` lists the options");
+    expect_said("several recordings may be given, and -o names the output folder");
     EXPECT_EQ(run("run " + recording().string() + " --set map.voxle_size=1"), 2);
     expect_said("map.voxel_size");
     EXPECT_EQ(run("run " + recording().string() + " --set map.voxel_size=-1"), 2);

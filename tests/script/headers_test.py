@@ -16,7 +16,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "docs/_ext"))
 from headers import installed  # noqa: E402
 
-UNIT = r"\[(m|rad|s|ns|deg|Hz|bytes)\]|-?[01]\.\.1|in unit|file's unit"
+UNIT = r"\[(m|km|rad|s|ns|deg|Hz|bytes)\]|-?[01]\.\.1|in unit|file's unit"
 CONTRACT = {  # what a header's first comment must name, if its code has this
     "Shapes": r"\b(vector|span|Points?|Labels)\b",
     "Units": r"\b(double|float|Points?|Pose)\b",

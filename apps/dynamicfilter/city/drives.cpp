@@ -109,6 +109,12 @@ std::vector<std::string> names_of(const std::vector<DriveSource>& sources) {
 }
 
 std::vector<Drive> open_drives(const std::vector<DriveSource>& sources, const DataOptions& how) {
+    for (const DriveSource& source : sources) {
+        if (fs::exists(source.recording)) continue;
+        throw ConfigError(source.recording.string() +
+                          ": does not exist; several recordings may be given, and -o names the "
+                          "output folder");
+    }
     refuse_twice(sources);
     if (sources.size() > 1 && how.open.poses) {
         throw ConfigError(

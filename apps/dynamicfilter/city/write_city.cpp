@@ -321,6 +321,9 @@ int conclude(const City& city, const TileFolders& folders, bool moves, const Run
     write_complete(output, state_of_output(city, o));
     output.commit();
     if (!o.quiet) fmt::print("{}written  {}\n", to_text(city, summary), output.name().string());
+    if (!o.output && !link_latest(output.name())) {
+        fmt::print(stderr, "note: no link results/latest\n");
+    }
     return code_of(city, summary);
 }
 

@@ -49,10 +49,24 @@ TEST(Drives, NamesAreTheEndsOfThePathsAndNeverTheSame) {
 }
 
 TEST(Drives, OnePoseFileIsNotForSeveralRecordings) {
+    const test::TemporaryFolder folder;
+    const auto a = folder / "a", b = folder / "b";
+    fs::create_directories(a);
+    const auto said = [](const std::vector<DriveSource>& sources, const DataOptions& how) {
+        try {
+            open_drives(sources, how);
+        } catch (const ConfigError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
     DataOptions how;
     how.open.poses = "poses.txt";
-    EXPECT_THROW(open_drives({{.recording = "a"}, {.recording = "b"}}, how), ConfigError);
-    EXPECT_THROW(open_drives({{.recording = "a"}, {.recording = "./a"}}, {}), ConfigError);
+    EXPECT_NE(said({{.recording = a}, {.recording = b}}, {}).find("-o names"), std::string::npos);
+    fs::create_directories(b);
+    EXPECT_NE(said({{.recording = a}, {.recording = b}}, how).find("--poses"), std::string::npos);
+    EXPECT_NE(said({{.recording = a}, {.recording = folder / "./a"}}, {}).find("given twice"),
+              std::string::npos);
 }
 
 }  // namespace
