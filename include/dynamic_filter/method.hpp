@@ -53,6 +53,8 @@ public:
     /// The next scan is the first one of another drive through the same world, perhaps by another
     /// sensor and with other stamps. The evidence stays. The method "submaps" knows no drives.
     virtual void begin_drive() {}
+    /// Lets a scan of an earlier drive (counted from 0) observe what was found after that drive.
+    virtual void look_again(std::size_t /*drive*/, const Scan& /*scan*/) {}
     /// Decides every voxel, and returns the instant verdicts that were not returned before. Call it
     /// once.
     virtual std::vector<Verdict> finish() = 0;

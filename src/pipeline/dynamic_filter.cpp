@@ -102,6 +102,12 @@ void DynamicFilter::begin_drive() {
     impl_->method->begin_drive();
 }
 
+void DynamicFilter::look_again(std::size_t drive, Scan scan) {
+    if (!impl_->origin) return;
+    scan.T_world_sensor = impl_->to_map_frame(scan.T_world_sensor);
+    impl_->method->look_again(drive, scan);
+}
+
 Judged DynamicFilter::judge(Scan scan) {
     if (impl_->finished) throw Error("push() after finish(): make another filter");
     const bool tracked = impl_->tracker.track(scan);

@@ -12,12 +12,18 @@ namespace {
 
 constexpr std::size_t kGrain = 64;  // number of blocks that a thread takes at a time
 
+Config with_one_keyframe(Config config) {
+    config.scans.max_keyframes = 1;
+    return config;
+}
+
 }  // namespace
 
 EvidenceMap::EvidenceMap(const Config& config, const std::optional<CellBounds>& bounds)
     : margins_(margins_of(config.scans.sight, config.map.voxel_size)),
       grid_(static_cast<float>(config.map.voxel_size), config.scans.evidence, bounds),
-      observers_(config) {
+      observers_(config),
+      again_{.drive = {}, .observers = Observers(with_one_keyframe(config)), .blocks = {}} {
     if (!bounds) return;
     area_.emplace(config.map.voxel_size * bounds->low.cast<double>(),
                   config.map.voxel_size * bounds->high.cast<double>());
@@ -28,6 +34,23 @@ bool EvidenceMap::may_observe(const Scan& scan) const {
     if (!area_) return true;
     const Eigen::Vector2d sensor = scan.T_world_sensor.translation().head<2>();
     return area_->exteriorDistance(sensor) <= static_cast<double>(margins_.farthest);
+}
+
+void EvidenceMap::begin_drive() {
+    observers_.begin_drive();
+    known_after_.push_back(grid_.size());
+}
+
+void EvidenceMap::look_again(std::size_t drive, const Scan& scan) {
+    const std::uint32_t known = known_after_.at(drive);
+    if (again_.drive != drive) {
+        again_.drive = drive;
+        again_.observers.begin_drive();
+        again_.blocks = grid_.blocks_from(known);
+    }
+    if (!may_observe(scan) || !again_.observers.add(scan)) return;
+    observe(again_.observers.kept().back(), again_.blocks, false,
+            [&](std::uint32_t v) { return v >= known; });
 }
 
 PointVoxels EvidenceMap::insert(const Scan& scan, StageTimes& times) {
@@ -94,18 +117,23 @@ EvidenceMap::Places EvidenceMap::places_in(std::vector<std::uint32_t> blocks,
 
 /// The newest observer observes the voxels that were known before its scan.
 void EvidenceMap::check_known(std::span<const std::uint32_t> blocks) {
-    const Observer& newest = observers_.kept().back();
+    observe(observers_.kept().back(), blocks, true, [&](std::uint32_t v) { return v < known_; });
+}
+
+/// The observer observes the voxels of these blocks for which `wanted` is true.
+template <class Wanted>
+void EvidenceMap::observe(const Observer& observer, std::span<const std::uint32_t> blocks,
+                          bool newest, const Wanted& wanted) {
     parallel_for(blocks.size(), kGrain, [&](std::size_t begin, std::size_t end) {
         const auto some = blocks.subspan(begin, end - begin);
         std::vector<std::uint32_t> in_sight;
-        for (const std::size_t b : blocks_in_sight(some, newest)) in_sight.push_back(some[b]);
-        const Places places =
-            places_in(std::move(in_sight), [&](std::uint32_t v) { return v < known_; });
-        const std::vector<Sight> sights = look(newest, places.centroids);
+        for (const std::size_t b : blocks_in_sight(some, observer)) in_sight.push_back(some[b]);
+        const Places places = places_in(std::move(in_sight), wanted);
+        const std::vector<Sight> sights = look(observer, places.centroids);
         for (std::size_t i = 0; i < sights.size(); ++i) {
             if (sights[i] == Sight::unknown) continue;
             const std::uint32_t v = places.voxels[i];
-            if (grid_.record(v, sights[i], 1, true)) grid_.update_score(v);
+            if (grid_.record(v, sights[i], 1, newest)) grid_.update_score(v);
         }
     });
 }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <iterator>
 
 namespace dynamic_filter {
 
@@ -22,41 +21,20 @@ bool Observers::add(const Scan& scan) {
     const float reach =
         looks_far ? farthest_ : std::min(static_cast<float>(config_.near_reach), farthest_);
     kept_.push_back({BeamImage(scan.points, beams), scan.T_world_sensor.inverse().cast<float>(),
-                     reach, scan.index, 1});
+                     reach, scan.index});
     ++total_;
     if (kept_.size() > most_) kept_.pop_front();
     return true;
 }
 
-namespace {
-
-/// Removes every second of the observers from `first` on; the others stand for these.
-void halve(std::vector<Observer>& observers, std::size_t first) {
-    std::size_t end = first;
-    for (std::size_t i = first; i < observers.size(); i += 2) {
-        if (end != i) observers[end] = std::move(observers[i]);
-        if (i + 1 < observers.size()) observers[end].weight += observers[i + 1].weight;
-        ++end;
-    }
-    observers.resize(end);
-}
-
-}  // namespace
-
 void Observers::begin_drive() {
-    const std::size_t first = earlier_.size();
-    std::move(kept_.begin(), kept_.end(), std::back_inserter(earlier_));
     kept_.clear();
-    while (earlier_.size() - first > std::max<std::size_t>(1, most_ / 4)) halve(earlier_, first);
-    while (earlier_.size() > std::max<std::size_t>(1, most_ / 2)) halve(earlier_, 0);
     last_keyframe_.reset();
     beams_.reset();
-    last_far_look_ = 0.0;
 }
 
 std::vector<Observers::Asked> Observers::asked_by_new() const {
     std::vector<Asked> asked;
-    for (const Observer& observer : earlier_) asked.push_back({&observer, observer.weight});
     if (kept_.empty()) return asked;
     // The lower limit avoids a division by zero for an image without beams.
     constexpr float kLeast = 0.01F;

@@ -34,6 +34,10 @@ void ScansMethod::begin_drive() {
     instances_ = Instances(config_.scans.instances);
 }
 
+void ScansMethod::look_again(std::size_t drive, const Scan& scan) {
+    timed(times_, "look_again", [&] { evidence_.look_again(drive, scan); });
+}
+
 std::vector<Verdict> ScansMethod::finish() {
     timed(times_, "finish", [&] {
         decided_ = decide_voxels(evidence_.grid(), config_);

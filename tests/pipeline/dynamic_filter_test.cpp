@@ -672,6 +672,7 @@ TEST(DynamicFilter, WhatOnlyOneDriveSawIsDynamic) {
         for (const RoomScan& s : first) filter.push(s.scan);
         filter.begin_drive();
         for (const RoomScan& s : second) filter.push(s.scan);  // whose stamps begin again
+        for (const RoomScan& s : first) filter.look_again(0, s.scan);
         filter.finish();
         std::vector<RoomScan> all = first;
         all.insert(all.end(), second.begin(), second.end());

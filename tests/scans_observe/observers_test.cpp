@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "pipeline/room.hpp"
 
 namespace dynamic_filter {
@@ -88,43 +86,13 @@ TEST(Observers, AFewPointsDoNotTellTheBeamPattern) {
     EXPECT_TRUE(observers.beams());
 }
 
-TEST(Observers, EarlierDrivesAreAskedByASelectionThatStandsForAll) {
-    Config config = config_of(0.0, 1.0);
-    config.scans.max_keyframes = 16;
-    Observers observers(config);
-    const auto drive = [&](std::size_t first) {
-        for (std::size_t i = first; i < first + 13; ++i) {
-            observers.add(room_scan(i, static_cast<double>(i % 13), 0.0));
-        }
-    };
-    const auto weight_of = [](const std::vector<Observers::Asked>& asked) {
-        unsigned sum = 0;
-        for (const auto& one : asked) sum += one.weight;
-        return sum;
-    };
-    drive(0);
-    observers.begin_drive();
-    EXPECT_TRUE(observers.kept().empty());
-    EXPECT_FALSE(observers.beams());
-    EXPECT_EQ(observers.asked_by_new().size(), 4U);  // a quarter of 16
-    EXPECT_EQ(weight_of(observers.asked_by_new()), 13U);
-    for (const std::size_t first : {13U, 26U, 39U, 52U}) {
-        drive(first);
-        const auto asked = observers.asked_by_new();
-        EXPECT_LE(asked.size(), 8U + 13U);
-        EXPECT_EQ(weight_of(asked), first + 13U);
-        EXPECT_TRUE(std::is_sorted(asked.begin(), asked.end(), [](const auto& a, const auto& b) {
-            return a.observer->index < b.observer->index;
-        }));
-        observers.begin_drive();
-    }
-}
-
 // Another drive may begin at any time of the day.
 TEST(Observers, TheFirstScanOfADriveIsAKeyframeThatLooksFar) {
     Observers observers(config_of(1.0, 100.0));
     observers.add(room_scan(0, 1000.0, 0.0));
     observers.begin_drive();
+    EXPECT_TRUE(observers.kept().empty());
+    EXPECT_FALSE(observers.beams());
     EXPECT_TRUE(observers.add(room_scan(1, 3.0, 0.0)));
     EXPECT_EQ(observers.kept().back().reach, 80.0F);
 }

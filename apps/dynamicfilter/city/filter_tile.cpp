@@ -64,6 +64,7 @@ struct TileRun {
     [[nodiscard]] DynamicFilter new_filter() const;
     [[nodiscard]] Eigen::Vector3d scoring_origin() const;
     bool filter(DynamicFilter& filter, const ScanGroup& scans, LabelStore& instants) const;
+    bool look_again(DynamicFilter& filter, const ScanGroup& scans) const;
     bool decide(const DynamicFilter& filter, const ScanGroup& scans, const LabelStore& instants);
     [[nodiscard]] Seen look(const DynamicFilter& filter, const io::Frame& frame,
                             std::size_t number) const;
@@ -157,6 +158,19 @@ bool TileRun::filter(DynamicFilter& filter, const ScanGroup& scans, LabelStore& 
     });
 }
 
+/// Between the passes: all drives but the last one observe what only later ones found.
+bool TileRun::look_again(DynamicFilter& filter, const ScanGroup& scans) const {
+    std::vector<std::size_t> earlier, drive_of;  // drives are counted from 0 within the group
+    for (std::size_t n = 0; n < scans.size() && scans[n].drive != scans.back().drive; ++n) {
+        const bool begins = n > 0 && scans[n].drive != scans[n - 1].drive;
+        drive_of.push_back(n == 0 ? 0 : drive_of.back() + (begins ? 1 : 0));
+        earlier.push_back(n);
+    }
+    return each_scan(city, scans, earlier, {}, [&](std::size_t number, io::Frame& frame) {
+        filter.look_again(drive_of[number], take_scan(frame, number));
+    });
+}
+
 Seen TileRun::look(const DynamicFilter& filter, const io::Frame& frame, std::size_t number) const {
     Seen seen{.piece = cut(frame, work.tile, city.plan.cell), .verdict = {}, .voxels = {}};
     seen.verdict =
@@ -244,6 +258,7 @@ bool filter_tile(const City& city, const TileWork& work, const std::filesystem::
         DynamicFilter filter = tile.new_filter();
         LabelStore instants(folder);
         if (!tile.filter(filter, scans, instants)) return false;
+        if (!tile.look_again(filter, scans)) return false;
         filter.finish();
         if (!tile.decide(filter, scans, instants)) return false;
     }

@@ -39,8 +39,7 @@ std::size_t halo_of(const TileWork& work) {
 std::size_t memory_of(const TileWork& work, const Plan& plan, const Config& config) {
     std::size_t points = 0;
     for (const PlannedDrive& drive : plan.drives) points = std::max(points, drive.most_points);
-    // Of the newest drive, and half as many of earlier ones.
-    const auto images = static_cast<std::size_t>(config.scans.max_keyframes) * 3 / 2;
+    const auto images = static_cast<std::size_t>(config.scans.max_keyframes);
     return kPerVoxel * (work.voxels + halo_of(work)) +
            kPerPoint * points * std::min(work.scans.size(), images);
 }

@@ -58,8 +58,13 @@ public:
     ~DynamicFilter();
 
     /// Call it between two drives through the same world. The next scan may be of another sensor,
-    /// and its stamp may be of any time. What one drive saw and another one saw through is dynamic.
+    /// and its stamp may be of any time. What one drive saw and a later one saw through is dynamic.
+    /// The method "submaps" knows no drives.
     void begin_drive();
+    /// Lets a scan of an earlier drive (counted from 0) observe what only later drives found, so
+    /// that what came is dynamic, too. Call it after the last push() and before finish(), for the
+    /// scans of each drive but the last in their order.
+    void look_again(std::size_t drive, Scan scan);
 
     /// Takes a scan with points in the sensor frame. Stamps must not decrease within a drive.
     /// Method "scans": returns the instant verdict on this scan. Method "submaps": if the scan

@@ -26,8 +26,13 @@ class EvidenceMap {
 public:
     explicit EvidenceMap(const Config& config, const std::optional<CellBounds>& bounds = {});
 
-    /// See Observers::begin_drive().
-    void begin_drive() { observers_.begin_drive(); }
+    /// The next scan is the first one of another drive.
+    void begin_drive();
+
+    /// Lets a scan of an earlier drive (counted from 0) observe the voxels that were found after
+    /// that drive. Give the scans of a drive in their order. Whether the scan is a keyframe is
+    /// decided as it was before.
+    void look_again(std::size_t drive, const Scan& scan);
 
     /// Adds a scan whose `T_world_sensor` is relative to the map. Only the voxels around its own
     /// points are observed here. Returns the voxel of each point. Cost: the points, plus new voxels
@@ -64,6 +69,9 @@ private:
     template <class Wanted>
     [[nodiscard]] Places places_in(std::vector<std::uint32_t> blocks, const Wanted& wanted) const;
     void check_known(std::span<const std::uint32_t> blocks);
+    template <class Wanted>
+    void observe(const Observer& observer, std::span<const std::uint32_t> blocks, bool newest,
+                 const Wanted& wanted);
     void check_new();
     [[nodiscard]] SightMargins margins_for(const Observer& observer) const;
     [[nodiscard]] std::vector<std::size_t> blocks_in_sight(std::span<const std::uint32_t> blocks,
@@ -77,6 +85,13 @@ private:
     std::optional<Eigen::AlignedBox2d> area_;  // [m] of the bounds, in the map
     EvidenceGrid grid_;
     Observers observers_;
+    std::vector<std::uint32_t> known_after_;  // by drive that has ended: number of voxels
+    /// The drive that looks again.
+    struct Again {
+        std::optional<std::size_t> drive;
+        Observers observers;                // keeps one keyframe
+        std::vector<std::uint32_t> blocks;  // with voxels that were found after the drive
+    } again_;
     std::vector<std::size_t> indices_;  // Scan::index in the order of the scans
     std::uint32_t known_ = 0;           // number of voxels before the newest scan
     bool is_due_ = false;               // true if observe_elsewhere() is due

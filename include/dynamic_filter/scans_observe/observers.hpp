@@ -20,10 +20,9 @@ struct Observer {
     Eigen::Isometry3f T_sensor_map = Eigen::Isometry3f::Identity();
     float reach = 0.0F;     ///< [m] how far the keyframe looks
     std::size_t index = 0;  ///< Scan::index
-    unsigned weight = 1;    ///< number of keyframes of an earlier drive for which it stands
 };
 
-/// Stores the newest keyframes, and a selection of those of earlier drives. Single caller.
+/// Stores the newest keyframes of a drive. Single caller.
 class Observers {
 public:
     explicit Observers(const Config& config)
@@ -36,24 +35,20 @@ public:
     /// the map.
     bool add(const Scan& scan);
 
-    /// The next scan is the first one of another drive, perhaps with another sensor. An evenly
-    /// spaced selection of the keyframes so far is kept, because new voxels must be observed by
-    /// every drive: at most a quarter of `scans.max_keyframes` of each drive, and half as many of
-    /// all.
+    /// The next scan is the first one of another drive, perhaps by another sensor. The keyframes so
+    /// far are removed.
     void begin_drive();
 
     /// The keyframes that observe a new voxel, oldest first, and the number of keyframes for which
     /// each one stands. Keyframes close in time see nearly the same. So all of the newest keyframes
-    /// are used; of those twice as old every second one, and so on; and all that are kept of
-    /// earlier drives.
+    /// are used; of those twice as old every second one, and so on.
     struct Asked {
         const Observer* observer;
         unsigned weight;
     };
     [[nodiscard]] std::vector<Asked> asked_by_new() const;
 
-    /// Of this drive, oldest first.
-    [[nodiscard]] const std::deque<Observer>& kept() const { return kept_; }
+    [[nodiscard]] const std::deque<Observer>& kept() const { return kept_; }  ///< oldest first
     [[nodiscard]] std::size_t total() const {
         return total_;
     }  ///< including those that are no longer kept
@@ -71,7 +66,6 @@ private:
     std::optional<Scan> last_keyframe_;  // only its pose and stamp
     double last_far_look_ = 0.0;         // [s]
     std::deque<Observer> kept_;
-    std::vector<Observer> earlier_;  // of earlier drives, oldest first
     std::size_t total_ = 0;
 };
 

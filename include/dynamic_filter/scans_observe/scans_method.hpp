@@ -25,6 +25,7 @@ public:
     Judged judge(Scan scan) override;
     [[nodiscard]] bool judges_each_scan() const override { return true; }
     void begin_drive() override;
+    void look_again(std::size_t drive, const Scan& scan) override;
     std::vector<Verdict> finish() override;
     void decide(const LocatedScan& scan, Verdict& verdict) const override;
     void settle(const LocatedScan& scan, Verdict& verdict) const override;
