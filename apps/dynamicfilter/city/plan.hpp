@@ -43,6 +43,7 @@ struct ScanOfDrive {
 struct TileWork {
     Tile tile;
     std::size_t voxels = 0;           ///< estimated
+    std::size_t points = 0;           ///< of the scans that reach it, at most
     std::vector<ScanOfDrive> scans;   ///< that reach it, in order
     std::vector<ScanOfDrive> inside;  ///< those of them with points inside of it, in order
     /// [s] estimated, of one core; see docs/city.md.

@@ -99,7 +99,7 @@ TEST(Plan, PartsHaveEveryTileOnceAndSimilarWork) {
     for (std::size_t i = 1; i <= 50; ++i) {
         TileWork work{.tile = {.level = 0, .x = static_cast<int>(i)}, .scans = {}, .inside = {}};
         work.voxels = 10000 * i;
-        work.scans.resize(10 + i % 7);
+        work.points = 1000 * (10 + i % 7);
         plan.tiles.push_back(work);
     }
     for (const std::size_t parts : {1U, 2U, 7U, 60U}) {
