@@ -5,6 +5,7 @@
 #include <array>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "city/piece.hpp"
@@ -55,7 +56,7 @@ struct TileRun {
     Sightings sightings{city.drives.size()};
     io::Cloud map = empty_tile_map(sightings.words());
     TileSummary summary{.tile = work.tile, .drives = {}};
-    std::map<std::uint32_t, eval::ScanScores> scorers{};  // by drive, if there is truth
+    std::optional<eval::ScanScores> scorer{};  // of the drive that is decided, if it has truth
 
     [[nodiscard]] bool contains(const Eigen::Vector3d& world) const {
         return work.tile.is_whole ||
@@ -65,12 +66,13 @@ struct TileRun {
     [[nodiscard]] Eigen::Vector3d scoring_origin() const;
     bool filter(DynamicFilter& filter, const ScanGroup& scans, LabelStore& instants) const;
     bool look_again(DynamicFilter& filter, const ScanGroup& scans) const;
-    bool decide(const DynamicFilter& filter, const ScanGroup& scans, const LabelStore& instants);
+    bool decide(const DynamicFilter& filter, const ScanGroup& scans,
+                const std::vector<std::size_t>& numbers, const LabelStore& instants);
     [[nodiscard]] Seen look(const DynamicFilter& filter, const io::Frame& frame,
                             std::size_t number) const;
-    void score(const ScanOfDrive& scan, const Pose& T_world_sensor, const Seen& seen,
-               const Labels& instant);
-    bool score_near(const ScanGroup& scans, const LabelStore& finals, const LabelStore& instants);
+    void score(const Pose& T_world_sensor, const Seen& seen, const Labels& instant);
+    bool score_near(const ScanGroup& scans, const std::vector<std::size_t>& numbers,
+                    const LabelStore& finals, const LabelStore& instants);
     void add_to_map(const DynamicFilter& filter);
 };
 
@@ -136,15 +138,17 @@ std::vector<std::size_t> all_of(const ScanGroup& group) {
     return numbers;
 }
 
-/// The scans of the group with points inside of the tile.
-std::vector<std::size_t> inside_of(const ScanGroup& group, const TileWork& work) {
-    std::vector<std::size_t> numbers;
+/// The scans of the group with points inside of the tile, drive by drive.
+std::vector<std::vector<std::size_t>> inside_by_drive(const ScanGroup& group,
+                                                      const TileWork& work) {
+    std::vector<std::vector<std::size_t>> drives;
     for (std::size_t n = 0; n < group.size(); ++n) {
-        if (std::binary_search(work.inside.begin(), work.inside.end(), group[n])) {
-            numbers.push_back(n);
-        }
+        if (!std::binary_search(work.inside.begin(), work.inside.end(), group[n])) continue;
+        const bool begins = drives.empty() || group[drives.back().front()].drive != group[n].drive;
+        if (begins) drives.emplace_back();
+        drives.back().push_back(n);
     }
-    return numbers;
+    return drives;
 }
 
 /// First pass: every scan goes through the filter.
@@ -181,9 +185,9 @@ Seen TileRun::look(const DynamicFilter& filter, const io::Frame& frame, std::siz
     return seen;
 }
 
-/// Second pass: final verdicts on the points inside.
+/// Second pass, of one drive: final verdicts on the points inside.
 bool TileRun::decide(const DynamicFilter& filter, const ScanGroup& scans,
-                     const LabelStore& instants) {
+                     const std::vector<std::size_t>& numbers, const LabelStore& instants) {
     std::vector<Seen> seen(scans.size());
     LabelStore finals(folder);
     const auto prepare = [&](std::size_t number, io::Frame& frame) {
@@ -201,24 +205,22 @@ bool TileRun::decide(const DynamicFilter& filter, const ScanGroup& scans,
         verdicts.add(scans[number], inside);
         sightings.add(scans[number], one.voxels);
         if (frame.truth.empty()) return;
-        score(scans[number], frame.T_world_sensor, one, instant);
+        score(frame.T_world_sensor, one, instant);
         finals.put(number, labels);
     };
-    if (!each_scan(city, scans, inside_of(scans, work), prepare, use)) return false;
-    add_to_map(filter);
-    return scorers.empty() || score_near(scans, finals, instants);
+    if (!each_scan(city, scans, numbers, prepare, use)) return false;
+    return !scorer || score_near(scans, numbers, finals, instants);
 }
 
-void TileRun::score(const ScanOfDrive& scan, const Pose& T_world_sensor, const Seen& seen,
-                    const Labels& instant) {
-    const auto scorer = scorers.try_emplace(scan.drive, eval::kVoxelSize, 2).first;
-    scorer->second.add(labelled_inside(seen.piece, T_world_sensor, scoring_origin()),
-                       std::array<const Labels*, 2>{&seen.verdict.labels, &instant});
+void TileRun::score(const Pose& T_world_sensor, const Seen& seen, const Labels& instant) {
+    if (!scorer) scorer.emplace(eval::kVoxelSize, 2);
+    scorer->add(labelled_inside(seen.piece, T_world_sensor, scoring_origin()),
+                std::array<const Labels*, 2>{&seen.verdict.labels, &instant});
 }
 
 /// Third pass, with ground truth: which removed points lie near one that stays.
-bool TileRun::score_near(const ScanGroup& scans, const LabelStore& finals,
-                         const LabelStore& instants) {
+bool TileRun::score_near(const ScanGroup& scans, const std::vector<std::size_t>& numbers,
+                         const LabelStore& finals, const LabelStore& instants) {
     std::vector<std::vector<Points>> near(scans.size());
     const auto prepare = [&](std::size_t number, io::Frame& frame) {
         if (frame.truth.empty()) return;
@@ -226,15 +228,18 @@ bool TileRun::score_near(const ScanGroup& scans, const LabelStore& finals,
         const Labels final = finals.get(number);
         const Labels instant = labels_of(piece, instants.get(number));
         near[number] =
-            scorers.at(scans[number].drive)
-                .near_removed(labelled_inside(piece, frame.T_world_sensor, scoring_origin()),
-                              std::array<const Labels*, 2>{&final, &instant});
+            scorer->near_removed(labelled_inside(piece, frame.T_world_sensor, scoring_origin()),
+                                 std::array<const Labels*, 2>{&final, &instant});
     };
     const auto use = [&](std::size_t number, io::Frame&) {
-        if (near[number].empty()) return;
-        scorers.at(scans[number].drive).add_near(std::exchange(near[number], {}));
+        if (!near[number].empty()) scorer->add_near(std::exchange(near[number], {}));
     };
-    return each_scan(city, scans, inside_of(scans, work), prepare, use);
+    if (!each_scan(city, scans, numbers, prepare, use)) return false;
+    summary.drives.push_back({.drive = scans[numbers.front()].drive,
+                              .final = scorer->sums(0),
+                              .instant = scorer->sums(1)});
+    scorer.reset();
+    return true;
 }
 
 void TileRun::add_to_map(const DynamicFilter& filter) {
@@ -260,11 +265,10 @@ bool filter_tile(const City& city, const TileWork& work, const std::filesystem::
         if (!tile.filter(filter, scans, instants)) return false;
         if (!tile.look_again(filter, scans)) return false;
         filter.finish();
-        if (!tile.decide(filter, scans, instants)) return false;
-    }
-    for (const auto& [drive, scorer] : tile.scorers) {
-        tile.summary.drives.push_back(
-            {.drive = drive, .final = scorer.sums(0), .instant = scorer.sums(1)});
+        for (const auto& numbers : inside_by_drive(scans, work)) {
+            if (!tile.decide(filter, scans, numbers, instants)) return false;
+        }
+        tile.add_to_map(filter);
     }
     io::write_pcd(folder / tile_map_file(work.tile), tile.map);
     tile.verdicts.commit(tile.summary);

@@ -228,6 +228,45 @@ Json timing(const CitySummary& s, const StageClock& clock, const Pace& pace) {
             {"threads", pace.threads > 0 ? pace.threads : available_threads()}};
 }
 
+/// Where the files of a drive go: a single drive has the folder of the result.
+fs::path folder_of(const City& city, std::size_t drive, const fs::path& out) {
+    return city.drives.size() == 1 ? out : out / "drives" / city.drives[drive].name;
+}
+
+std::vector<RunSummary> write_drives(const City& city, const Tiles& tiles, bool maps,
+                                     const fs::path& out, bool quiet) {
+    std::size_t scans = 0;
+    for (const Drive& drive : city.drives) scans += drive.sequence.size();
+    Progress progress("write", scans, quiet);
+    std::vector<RunSummary> summaries;
+    for (std::uint32_t d = 0; d < city.drives.size(); ++d) {
+        const fs::path folder = folder_of(city, d, out);
+        fs::create_directories(folder);
+        summaries.push_back(write_drive(city, tiles, d, maps, folder, progress));
+    }
+    return summaries;
+}
+
+CitySummary count(const City& city, const Tiles& tiles) {
+    CitySummary summary{.drives = {}, .tiles = tiles.readers.size(), .seconds = {}};
+    for (const auto& reader : tiles.readers) {
+        summary.voxels += reader->summary().voxels;
+        summary.keyframes += reader->summary().keyframes;
+    }
+    for (const TileWork& work : city.plan.tiles) summary.visits += work.scans.size();
+    return summary;
+}
+
+/// Of a single drive, its own; of several, those of each.
+Json metrics_of_all(const City& city, const CitySummary& summary) {
+    Json drives = Json::object();
+    for (std::size_t d = 0; d < city.drives.size(); ++d) {
+        drives[city.drives[d].name] = metrics_of(summary.drives[d], city.drives[d].sequence.losses);
+    }
+    if (city.drives.size() == 1) return drives.front();
+    return {{"drives", drives}};
+}
+
 int code_of(const City& city, const CitySummary& summary) {
     bool all = true;
     for (std::size_t d = 0; d < city.drives.size(); ++d) {
@@ -247,42 +286,19 @@ int code_of(const City& city, const CitySummary& summary) {
 CitySummary write_city(const City& city, const TileFolders& folders, bool moves,
                        const Extras& extras, const OutputFolder& output, StageClock& clock,
                        const Pace& pace, bool quiet) {
-    CitySummary summary;
-    std::size_t scans = 0;
-    for (const Drive& drive : city.drives) scans += drive.sequence.size();
     const Tiles tiles = open_tiles(city, folders);
     io::write_file(output.path() / "config.toml", to_toml(city.config));
+    CitySummary summary = count(city, tiles);
     with_threads(pace.threads, [&] {
-        Progress progress("write", scans, quiet);
-        for (std::uint32_t d = 0; d < city.drives.size(); ++d) {
-            const fs::path folder = city.drives.size() == 1
-                                        ? output.path()
-                                        : output.path() / "drives" / city.drives[d].name;
-            fs::create_directories(folder);
-            summary.drives.push_back(write_drive(city, tiles, d, extras.maps, folder, progress));
-        }
+        summary.drives = write_drives(city, tiles, extras.maps, output.path(), quiet);
     });
     write_map(city, tiles, folders, moves, output.path() / "map");
-    for (const auto& reader : tiles.readers) {
-        summary.voxels += reader->summary().voxels;
-        summary.keyframes += reader->summary().keyframes;
-    }
-    summary.tiles = tiles.readers.size();
-    for (const TileWork& work : city.plan.tiles) summary.visits += work.scans.size();
     clock.finish("write");
-    Json metrics = Json::object();
-    for (std::size_t d = 0; d < city.drives.size(); ++d) {
-        metrics["drives"][city.drives[d].name] =
-            metrics_of(summary.drives[d], city.drives[d].sequence.losses);
-    }
-    if (city.drives.size() > 1) {
-        io::write_file(output.path() / "metrics.json", text_of(metrics));
-    }
+    const Json metrics = metrics_of_all(city, summary);
+    if (city.drives.size() > 1) io::write_file(output.path() / "metrics.json", text_of(metrics));
     if (extras.report && !viewer_page().empty()) {
         // Without the timing, so that the pages are the same however the work was shared out.
-        write_city_report(output.path(),
-                          city.drives.size() > 1 ? metrics : metrics["drives"].front(), nullptr,
-                          tracks_of(city));
+        write_city_report(output.path(), metrics, nullptr, tracks_of(city));
         clock.finish("report");
     }
     summary.seconds = clock.total();
