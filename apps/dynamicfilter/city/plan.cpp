@@ -263,7 +263,8 @@ std::vector<std::size_t> reached_by(const PlannedScan& scan, double edge, double
 }  // namespace
 
 double TileWork::cost() const {
-    // [s] for a point, and for a point and a voxel: measured with 16 and 64 beams, see docs/city.md.
+    // [s] for a point, and for a point and a voxel: measured with 16 and 64 beams, see
+    // docs/city.md.
     constexpr double kPerPoint = 2.5e-7, kPerPointAndVoxel = 4e-13;
     return static_cast<double>(points) *
            (kPerPoint + kPerPointAndVoxel * static_cast<double>(voxels));
