@@ -45,7 +45,7 @@ struct CityOptions {
     std::string part;                               ///< "I/N", or empty: all tiles, and the merge
     std::string memory;                             ///< "1.5G", or empty
     std::optional<std::filesystem::path> plan;      ///< left by `plan -o`
-    std::size_t tile_voxels = 2'000'000;            ///< most in a tile
+    std::size_t tile_voxels = 1'500'000;            ///< most in a tile
     bool mpi = false;
 };
 

@@ -25,7 +25,7 @@ constexpr double kGigabyte = 1e9, kMegabyte = 1e6;
 // [bytes] Measured, see docs/city.md: of a voxel with its index, its decision and its scores, of
 // the image of a keyframe per point of a scan, and of the program and the scans that are read
 // ahead.
-constexpr std::size_t kPerVoxel = 400, kPerPoint = 9, kOfProgram = 100'000'000;
+constexpr std::size_t kPerVoxel = 520, kPerPoint = 9, kOfProgram = 150'000'000;
 
 std::size_t halo_of(const TileWork& work) {
     if (work.tile.is_whole) return 0;
