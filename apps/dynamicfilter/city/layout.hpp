@@ -35,13 +35,19 @@ inline double cell_edge(double voxel_size) { return kVoxelsPerCell * voxel_size;
 /// The cell of a place in the world. It must be finite and within 40,000 km.
 PlaneCell cell_at(const Eigen::Vector3d& world, double edge);
 
-/// Calls use(i, world) for every point of the frame that was measured, in order.
+/// False for coordinates that no place on Earth has; they belong to no cell.
+inline bool has_cell(const Eigen::Vector3d& world) {
+    constexpr double kFarthest = 1e8;  // [m]
+    return world.cwiseAbs().maxCoeff() < kFarthest;
+}
+
+/// Calls use(i, world) for every point of the frame that was measured and has a cell, in order.
 template <class Use>
 void each_measured(const io::Frame& frame, const Use& use) {
     for (std::size_t i = 0; i < frame.points.size(); ++i) {
         if (!is_measured(frame.points[i])) continue;
         const Eigen::Vector3d world = frame.T_world_sensor * frame.points[i].cast<double>();
-        use(i, world);
+        if (has_cell(world)) use(i, world);
     }
 }
 

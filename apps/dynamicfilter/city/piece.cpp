@@ -43,7 +43,9 @@ Piece cut(const io::Frame& frame, const Tile& tile, double edge) {
     for (std::uint32_t i = 0; i < frame.points.size(); ++i) {
         const Point& point = frame.points[i];
         if (!is_measured(point) || is_far(point)) continue;
-        const PlaneCell cell = cell_at(frame.T_world_sensor * point.cast<double>(), edge);
+        const Eigen::Vector3d world = frame.T_world_sensor * point.cast<double>();
+        if (!has_cell(world)) continue;
+        const PlaneCell cell = cell_at(world, edge);
         if (!tile.is_whole && !is_around(tile, cell)) continue;
         piece.indices.push_back(i);
         piece.points.push_back(point);

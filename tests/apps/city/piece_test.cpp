@@ -24,6 +24,7 @@ io::Frame some_frame() {
     }
     frame.points[7].x() = std::numeric_limits<float>::quiet_NaN();
     frame.points[8] = Point::Zero();
+    frame.points[9].y() = 1e30F;
     return frame;
 }
 
@@ -50,7 +51,7 @@ TEST(Piece, HoldsThePointsInAndAroundTheTileInOrder) {
 TEST(Piece, OfTheOnlyTileIsAllThatWasMeasured) {
     const io::Frame frame = some_frame();
     const Piece piece = cut(frame, {.is_whole = true}, kEdge);
-    EXPECT_EQ(piece.points.size(), frame.points.size() - 2);
+    EXPECT_EQ(piece.points.size(), frame.points.size() - 3);
     EXPECT_EQ(labels_of(piece, frame.truth), piece.truth);
 }
 
