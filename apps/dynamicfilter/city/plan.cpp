@@ -91,7 +91,7 @@ public:
         drive_.rejected.push_back(fmt::format("{}: {}", io::stem(sequence_, i), why));
     }
 
-    void take(std::size_t i, const io::Frame& frame, Extent& extent) {
+    void take(std::size_t i, const io::Frame& frame, const Extent& extent) {
         if (!fields_.empty() && frame.cloud.fields != fields_) {
             reject(i, io::kOtherFields);
             return;
@@ -110,13 +110,30 @@ public:
         scan.is_used = true;
         scan.part = part_;
         scan.position = frame.T_world_sensor.translation();
-        scan.cells = std::move(extent.cells);
-        scan.around = std::move(extent.around);
+        cells_.insert(cells_.end(), extent.cells.begin(), extent.cells.end());
+        cells_.insert(cells_.end(), extent.around.begin(), extent.around.end());
+        counts_.push_back({i, extent.cells.size(), extent.around.size()});
         drive_.most_points = std::max(drive_.most_points, frame.points.size());
         before_last_ = std::exchange(last_, now);
     }
 
+    /// Gives the scans their cells. Not before all are read: small arrays between the large buffers
+    /// of scans would keep these from being used again.
+    void finish() {
+        auto next = cells_.begin();
+        for (const Counts& counts : counts_) {
+            const auto middle = next + static_cast<std::ptrdiff_t>(counts.cells);
+            const auto end = middle + static_cast<std::ptrdiff_t>(counts.around);
+            drive_.scans[counts.scan].cells.assign(next, middle);
+            drive_.scans[counts.scan].around.assign(middle, end);
+            next = end;
+        }
+    }
+
 private:
+    struct Counts {
+        std::size_t scan, cells, around;
+    };
     [[nodiscard]] bool is_repeated(const StampedPose& now) const {
         return last_ && last_->stamp == now.stamp &&
                last_->T_world_sensor.matrix() == now.T_world_sensor.matrix();
@@ -153,6 +170,8 @@ private:
     std::vector<io::Field> fields_;
     std::optional<StampedPose> before_last_, last_;
     std::uint32_t part_ = 0;
+    std::vector<PlaneCell> cells_;  // of all scans, one after the other
+    std::vector<Counts> counts_;
 };
 
 /// The voxels that were sampled so far.
@@ -187,10 +206,10 @@ void scan_drive(const Drive& drive, double voxel_size, PlannedDrive& planned, Vo
         extents[i] = extent_of(*maybe.frame, voxel_size);
     };
     const auto use = [&](std::size_t i, MaybeFrame& maybe) {
-        Extent extent = std::exchange(extents[i], {});
+        const Extent extent = std::exchange(extents[i], {});
         if (maybe.frame) {
             gate.take(i, *maybe.frame, extent);
-            if (planned.scans[i].is_used) sample.add(planned.scans[i].cells, extent.sampled);
+            if (planned.scans[i].is_used) sample.add(extent.cells, extent.sampled);
         } else {
             gate.reject(i, maybe.error);
         }
@@ -198,6 +217,7 @@ void scan_drive(const Drive& drive, double voxel_size, PlannedDrive& planned, Vo
         return !interrupted();
     };
     for_each_frame(drive.sequence, all_scans(drive.sequence), measure, use);
+    gate.finish();
     const bool none = std::none_of(planned.scans.begin(), planned.scans.end(),
                                    [](const PlannedScan& scan) { return scan.is_used; });
     if (none && !interrupted()) {
