@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <future>
 #include <map>
+#include <numeric>
 
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/geometry/pose.hpp"
@@ -72,6 +73,16 @@ io::Sequence open(const DataOptions& options) {
     return sequence;
 }
 
+std::vector<std::size_t> all_scans(const io::Sequence& sequence) {
+    std::vector<std::size_t> scans(sequence.size());
+    std::iota(scans.begin(), scans.end(), std::size_t{0});
+    return scans;
+}
+
+InputError changed_in_use(const io::Sequence& sequence, std::size_t i, const std::string& why) {
+    return {sequence.scan_files[i], "", "changed while it was in use: " + why};
+}
+
 void for_each_frame(const io::Sequence& sequence, const std::vector<std::size_t>& scans,
                     const std::function<void(std::size_t, MaybeFrame&)>& prepare,
                     const std::function<bool(std::size_t, MaybeFrame&)>& use) {
@@ -114,14 +125,19 @@ Scan take_scan(io::Frame& frame, std::size_t index) {
             frame.has_pose,          std::move(frame.times)};
 }
 
-Points shifted_world(const io::Frame& frame, const Eigen::Vector3d& origin) {
-    const Eigen::Matrix3d rotation = frame.T_world_sensor.linear();
-    const Eigen::Vector3d translation = frame.T_world_sensor.translation() - origin;
-    Points points(frame.points.size());
+Points shifted_world(const Points& points, const Pose& T_world_sensor,
+                     const Eigen::Vector3d& origin) {
+    const Eigen::Matrix3d rotation = T_world_sensor.linear();
+    const Eigen::Vector3d translation = T_world_sensor.translation() - origin;
+    Points shifted(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
-        points[i] = (rotation * frame.points[i].cast<double>() + translation).cast<float>();
+        shifted[i] = (rotation * points[i].cast<double>() + translation).cast<float>();
     }
-    return points;
+    return shifted;
+}
+
+Points shifted_world(const io::Frame& frame, const Eigen::Vector3d& origin) {
+    return shifted_world(frame.points, frame.T_world_sensor, origin);
 }
 
 Points positions_from(const io::Cloud& cloud, const Eigen::Vector3d& origin) {

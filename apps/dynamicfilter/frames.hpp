@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "dynamic_filter/error.hpp"
 #include "dynamic_filter/eval/scores.hpp"
 #include "dynamic_filter/io/sequence.hpp"
 #include "dynamic_filter/types.hpp"
@@ -26,6 +27,12 @@ struct MaybeFrame {
     std::string error;
 };
 
+/// The indices of all scans, in order.
+std::vector<std::size_t> all_scans(const io::Sequence& sequence);
+
+/// What to throw if a scan that could be used before is another one now, or gone.
+InputError changed_in_use(const io::Sequence& sequence, std::size_t i, const std::string& why);
+
 /// Reads `scans` (indices) a few at a time, in parallel, and the next few meanwhile; `prepare` runs
 /// on each in parallel, then `use` on each in order, in the caller's thread. Stops early when `use`
 /// returns false.
@@ -36,6 +43,10 @@ void for_each_frame(const io::Sequence& sequence, const std::vector<std::size_t>
 /// The core's view of a frame; takes the frame's points.
 Scan take_scan(io::Frame& frame, std::size_t index);
 
+/// Points of the sensor in the world, shifted by `-origin`. Near the origin floats are exact
+/// enough.
+Points shifted_world(const Points& points, const Pose& T_world_sensor,
+                     const Eigen::Vector3d& origin);
 /// The scan's points, shifted by `-origin` from the world. Near the origin floats are exact enough.
 Points shifted_world(const io::Frame& frame, const Eigen::Vector3d& origin);
 

@@ -4,7 +4,6 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <string>
@@ -17,9 +16,6 @@
 namespace dynamic_filter::app {
 
 namespace {
-
-/// By verdict_code().
-constexpr std::array<Label, 3> kLabels = {Label::unknown, Label::static_, Label::dynamic};
 
 std::vector<std::uint8_t> packed(const Labels& labels) {
     std::vector<std::uint8_t> bytes((labels.size() + 3) / 4);
@@ -86,7 +82,7 @@ Labels LabelStore::get(std::size_t scan) const {
         if (got > 0) done += static_cast<std::size_t>(got);
     }
     Labels labels(count);
-    for (std::size_t i = 0; i < count; ++i) labels[i] = kLabels[bytes[i / 4] >> 2 * (i % 4) & 3];
+    for (std::size_t i = 0; i < count; ++i) labels[i] = label_of_code(bytes[i / 4] >> 2 * (i % 4));
     return labels;
 }
 

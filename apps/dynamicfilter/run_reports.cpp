@@ -159,15 +159,19 @@ void write_reports(Pass& pass) {
     io::write_file(pass.output.path() / "timing.json", text_of(timing(pass)));
 }
 
-std::string to_text(const RunSummary& s) {
+std::string shares_of(const RunSummary& s) {
     const auto share = [&](std::size_t n) {
         return s.points == 0 ? 0.0 : 100.0 * static_cast<double>(n) / static_cast<double>(s.points);
     };
+    return fmt::format("{:.1f} % static, {:.1f} % dynamic, {:.1f} % unknown", share(s.still),
+                       share(s.dynamic), share(s.unknown));
+}
+
+std::string to_text(const RunSummary& s) {
     std::string text =
         fmt::format("scans    {} ({} rejected), {} {}, {} voxels\n", s.scans, s.rejected.size(),
                     s.contents.observers, s.contents.observer, s.contents.voxels) +
-        fmt::format("points   {}: {:.1f} % static, {:.1f} % dynamic, {:.1f} % unknown\n", s.points,
-                    share(s.still), share(s.dynamic), share(s.unknown)) +
+        fmt::format("points   {}: {}\n", s.points, shares_of(s)) +
         fmt::format("speed    {:.1f} scans/s of the whole run ({:.1f} s, {:.1f} s of CPU)",
                     per_second(s.scans, s.seconds.wall), s.seconds.wall, s.seconds.cpu);
     for (const RunSummary::Rate& rate : s.rates) {

@@ -8,6 +8,9 @@
 
 namespace dynamic_filter::app {
 
+/// "95.5 % static, 4.5 % dynamic, 0.0 % unknown": of the points.
+std::string shares_of(const RunSummary& summary);
+
 /// The closing table.
 std::string to_text(const RunSummary& summary);
 

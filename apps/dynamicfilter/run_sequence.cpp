@@ -25,12 +25,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-std::vector<std::size_t> all_scans(const io::Sequence& sequence) {
-    std::vector<std::size_t> scans(sequence.size());
-    std::iota(scans.begin(), scans.end(), std::size_t{0});
-    return scans;
-}
-
 std::vector<std::size_t> accepted_scans(const Pass& pass) {
     std::vector<std::size_t> scans;
     for (std::size_t i = 0; i < pass.accepted.size(); ++i) {

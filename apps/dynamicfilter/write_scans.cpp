@@ -18,14 +18,11 @@ void write_scans(const io::Sequence& sequence, const std::vector<std::size_t>& s
     const auto labels = folder / "labels";
     std::filesystem::create_directories(labels);
     MapFiles maps(folder, config.map.keep_unknown, sequence.format == io::Format::benchmark);
-    const auto changed = [&](std::size_t i, const std::string& why) {
-        return InputError(sequence.scan_files[i], "", "changed while it was in use: " + why);
-    };
     if (with_maps && !scans.empty()) {
         try {
             maps.begin(io::read_frame(sequence, scans.front()));
         } catch (const InputError& error) {
-            throw changed(scans.front(), error.what());
+            throw changed_in_use(sequence, scans.front(), error.what());
         }
     }
     std::vector<Verdict> verdicts(sequence.size());
@@ -42,7 +39,7 @@ void write_scans(const io::Sequence& sequence, const std::vector<std::size_t>& s
         }
     };
     const auto use = [&](std::size_t i, MaybeFrame& maybe) {
-        if (!maybe.frame) throw changed(i, maybe.error);
+        if (!maybe.frame) throw changed_in_use(sequence, i, maybe.error);
         if (with_maps) maps.append(std::exchange(records[i], {}));
         results.use(i, *maybe.frame, std::exchange(verdicts[i], {}));
         return true;  // what is filtered is written even after an interruption; a second one kills

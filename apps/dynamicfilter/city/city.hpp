@@ -18,9 +18,6 @@ struct City {
     std::vector<Drive> drives;
     Plan plan;        ///< empty until it is made or read
     std::string run;  ///< what the run was begun with: the mark of its files
-    [[nodiscard]] const Drive& drive_of(const ScanOfDrive& scan) const {
-        return drives[scan.drive];
-    }
 };
 
 /// Opens the drives. Throws ConfigError if an option does not go with tiles.

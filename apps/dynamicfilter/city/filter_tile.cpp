@@ -113,18 +113,14 @@ bool each_scan(const City& city, const ScanGroup& group, const std::vector<std::
             number_of[scans.back()] = numbers[begin];
         }
         const io::Sequence& sequence = city.drives[drive].sequence;
-        const auto unchanged = [&](std::size_t i, MaybeFrame& maybe) -> io::Frame& {
-            if (maybe.frame) return *maybe.frame;
-            throw InputError(sequence.scan_files[i], "",
-                             "changed while it was in use: " + maybe.error);
-        };
         for_each_frame(
             sequence, scans,
             [&](std::size_t i, MaybeFrame& maybe) {
                 if (prepare) prepare(number_of.at(i), *maybe.frame);
             },
             [&](std::size_t i, MaybeFrame& maybe) {
-                use(number_of.at(i), unchanged(i, maybe));
+                if (!maybe.frame) throw changed_in_use(sequence, i, maybe.error);
+                use(number_of.at(i), *maybe.frame);
                 return !interrupted();
             });
         if (interrupted()) return false;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "city/layout.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
 #include "dynamic_filter/geometry/voxel.hpp"
@@ -42,7 +40,7 @@ PlaneCell cell_at(const Eigen::Vector3d& world, double edge) {
 }
 
 std::string name_of(const Tile& tile) {
-    return tile.is_whole ? "all" : fmt::format("{}_{}_{}", tile.level, tile.x, tile.y);
+    return tile.is_whole ? kWholeTile : tile_name(tile.level, tile.x, tile.y);
 }
 
 Tile tile_at(const PlaneCell& cell, int level) {
@@ -51,8 +49,7 @@ Tile tile_at(const PlaneCell& cell, int level) {
 }
 
 Region region_of(const Tile& tile, double voxel_size, double height) {
-    const double edge = cell_edge(voxel_size);
-    const double side = cells_of(tile.level) * edge, halo = kHaloVoxels * voxel_size;
+    const double side = side_of(voxel_size, tile.level), halo = kHaloVoxels * voxel_size;
     const Eigen::Vector2d corner = side * Eigen::Vector2d(tile.x, tile.y);
     return {.origin = {corner.x(), corner.y(), height},
             .bounds = {Eigen::Vector2d::Constant(-halo), Eigen::Vector2d::Constant(side + halo)}};

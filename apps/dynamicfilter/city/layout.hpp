@@ -14,6 +14,7 @@
 
 #include <tsl/robin_map.h>
 
+#include "city/map_index.hpp"
 #include "dynamic_filter/io/sequence.hpp"
 #include "dynamic_filter/pipeline/dynamic_filter.hpp"
 
@@ -29,7 +30,7 @@ struct PlaneCellHash {
     std::size_t operator()(const PlaneCell& cell) const;
 };
 
-constexpr int kVoxelsPerCell = 64;
+constexpr int kVoxelsPerCell = kTileVoxels / 2;
 inline double cell_edge(double voxel_size) { return kVoxelsPerCell * voxel_size; }  ///< [m]
 
 /// The cell of a place in the world. It must be finite and within 40,000 km.

@@ -22,7 +22,6 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr const char* kIndex = "index.json";
-constexpr const char* kWhole = "all";
 constexpr int kMostLevel = 30;
 
 /// A part of the file, and where it is, for messages.
@@ -92,7 +91,7 @@ MapTile tile_of(const ordered_json& json, const Place& place) {
     tile.voxels = place.count(json, "voxels");
     tile.scans = place.count(json, "scans");
     tile.file = place.text(json, "file");
-    tile.is_whole = tile.name == kWhole;
+    tile.is_whole = tile.name == kWholeTile;
     if (!tile.is_whole && tile.name != tile_name(tile.level, tile.x, tile.y)) {
         place.refuse(fmt::format("the name '{}' is not that of level {}, x {}, y {}", tile.name,
                                  tile.level, tile.x, tile.y));

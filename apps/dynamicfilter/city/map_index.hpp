@@ -10,9 +10,10 @@
 
 namespace dynamic_filter::app {
 
-inline constexpr int kTileVoxels =
-    128;  ///< along the side of a tile of level 0; each level doubles it
-inline constexpr int kMapVersion = 1;  ///< of the index; others are refused
+/// Along the side of a tile of level 0; each level doubles it.
+inline constexpr int kTileVoxels = 128;
+inline constexpr const char* kWholeTile = "all";  ///< name of the only tile, without bounds
+inline constexpr int kMapVersion = 1;             ///< of the index; others are refused
 
 /// A recording that the map was made of.
 struct MapDrive {

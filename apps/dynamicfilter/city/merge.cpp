@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
-#include <optional>
 
 #include "city/part_file.hpp"
 #include "city/tile_file.hpp"
@@ -38,22 +38,23 @@ std::vector<Part> read_parts(const std::vector<fs::path>& folders) {
 /// The folder that holds the files of each tile.
 std::map<Tile, fs::path> find_tiles(const City& city, const std::vector<fs::path>& folders,
                                     std::size_t parts) {
+    const std::vector<std::size_t> part_of = part_of_tiles(city.plan.tiles, parts);
+    std::vector<std::size_t> order = by_cost(city.plan.tiles);  // so that the first part is named
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return part_of[a] < part_of[b]; });
     std::map<Tile, fs::path> found;
-    for (std::size_t part = 1; part <= parts; ++part) {
-        for (const std::size_t t : tiles_of_part(city.plan.tiles, part, parts)) {
-            const Tile& tile = city.plan.tiles[t].tile;
-            for (const fs::path& folder : folders) {
-                if (!is_done(folder / kTilesFolder / tile_file(tile), city.run)) continue;
-                found[tile] = folder / kTilesFolder;
-                break;
-            }
-            if (!found.contains(tile)) {
-                throw ConfigError(fmt::format(
-                    "part {}/{} is missing: none of the given folders holds its tile {}; give the "
-                    "folder of that part, or run it (again)",
-                    part, parts, name_of(tile)));
-            }
+    for (const std::size_t t : order) {
+        const Tile& tile = city.plan.tiles[t].tile;
+        const auto holder = std::find_if(folders.begin(), folders.end(), [&](const fs::path& f) {
+            return is_done(f / kTilesFolder / tile_file(tile), city.run);
+        });
+        if (holder == folders.end()) {
+            throw ConfigError(fmt::format(
+                "part {}/{} is missing: none of the given folders holds its tile {}; give the "
+                "folder of that part, or run it (again)",
+                part_of[t], parts, name_of(tile)));
         }
+        found[tile] = *holder / kTilesFolder;
     }
     return found;
 }

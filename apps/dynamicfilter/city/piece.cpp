@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "city/piece.hpp"
 
+#include "frames.hpp"
+
 namespace dynamic_filter::app {
 
 namespace {
@@ -64,13 +66,9 @@ Labels labels_of(const Piece& piece, const Labels& of_scan) {
 
 eval::LabelledScan labelled_inside(const Piece& piece, const Pose& T_world_sensor,
                                    const Eigen::Vector3d& origin) {
-    eval::LabelledScan scan;
-    const Eigen::Vector3d translation = T_world_sensor.translation() - origin;
-    for (std::size_t i = 0; i < piece.points.size(); ++i) {
-        const Eigen::Vector3d at =
-            T_world_sensor.linear() * piece.points[i].cast<double>() + translation;
-        scan.points.push_back(at.cast<float>());
-        scan.truth.push_back(piece.inside[i] ? piece.truth[i] : Label::unknown);
+    eval::LabelledScan scan{shifted_world(piece.points, T_world_sensor, origin), piece.truth, {}};
+    for (std::size_t i = 0; i < scan.truth.size(); ++i) {
+        if (!piece.inside[i]) scan.truth[i] = Label::unknown;
     }
     return scan;
 }

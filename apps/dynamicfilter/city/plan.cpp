@@ -2,6 +2,7 @@
 #include "city/plan.hpp"
 
 #include <fmt/format.h>
+#include <tsl/robin_set.h>
 
 #include <algorithm>
 #include <cmath>
@@ -180,22 +181,16 @@ public:
     void add(const std::vector<PlaneCell>& cells,
              const std::vector<std::pair<PlaneCell, std::uint64_t>>& sampled) {
         for (const auto& [cell, hash] : sampled) {
-            if (seen_.emplace(hash, true).second) counts_[cell] += kSampled;
+            if (seen_.insert(hash).second) counts_[cell] += kSampled;
         }
         for (const PlaneCell& cell : cells) counts_.try_emplace(cell, 0);
     }
     [[nodiscard]] const std::map<PlaneCell, std::size_t>& counts() const { return counts_; }
 
 private:
-    tsl::robin_map<std::uint64_t, bool> seen_;
+    tsl::robin_set<std::uint64_t> seen_;
     std::map<PlaneCell, std::size_t> counts_;
 };
-
-std::vector<std::size_t> all_scans(const io::Sequence& sequence) {
-    std::vector<std::size_t> scans(sequence.size());
-    std::iota(scans.begin(), scans.end(), std::size_t{0});
-    return scans;
-}
 
 void scan_drive(const Drive& drive, double voxel_size, PlannedDrive& planned, VoxelSample& sample,
                 Progress& progress) {
@@ -349,15 +344,22 @@ std::vector<std::size_t> by_cost(const std::vector<TileWork>& tiles) {
     return order;
 }
 
-std::vector<std::size_t> tiles_of_part(const std::vector<TileWork>& tiles, std::size_t part,
-                                       std::size_t parts) {
+std::vector<std::size_t> part_of_tiles(const std::vector<TileWork>& tiles, std::size_t parts) {
     std::vector<double> load(parts);
-    std::vector<std::size_t> chosen;
+    std::vector<std::size_t> part_of(tiles.size());
     for (const std::size_t tile : by_cost(tiles)) {
         const auto least = std::min_element(load.begin(), load.end());
         *least += tiles[tile].cost();
-        if (static_cast<std::size_t>(least - load.begin()) + 1 == part) chosen.push_back(tile);
+        part_of[tile] = static_cast<std::size_t>(least - load.begin()) + 1;
     }
+    return part_of;
+}
+
+std::vector<std::size_t> tiles_of_part(const std::vector<TileWork>& tiles, std::size_t part,
+                                       std::size_t parts) {
+    const std::vector<std::size_t> part_of = part_of_tiles(tiles, parts);
+    std::vector<std::size_t> chosen = by_cost(tiles);
+    std::erase_if(chosen, [&](std::size_t tile) { return part_of[tile] != part; });
     return chosen;
 }
 

@@ -72,8 +72,11 @@ void cut_into_tiles(Plan& plan, const Config& config);
 /// Indices of the tiles, the most work first.
 std::vector<std::size_t> by_cost(const std::vector<TileWork>& tiles);
 
-/// The tiles of part `part` of `parts`, counted from 1, the most work first: each tile goes to the
-/// part that has the least work so far.
+/// The part of each tile, counted from 1: the tiles with the most work come first, and each goes to
+/// the part that has the least work so far.
+std::vector<std::size_t> part_of_tiles(const std::vector<TileWork>& tiles, std::size_t parts);
+
+/// The tiles of part `part` of `parts`, the most work first.
 std::vector<std::size_t> tiles_of_part(const std::vector<TileWork>& tiles, std::size_t part,
                                        std::size_t parts);
 

@@ -16,27 +16,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The part of each tile, counted from 1.
-std::vector<std::size_t> part_of_tiles(const Plan& plan, std::size_t parts) {
-    std::vector<std::size_t> part_of(plan.tiles.size());
-    for (std::size_t part = 1; part <= parts; ++part) {
-        for (const std::size_t tile : tiles_of_part(plan.tiles, part, parts)) part_of[tile] = part;
-    }
-    return part_of;
-}
-
 struct Totals {
     std::size_t scans = 0, visits = 0, voxels = 0, memory = 0;  // memory: of the largest tile
     double cost = 0.0;                                          // [s]
     std::vector<double> by_part;
 };
 
-Totals totals_of(const City& city, std::size_t parts) {
+Totals totals_of(const City& city, const std::vector<std::size_t>& part_of, std::size_t parts) {
     Totals totals{.by_part = std::vector<double>(parts)};
     for (const PlannedDrive& drive : city.plan.drives) {
         for (const PlannedScan& scan : drive.scans) totals.scans += scan.is_used ? 1 : 0;
     }
-    const std::vector<std::size_t> part_of = part_of_tiles(city.plan, parts);
     for (std::size_t t = 0; t < city.plan.tiles.size(); ++t) {
         const TileWork& work = city.plan.tiles[t];
         totals.visits += work.scans.size();
@@ -49,7 +39,7 @@ Totals totals_of(const City& city, std::size_t parts) {
 }
 
 std::string plan_text(const City& city, std::size_t parts) {
-    const Totals t = totals_of(city, parts);
+    const Totals t = totals_of(city, part_of_tiles(city.plan.tiles, parts), parts);
     std::string text = fmt::format(
         "drives   {}, {} scans\n"
         "tiles    {}, about {:.1f} million voxels; a scan reaches {:.1f} of them on average\n"
@@ -67,8 +57,8 @@ std::string plan_text(const City& city, std::size_t parts) {
 }
 
 std::string plan_json(const City& city, std::size_t parts) {
-    const Totals totals = totals_of(city, parts);
-    const std::vector<std::size_t> part_of = part_of_tiles(city.plan, parts);
+    const std::vector<std::size_t> part_of = part_of_tiles(city.plan.tiles, parts);
+    const Totals totals = totals_of(city, part_of, parts);
     nlohmann::ordered_json json{{"scans", totals.scans},
                                 {"visits", totals.visits},
                                 {"cost_seconds", totals.cost},

@@ -23,9 +23,6 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kMagic = "dynamicfilter-tile-1";
 constexpr std::size_t kLastLine = 64;  // bytes
 
-constexpr std::array<Label, 4> kLabels = {Label::unknown, Label::static_, Label::dynamic,
-                                          Label::unknown};
-
 /// Bits 0-1: final, 2-3: instant, 4: stays.
 std::byte code_of(const PointVerdict& verdict) {
     const int code = verdict_code(verdict.final) | verdict_code(verdict.instant) << 2 |
@@ -35,8 +32,8 @@ std::byte code_of(const PointVerdict& verdict) {
 
 PointVerdict verdict_of(std::byte byte) {
     const auto code = std::to_integer<unsigned>(byte);
-    return {.final = kLabels[code & 3U],
-            .instant = kLabels[code >> 2 & 3U],
+    return {.final = label_of_code(code),
+            .instant = label_of_code(code >> 2),
             .stays = (code >> 4 & 1U) != 0};
 }
 
@@ -124,6 +121,10 @@ std::string read_at(const std::filesystem::path& file, std::uint64_t offset, std
     return bytes;
 }
 
+std::string first_line(const std::string& run) {
+    return std::string(kMagic) + " " + fingerprint(run) + "\n";
+}
+
 std::string last_line(std::uint64_t offset, std::string_view index) {
     const std::uint32_t crc = crc_of(std::as_bytes(std::span(index)));
     return fmt::format("{:<{}}\n", fmt::format("index {} {} {:08x}", offset, index.size(), crc),
@@ -132,7 +133,7 @@ std::string last_line(std::uint64_t offset, std::string_view index) {
 
 /// The index of a file whose first and last line are right.
 Json read_index(const std::filesystem::path& file, const std::string& run) {
-    const std::string first = std::string(kMagic) + " " + fingerprint(run) + "\n";
+    const std::string first = first_line(run);
     const std::uint64_t size = std::filesystem::file_size(file);
     if (size < first.size() + kLastLine) refuse_damaged(file);
     const std::string begin = read_at(file, 0, first.size());
@@ -156,9 +157,8 @@ Json read_index(const std::filesystem::path& file, const std::string& run) {
 
 }  // namespace
 
-TileWriter::TileWriter(const std::filesystem::path& file, const std::string& run)
-    : file_(file), run_(fingerprint(run)) {
-    const std::string first = std::string(kMagic) + " " + run_ + "\n";
+TileWriter::TileWriter(const std::filesystem::path& file, const std::string& run) : file_(file) {
+    const std::string first = first_line(run);
     file_.write(first);
     end_ = first.size();
 }

@@ -58,7 +58,6 @@ private:
         std::uint64_t offset = 0;
     };
     io::AtomicFile file_;
-    std::string run_;
     std::uint64_t end_ = 0;
     std::vector<Block> blocks_;
 };

@@ -14,6 +14,7 @@
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/io/file.hpp"
 #include "dynamic_filter/parallel.hpp"
+#include "frames.hpp"
 #include "progress.hpp"
 #include "report.hpp"
 #include "run_reports.hpp"
@@ -78,8 +79,8 @@ Verdict verdict_of(const City& city, const Tiles& tiles, const ScanOfDrive& scan
             in = found == open.end() ? nullptr : &*found;
         }
         if (!in || in->next >= in->verdicts.size()) {
-            throw InputError(city.drive_of(scan).sequence.scan_files[scan.scan], "",
-                             "changed while it was in use: its points are others than before");
+            throw changed_in_use(city.drives[scan.drive].sequence, scan.scan,
+                                 "its points are others than before");
         }
         const PointVerdict& of_point = in->verdicts[in->next++];
         verdict.labels[i] = of_point.final;
@@ -106,13 +107,8 @@ void add_scores(const Tiles& tiles, std::uint32_t drive, RunSummary& summary) {
 }
 
 std::string points_text(const RunSummary& s) {
-    const auto share = [&](std::size_t n) {
-        return s.points == 0 ? 0.0 : 100.0 * static_cast<double>(n) / static_cast<double>(s.points);
-    };
-    return fmt::format(
-        "{} scans ({} rejected); {} points: {:.1f} % static, {:.1f} % dynamic, "
-        "{:.1f} % unknown",
-        s.scans, s.rejected.size(), s.points, share(s.still), share(s.dynamic), share(s.unknown));
+    return fmt::format("{} scans ({} rejected); {} points: {}", s.scans, s.rejected.size(),
+                       s.points, shares_of(s));
 }
 
 void write_log(const fs::path& folder, const Drive& drive, const RunSummary& s) {
