@@ -3,11 +3,12 @@
 # unbroken run, and wrong input is named.   city_test.sh COMMAND
 set -eu
 command=$(realpath "$1")
+# shellcheck source=tests/support/bytes_of.sh
+. "$(dirname "$0")/../../support/bytes_of.sh"
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
 fail() { echo "$1"; [ ! -e said ] || cat said; exit 1; }
-bytes_of() { (cd "$1" && find . -type f ! -name timing.json ! -name run.log ! -name .run ! -name .lock | sort | xargs md5sum); }
 expect() {  # expect CODE TEXT ARGUMENTS...: the command ends with this code and says this
     code=$1 text=$2
     shift 2
@@ -47,14 +48,14 @@ done
 [ "$(ls whole/map/*.pcd | wc -l)" -gt 3 ] || fail "too few tiles to test anything"
 [ ! -e whole/tiles ] || fail "the tiles stayed"
 [ "$(ls whole/drives/a/labels | wc -l)" = 20 ] || fail "labels of the first drive"
-bytes_of whole > whole.md5
+bytes_of whole .run > whole.md5
 for parts in 1 2 5; do
     for i in $(seq "$parts"); do
         "$command" run a b $options --part "$i/$parts" --threads 1 -q -o "part$i" > said 2>&1 || fail "part $i"
     done
     # shellcheck disable=SC2046  # the names have no spaces
     "$command" merge $(seq "$parts" -1 1 | sed s/^/part/) part1 -o merged > said 2>&1 || fail "merge of $parts"
-    bytes_of merged > merged.md5
+    bytes_of merged .run > merged.md5
     cmp -s whole.md5 merged.md5 || fail "$parts parts: $(diff whole.md5 merged.md5)"
     [ "$parts" = 5 ] || rm -r part* merged
 done
@@ -64,7 +65,7 @@ printf '# both\na\nb\tb/poses.txt\n' > drives.txt
 "$command" plan drives.txt $options -o plan.bin --parts 3 > said 2>&1 || fail "plan"
 grep -q "^parts    3" said || fail "plan says nothing of parts"
 "$command" run drives.txt $options --plan plan.bin -o listed > said 2>&1 || fail "a list and a plan"
-bytes_of listed > listed.md5
+bytes_of listed .run > listed.md5
 cmp -s whole.md5 listed.md5 || fail "list and plan: $(diff whole.md5 listed.md5)"
 "$command" plan a b $options --json -q > plan.json && grep -q '"cost_seconds"' plan.json || fail "plan as JSON"
 
@@ -84,7 +85,7 @@ touch merged/drives/a/own/notes
 "$command" merge part1 part2 part3 part4 part5 -o merged --overwrite > said 2>&1 || fail "merge over a result"
 [ -e merged/drives/a/own/notes ] || fail "a file of the user is gone"
 rm -r merged/drives/a/own
-bytes_of merged > merged.md5
+bytes_of merged .run > merged.md5
 cmp -s whole.md5 merged.md5 || fail "overwritten: $(diff whole.md5 merged.md5)"
 
 expect 2 "I from 1 to N" run a --part 3/2 -o other
