@@ -7,54 +7,24 @@ import { pageOf, runPanel, tilePanel, tilesPanel, viewPanel } from "./city_panel
 import { scaleGradient } from "./colours.js";
 import { h } from "./dom.js";
 import { count, fixed, plural } from "./format.js";
+import { onGestures } from "./gestures.js";
 import { Store } from "./store.js";
 import { toggleTheme, watchTheme } from "./theme.js";
 import "./city.css";
 
-const CLICK_REACH = 4;  // px
 const DEFAULTS = { colour: "height", drive: -1, tracks: true, outlines: true, selected: -1 };
 
 function steer(map, { choose, openTile }) {
-  const { canvas } = map;
-  const pointers = new Map();
-  let travelled = 0;
-  const spread = () => {
-    const [a, b] = [...pointers.values()];
-    return { x: (a.x + b.x) / 2, y: (a.y + b.y) / 2, width: Math.hypot(a.x - b.x, a.y - b.y) };
-  };
-  canvas.addEventListener("pointerdown", (event) => {
-    canvas.setPointerCapture(event.pointerId);
-    pointers.set(event.pointerId, { x: event.offsetX, y: event.offsetY });
-    if (pointers.size === 1) travelled = 0;
-  });
-  canvas.addEventListener("pointermove", (event) => {
-    const before = pointers.get(event.pointerId);
-    if (!before) return;
-    const dx = event.offsetX - before.x, dy = event.offsetY - before.y;
-    travelled += Math.hypot(dx, dy);
-    if (travelled < CLICK_REACH) return;
-    const was = pointers.size >= 2 ? spread() : null;
-    pointers.set(event.pointerId, { x: event.offsetX, y: event.offsetY });
-    if (!was) {
+  onGestures(map.canvas, {
+    drag: (dx, dy) => map.pan(dx, dy),
+    pinch: ({ dx, dy, scale, x, y }) => {
       map.pan(dx, dy);
-      return;
-    }
-    const is = spread();
-    map.pan(is.x - was.x, is.y - was.y);
-    if (was.width > 0) map.zoom(is.width / was.width, is.x, is.y);
+      if (scale !== 1) map.zoom(scale, x, y);
+    },
+    click: (x, y) => choose(map.tileAt(x, y)),
+    doubleClick: (x, y) => openTile(map.tileAt(x, y)),
+    wheel: (scale, x, y) => map.zoom(scale, x, y),
   });
-  const release = (event) => {
-    if (!pointers.delete(event.pointerId)) return;
-    if (travelled < CLICK_REACH && event.type === "pointerup") choose(map.tileAt(event.offsetX, event.offsetY));
-  };
-  canvas.addEventListener("pointerup", release);
-  canvas.addEventListener("pointercancel", release);
-  canvas.addEventListener("dblclick", (event) => openTile(map.tileAt(event.offsetX, event.offsetY)));
-  canvas.addEventListener("wheel", (event) => {
-    event.preventDefault();
-    const lines = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 30 : 1;
-    map.zoom(Math.exp(-0.0015 * lines * event.deltaY), event.offsetX, event.offsetY);
-  }, { passive: false });
 }
 
 function bindKeys(map, openSelected) {
