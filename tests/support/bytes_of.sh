@@ -3,7 +3,7 @@
 
 # bytes_of FOLDER [NAME...]: of all files but those that differ from run to run, and those of these names.
 bytes_of() (
-    cd "$1"
+    cd "$1" || exit
     shift
     set -- "$@" timing.json run.log .lock
     for name; do
