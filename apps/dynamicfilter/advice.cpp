@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "advice.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 
 namespace dynamic_filter::app {
@@ -30,6 +32,12 @@ io::Finding blame_needless_fix(io::Finding finding, const DataOptions& given) {
     return {"the poses are right without " + option + given.pose_fix +
                 (reason == std::string::npos ? "" : finding.what.substr(reason)),
             "leave out --pose-fix"};
+}
+
+std::string warning_of(const io::Finding& finding, const DataOptions& given) {
+    const auto [what, advice] = blame_needless_fix(finding, given);
+    return fmt::format("{}; {}{} (`dynamicfilter check` looks closer)", what,
+                       advice.starts_with("--") ? "try " : "", advice);
 }
 
 std::string next_command(const DataOptions& given, const std::string& option) {

@@ -15,6 +15,9 @@ namespace dynamic_filter::app {
 /// Returns a finding that says so; other findings are returned as they are.
 io::Finding blame_needless_fix(io::Finding finding, const DataOptions& given);
 
+/// What `run` says about a finding before it begins.
+std::string warning_of(const io::Finding& finding, const DataOptions& given);
+
 /// The command that follows: `dynamicfilter run` with the recording, the options that were given to
 /// read it, and `option`, which replaces a given one of the same name.
 std::string next_command(const DataOptions& given, const std::string& option);

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <filesystem>
-#include <system_error>
-
 #include "advice.hpp"
 #include "city/drives.hpp"
 #include "commands.hpp"
@@ -48,38 +45,6 @@ bool check_one(io::Sequence sequence, const DataOptions& options) {
         print_finding(blame_needless_fix(finding, options), options);
     }
     return preflight.findings.empty() && preflight.unusable.empty() && sequence.losses.empty();
-}
-
-void refuse_repeated(const std::vector<DriveSource>& sources) {
-    for (std::size_t b = 1; b < sources.size(); ++b) {
-        for (std::size_t a = 0; a < b; ++a) {
-            std::error_code none;
-            const auto& again = sources[b].recording;
-            if (!std::filesystem::equivalent(sources[a].recording, again, none)) continue;
-            throw ConfigError(again.string() + ": is given twice; name each recording once");
-        }
-    }
-}
-
-/// How to read each recording.
-std::vector<DataOptions> options_of(const CheckOptions& options) {
-    const std::vector<DriveSource> sources = expand(options.recordings);
-    refuse_repeated(sources);
-    const auto& poses = options.how.open.poses;
-    if (sources.size() > 1 && poses && *poses != "none") {
-        throw ConfigError(
-            "--poses " + poses->string() +
-            ": belongs to one recording, but several are given; leave the pose file of each one in "
-            "its folder, or give a list (.txt) with a line for each: the recording, a tab, its "
-            "pose file");
-    }
-    std::vector<DataOptions> each;
-    for (const DriveSource& source : sources) {
-        each.push_back(options.how);
-        each.back().data = source.recording;
-        if (source.poses && !poses) each.back().open.poses = source.poses;
-    }
-    return each;
 }
 
 std::string match_text(const io::DriveOffset& offset) {
@@ -131,7 +96,7 @@ bool check_together(const std::vector<io::Sequence>& sequences,
 }  // namespace
 
 int check(const CheckOptions& options) {
-    const std::vector<DataOptions> each = options_of(options);
+    const std::vector<DataOptions> each = options_of(expand(options.recordings), options.how);
     const bool several = each.size() > 1;
     std::vector<io::Sequence> sequences;
     for (const DataOptions& one : each) sequences.push_back(open(one));

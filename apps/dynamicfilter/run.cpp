@@ -73,9 +73,7 @@ int run(const RunOptions& o) {
     write_state(output, state);
     tell(sequence.notes, o.quiet);
     for (const io::Finding& found : io::check_recording(sequence, io::Depth::quick).findings) {
-        const io::Finding finding = blame_needless_fix(found, o.data);
-        fmt::print(stderr, "warning: {}; {}{} (`dynamicfilter check` looks closer)\n", finding.what,
-                   finding.advice.starts_with("--") ? "try " : "", finding.advice);
+        fmt::print(stderr, "warning: {}\n", warning_of(found, o.data));
     }
 
     if (o.catches) catch_interrupts();

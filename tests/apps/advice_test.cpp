@@ -57,5 +57,14 @@ TEST(Advice, ANeedlessCorrectionIsNamedAsTheMistake) {
               "--deskew on");
 }
 
+TEST(Advice, AWarningSaysWhatIsWrongAndWhatToTry) {
+    EXPECT_EQ(
+        warning_of({"the poses are in millimetres", "--pose-fix mm"}, with_fix("none")),
+        "the poses are in millimetres; try --pose-fix mm (`dynamicfilter check` looks closer)");
+    EXPECT_EQ(warning_of({"a: b", "--pose-fix lidar"}, with_fix("camera")),
+              "the poses are right without --pose-fix camera: b; leave out --pose-fix "
+              "(`dynamicfilter check` looks closer)");
+}
+
 }  // namespace
 }  // namespace dynamic_filter::app

@@ -51,10 +51,13 @@ std::string state_of_output(const City& city, const RunOptions& o) {
 
 void tell_notes(const City& city, bool quiet) {
     for (std::size_t d = 0; d < city.drives.size(); ++d) {
-        for (const std::string& note : city.plan.drives[d].notes) {
-            const bool warns = note.starts_with("warning: ");
-            if (quiet && !warns) continue;
-            fmt::print(stderr, "{}{}: {}\n", warns ? "" : "note: ", city.drives[d].name, note);
+        const std::string& name = city.drives[d].name;
+        const PlannedDrive& planned = city.plan.drives[d];
+        for (const std::string& note : planned.notes) {
+            if (!quiet) fmt::print(stderr, "note: {}: {}\n", name, note);
+        }
+        for (const std::string& warning : planned.warnings) {
+            fmt::print(stderr, "warning: {}: {}\n", name, warning);
         }
     }
 }

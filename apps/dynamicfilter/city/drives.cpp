@@ -69,8 +69,8 @@ std::string ending_of(const fs::path& path, int parts) {
 void refuse_twice(const std::vector<DriveSource>& sources) {
     std::set<fs::path> seen;
     for (const DriveSource& source : sources) {
-        if (seen.insert(fs::absolute(source.recording).lexically_normal()).second) continue;
-        throw ConfigError(source.recording.string() + ": is given twice; name each drive once");
+        if (seen.insert(fs::weakly_canonical(source.recording)).second) continue;
+        throw ConfigError(source.recording.string() + ": is given twice; name each recording once");
     }
 }
 
@@ -108,6 +108,26 @@ std::vector<std::string> names_of(const std::vector<DriveSource>& sources) {
     return names;
 }
 
+std::vector<DataOptions> options_of(const std::vector<DriveSource>& sources,
+                                    const DataOptions& how) {
+    refuse_twice(sources);
+    const auto& poses = how.open.poses;
+    if (sources.size() > 1 && poses && *poses != "none") {
+        throw ConfigError(
+            "--poses " + poses->string() +
+            ": belongs to one recording, but several are given; leave the pose file of each one in "
+            "its folder, or give a list (.txt) with a line for each: the recording, a tab, its "
+            "pose file");
+    }
+    std::vector<DataOptions> each;
+    for (const DriveSource& source : sources) {
+        each.push_back(how);
+        each.back().data = source.recording;
+        if (source.poses && !poses) each.back().open.poses = source.poses;
+    }
+    return each;
+}
+
 std::vector<Drive> open_drives(const std::vector<DriveSource>& sources, const DataOptions& how) {
     for (const DriveSource& source : sources) {
         if (fs::exists(source.recording)) continue;
@@ -115,23 +135,14 @@ std::vector<Drive> open_drives(const std::vector<DriveSource>& sources, const Da
                           ": does not exist; several recordings may be given, and -o names the "
                           "output folder");
     }
-    refuse_twice(sources);
-    if (sources.size() > 1 && how.open.poses) {
-        throw ConfigError(
-            "--poses names one file, but there are several recordings; leave the pose file of each "
-            "one in its folder, or give a list (.txt) with a line for each: the recording, a tab, "
-            "its pose file");
-    }
+    const std::vector<DataOptions> options = options_of(sources, how);
     const std::vector<std::string> names = names_of(sources);
     std::vector<Drive> drives;
     for (std::size_t i = 0; i < sources.size(); ++i) {
-        DataOptions one = how;
-        one.data = sources[i].recording;
-        if (sources[i].poses) one.open.poses = sources[i].poses;
-        Drive drive{.name = names[i], .sequence = open(one)};
+        Drive drive{.name = names[i], .sequence = open(options[i])};
         if (!drive.sequence.has_poses) {
             throw InputError(
-                one.data, "",
+                options[i].data, "",
                 "has no poses, so it has no place in a common world; give its poses (a single "
                 "drive: `dynamicfilter odometry` finds them)");
         }

@@ -32,6 +32,11 @@ std::vector<DriveSource> expand(const std::vector<std::filesystem::path>& record
 /// does not help, a number is added.
 std::vector<std::string> names_of(const std::vector<DriveSource>& sources);
 
+/// How to read each recording. `how.open.poses` goes before the pose file in a list. Throws
+/// ConfigError if a recording is given twice, or one pose file for several recordings.
+std::vector<DataOptions> options_of(const std::vector<DriveSource>& sources,
+                                    const DataOptions& how);
+
 /// Opens all drives; `how` says how to read each of them. Throws InputError and ConfigError, also
 /// if one has no poses, because without poses the drives have no common world.
 std::vector<Drive> open_drives(const std::vector<DriveSource>& sources, const DataOptions& how);

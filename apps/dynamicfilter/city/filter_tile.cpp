@@ -78,10 +78,10 @@ struct TileRun {
 
 /// The pose of the first scan, from which the filter's frame has its height.
 Pose first_pose(const City& city) {
-    const auto& scans = city.plan.drives.front().scans;
-    const auto used = std::find_if(scans.begin(), scans.end(), [](auto& s) { return s.is_used; });
+    const PlannedDrive& drive = city.plan.drives.front();
     Pose pose = Pose::Identity();
-    if (used != scans.end()) pose.translation() = used->position;
+    const std::vector<std::size_t> used = used_scans(drive);
+    if (!used.empty()) pose.translation() = drive.scans[used.front()].position;
     return pose;
 }
 

@@ -30,7 +30,8 @@ constexpr std::size_t kPerVoxel = 520, kPerPoint = 9, kOfProgram = 150'000'000;
 std::size_t halo_of(const TileWork& work) {
     if (work.tile.is_whole) return 0;
     const double cells = cells_of(work.tile.level);
-    const double share = (cells + 2.0) * (cells + 2.0) / (cells * cells) - 1.0;
+    const double with_halo = cells + 2.0 * kHaloVoxels / kVoxelsPerCell;
+    const double share = with_halo * with_halo / (cells * cells) - 1.0;
     // Voxels lie along the streets, so less than the area is added.
     return static_cast<std::size_t>(0.5 * share * static_cast<double>(work.voxels));
 }

@@ -35,26 +35,28 @@ std::vector<Part> read_parts(const std::vector<fs::path>& folders) {
     return parts;
 }
 
-/// The folder that holds the files of each tile.
-std::map<Tile, fs::path> find_tiles(const City& city, const std::vector<fs::path>& folders,
-                                    std::size_t parts) {
-    const std::vector<std::size_t> part_of = part_of_tiles(city.plan.tiles, parts);
+/// The folder that holds the files of each tile: that of its part.
+std::map<Tile, fs::path> find_tiles(const City& city, const std::vector<Part>& parts,
+                                    const std::vector<fs::path>& folders) {
+    const std::size_t count = parts.front().number.parts;
+    const std::vector<std::size_t> part_of = part_of_tiles(city.plan.tiles, count);
     std::vector<std::size_t> order = by_cost(city.plan.tiles);  // so that the first part is named
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return part_of[a] < part_of[b]; });
     std::map<Tile, fs::path> found;
     for (const std::size_t t : order) {
         const Tile& tile = city.plan.tiles[t].tile;
-        const auto holder = std::find_if(folders.begin(), folders.end(), [&](const fs::path& f) {
-            return is_done(f / kTilesFolder / tile_file(tile), city.run);
-        });
-        if (holder == folders.end()) {
-            throw ConfigError(fmt::format(
-                "part {}/{} is missing: none of the given folders holds its tile {}; give the "
-                "folder of that part, or run it (again)",
-                part_of[t], parts, name_of(tile)));
+        for (std::size_t p = 0; p < parts.size() && !found.contains(tile); ++p) {
+            const fs::path tiles = folders[p] / kTilesFolder;
+            const bool holds =
+                parts[p].number.part == part_of[t] && is_done(tiles / tile_file(tile), city.run);
+            if (holds) found[tile] = tiles;
         }
-        found[tile] = *holder / kTilesFolder;
+        if (found.contains(tile)) continue;
+        throw ConfigError(fmt::format(
+            "part {}/{} is missing: none of the given folders holds its tile {}; give the "
+            "folder of that part, or run it (again)",
+            part_of[t], count, name_of(tile)));
     }
     return found;
 }
@@ -71,7 +73,7 @@ int merge(const MergeOptions& o) {
     City city = open_city(parts.front().sources, run);
     city.plan = read_plan(o.parts.front() / kTilesFolder / "plan", city.run, city.config);
     prepare(city.drives, city.plan);
-    const auto folders = find_tiles(city, o.parts, parts.front().number.parts);
+    const auto folders = find_tiles(city, parts, o.parts);
     for (const fs::path& folder : o.parts) refuse_same_folder(folder, o.output);
     OutputFolder output(o.output, Contents::result, replaced_if(o.overwrite));
     write_state(output, state_of_output(city, run));

@@ -213,9 +213,7 @@ void scan_drive(const Drive& drive, double voxel_size, PlannedDrive& planned, Vo
     };
     for_each_frame(drive.sequence, all_scans(drive.sequence), measure, use);
     gate.finish();
-    const bool none = std::none_of(planned.scans.begin(), planned.scans.end(),
-                                   [](const PlannedScan& scan) { return scan.is_used; });
-    if (none && !interrupted()) {
+    if (used_scans(planned).empty() && !interrupted()) {
         throw InputError(drive.sequence.root, "",
                          "no scan is usable; the first was rejected: " + planned.rejected.front());
     }
@@ -231,8 +229,7 @@ void look_at(Drive& drive, const Config& config, const DataOptions& how, Planned
     planned.deskew = drive.sequence.deskew;
     planned.sweep = drive.sequence.sweep;
     for (const auto& found : io::check_recording(drive.sequence, io::Depth::quick).findings) {
-        const io::Finding finding = blame_needless_fix(found, how);
-        planned.notes.push_back("warning: " + finding.what + "; " + finding.advice);
+        planned.warnings.push_back(warning_of(found, how));
     }
 }
 
@@ -285,6 +282,14 @@ double TileWork::cost() const {
            (kPerPoint + kPerPointAndVoxel * static_cast<double>(voxels));
 }
 
+std::vector<std::size_t> used_scans(const PlannedDrive& drive) {
+    std::vector<std::size_t> used;
+    for (std::size_t i = 0; i < drive.scans.size(); ++i) {
+        if (drive.scans[i].is_used) used.push_back(i);
+    }
+    return used;
+}
+
 void cut_into_tiles(Plan& plan, const Config& config) {
     const std::vector<Tile> tiles = cut(plan.voxels, plan.most_voxels);
     const TileLookup lookup(tiles);
@@ -293,8 +298,7 @@ void cut_into_tiles(Plan& plan, const Config& config) {
     for (const auto& [cell, count] : plan.voxels) plan.tiles[*lookup.find(cell)].voxels += count;
     for (std::size_t d = 0; d < plan.drives.size(); ++d) {
         const auto& scans = plan.drives[d].scans;
-        for (std::size_t i = 0; i < scans.size(); ++i) {
-            if (!scans[i].is_used) continue;
+        for (const std::size_t i : used_scans(plan.drives[d])) {
             const ScanOfDrive scan{static_cast<std::uint32_t>(d), static_cast<std::uint32_t>(i)};
             for (const std::size_t t :
                  reached_by(scans[i], plan.cell, config.scans.sight.farthest, lookup)) {

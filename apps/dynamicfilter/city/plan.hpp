@@ -27,11 +27,15 @@ struct PlannedDrive {
     std::vector<PlannedScan> scans;     ///< parallel to the sequence
     std::vector<std::string> rejected;  ///< "name: reason"
     std::vector<std::string> notes;     ///< for the user
+    std::vector<std::string> warnings;  ///< what is suspicious in the recording
     std::size_t most_points = 0;        ///< in a scan
     /// How the motion during each scan is undone, as Sequence has it.
     bool deskew = false;
     std::optional<Sweep> sweep;
 };
+
+/// Indices of the scans that were not rejected.
+std::vector<std::size_t> used_scans(const PlannedDrive& drive);
 
 /// A scan of one of the drives.
 struct ScanOfDrive {

@@ -24,9 +24,7 @@ struct Totals {
 
 Totals totals_of(const City& city, const std::vector<std::size_t>& part_of, std::size_t parts) {
     Totals totals{.by_part = std::vector<double>(parts)};
-    for (const PlannedDrive& drive : city.plan.drives) {
-        for (const PlannedScan& scan : drive.scans) totals.scans += scan.is_used ? 1 : 0;
-    }
+    for (const PlannedDrive& drive : city.plan.drives) totals.scans += used_scans(drive).size();
     for (std::size_t t = 0; t < city.plan.tiles.size(); ++t) {
         const TileWork& work = city.plan.tiles[t];
         totals.visits += work.scans.size();

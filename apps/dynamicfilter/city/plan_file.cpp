@@ -42,17 +42,12 @@ Json to_json(const PlannedDrive& drive) {
         cells.insert(cells.end(), scan.cells.begin(), scan.cells.end());
         around.insert(around.end(), scan.around.begin(), scan.around.end());
     }
-    Json json{{"used", blob(used)},
-              {"parts", blob(parts)},
-              {"positions", blob(positions)},
-              {"counts", blob(counts)},
-              {"cells", blob(cells)},
-              {"counts_around", blob(counts_around)},
-              {"around", blob(around)},
-              {"rejected", drive.rejected},
-              {"notes", drive.notes},
-              {"deskew", drive.deskew},
-              {"most_points", drive.most_points}};
+    Json json{{"used", blob(used)},           {"parts", blob(parts)},
+              {"positions", blob(positions)}, {"counts", blob(counts)},
+              {"cells", blob(cells)},         {"counts_around", blob(counts_around)},
+              {"around", blob(around)},       {"rejected", drive.rejected},
+              {"notes", drive.notes},         {"warnings", drive.warnings},
+              {"deskew", drive.deskew},       {"most_points", drive.most_points}};
     if (drive.sweep) {
         json["sweep"] = {drive.sweep->clockwise, drive.sweep->seam, drive.sweep->duration};
     }
@@ -63,6 +58,7 @@ PlannedDrive drive_of(const Json& json) {
     PlannedDrive drive{.scans = {},
                        .rejected = json.at("rejected"),
                        .notes = json.at("notes"),
+                       .warnings = json.at("warnings"),
                        .most_points = json.at("most_points"),
                        .deskew = json.at("deskew"),
                        .sweep = {}};

@@ -111,12 +111,14 @@ std::string points_text(const RunSummary& s) {
                        s.points, shares_of(s));
 }
 
-void write_log(const fs::path& folder, const Drive& drive, const RunSummary& s) {
+void write_log(const fs::path& folder, const Drive& drive, const RunSummary& s,
+               const std::vector<std::string>& warnings) {
     const io::Sequence& sequence = drive.sequence;
     std::string log = fmt::format("input    {} ({}, {} scans)\n",
                                   fs::absolute(sequence.root).lexically_normal().string(),
                                   io::to_string(sequence.format), sequence.size());
     for (const std::string& note : s.notes) log += "note     " + note + "\n";
+    for (const std::string& line : warnings) log += "warning  " + line + "\n";
     for (const std::string& line : sequence.losses) log += "lost     " + line + "\n";
     for (const std::string& line : s.rejected) log += "rejected " + line + "\n";
     log += "scans    " + points_text(s) + "\n";
@@ -131,10 +133,6 @@ RunSummary write_drive(const City& city, const Tiles& tiles, std::uint32_t numbe
     RunSummary summary;
     summary.rejected = planned.rejected;
     summary.notes = planned.notes;
-    std::vector<std::size_t> scans;
-    for (std::size_t i = 0; i < planned.scans.size(); ++i) {
-        if (planned.scans[i].is_used) scans.push_back(i);
-    }
     const auto decide = [&](std::size_t i, const io::Frame& frame) {
         return verdict_of(city, tiles, {number, static_cast<std::uint32_t>(i)}, frame);
     };
@@ -148,10 +146,11 @@ RunSummary write_drive(const City& city, const Tiles& tiles, std::uint32_t numbe
         }
         progress.advance();
     };
-    write_scans(drive.sequence, scans, city.config, maps, folder, {.decide = decide, .use = use});
+    write_scans(drive.sequence, used_scans(planned), city.config, maps, folder,
+                {.decide = decide, .use = use});
     add_scores(tiles, number, summary);
     io::write_file(folder / "metrics.json", text_of(metrics_of(summary, drive.sequence.losses)));
-    write_log(folder, drive, summary);
+    write_log(folder, drive, summary, planned.warnings);
     return summary;
 }
 
@@ -167,8 +166,9 @@ void write_map(const City& city, const Tiles& tiles, const TileFolders& folders,
                const fs::path& folder) {
     fs::create_directories(folder);
     MapIndex index{.voxel_size = city.config.map.voxel_size, .drives = {}, .tiles = {}};
-    for (const Drive& drive : city.drives) {
-        index.drives.push_back({.name = drive.name, .scans = drive.sequence.size()});
+    for (std::size_t d = 0; d < city.drives.size(); ++d) {
+        index.drives.push_back(
+            {.name = city.drives[d].name, .scans = used_scans(city.plan.drives[d]).size()});
     }
     for (std::size_t t = 0; t < tiles.readers.size(); ++t) {
         const TileSummary& s = tiles.readers[t]->summary();
@@ -197,11 +197,12 @@ std::vector<DriveTrack> tracks_of(const City& city) {
     std::vector<DriveTrack> tracks;
     for (std::size_t d = 0; d < city.drives.size(); ++d) {
         DriveTrack track{.name = city.drives[d].name, .positions = {}};
-        for (const PlannedScan& scan : city.plan.drives[d].scans) {
-            if (!scan.is_used) continue;
-            const bool is_near = !track.positions.empty() &&
-                                 (scan.position - track.positions.back()).norm() < kApart;
-            if (!is_near) track.positions.push_back(scan.position);
+        const PlannedDrive& planned = city.plan.drives[d];
+        for (const std::size_t i : used_scans(planned)) {
+            const Eigen::Vector3d& position = planned.scans[i].position;
+            const bool is_near =
+                !track.positions.empty() && (position - track.positions.back()).norm() < kApart;
+            if (!is_near) track.positions.push_back(position);
         }
         tracks.push_back(std::move(track));
     }

@@ -357,10 +357,11 @@ std::map<std::size_t, std::string> find_unusable(const Sequence& sequence) {
 
 Preflight check_recording(const Sequence& sequence, Depth depth) {
     const std::size_t places = depth == Depth::thorough ? 12 : 3;
-    const std::vector<Pair> pairs = choose_pairs(sequence.size(), places);
+    const std::vector<Pair> chosen = choose_pairs(sequence.size(), places);
     Preflight result;
     std::map<std::size_t, std::string> unusable = find_unusable(sequence);
-    const Samples samples = read_samples(sequence, pairs, unusable);
+    const Samples samples = read_samples(sequence, chosen, unusable);
+    const std::vector<Pair> pairs = comparable(samples, chosen);
     for (const auto& [i, why] : unusable) result.unusable.push_back(stem(sequence, i) + ": " + why);
     result.scans = samples.size();
     if (sequence.has_poses) result.overlays = compare(samples, pairs);

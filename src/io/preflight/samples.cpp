@@ -156,4 +156,21 @@ Samples read_samples(const Sequence& sequence, const std::vector<Pair>& pairs,
     return samples;
 }
 
+std::vector<Pair> comparable(const Samples& samples, const std::vector<Pair>& pairs) {
+    constexpr double kFar = 20.0;  // [m]
+    std::vector<Pair> near;
+    for (const Pair& pair : pairs) {
+        const auto a = samples.find(pair.from), b = samples.find(pair.from + pair.apart);
+        if (a == samples.end() || b == samples.end()) continue;
+        const Eigen::Vector3d way =
+            b->second.T_world_sensor.translation() - a->second.T_world_sensor.translation();
+        if (way.norm() <= kFar) {
+            near.push_back(pair);
+        } else if (pair.apart == kApart.front()) {
+            return pairs;
+        }
+    }
+    return near;
+}
+
 }  // namespace dynamic_filter::io

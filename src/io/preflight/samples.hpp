@@ -37,4 +37,10 @@ std::vector<Pair> choose_pairs(std::size_t scans, std::size_t places);
 Samples read_samples(const Sequence& sequence, const std::vector<Pair>& pairs,
                      std::map<std::size_t, std::string>& unusable);
 
+/// The pairs that can be compared: those whose poses lie within 20 m, if those of all neighbors do.
+/// Scans that are farther apart share few structures, and then the walls of a street overlay best
+/// as if the sensor had not moved. If neighbors are far apart already, the poses may be wrong, so
+/// all pairs are compared.
+std::vector<Pair> comparable(const Samples& samples, const std::vector<Pair>& pairs);
+
 }  // namespace dynamic_filter::io

@@ -96,6 +96,11 @@ expect 2 "given twice" run a ./a -o other
 expect 2 "does not go with" run a --memory 1G --online -o other
 expect 2 "default preset" run a --memory 1G --preset paper -o other
 expect 3 "has no poses" run a --memory 1G --poses none -o other
+
+# A scan that cannot be read is left out, named and not counted.
+printf 123 > b/velodyne/000030.bin
+expect 4 "rejected b: 000030" run a b $options -o rejected
+tr -d ' \n' < rejected/map/index.json | grep -q '"name":"b","scans":19[^0-9]' || fail "the map counts what was rejected"
 rm b/velodyne/000030.bin
 expect 3 "" run a b $options -o other
 [ ! -e other/labels ] || fail "something was written"

@@ -65,8 +65,24 @@ TEST(Drives, OnePoseFileIsNotForSeveralRecordings) {
     EXPECT_NE(said({{.recording = a}, {.recording = b}}, {}).find("-o names"), std::string::npos);
     fs::create_directories(b);
     EXPECT_NE(said({{.recording = a}, {.recording = b}}, how).find("--poses"), std::string::npos);
-    EXPECT_NE(said({{.recording = a}, {.recording = folder / "./a"}}, {}).find("given twice"),
-              std::string::npos);
+    fs::create_symlink(a, folder / "c");
+    for (const char* again : {"./a", "c"}) {
+        const auto said_twice = said({{.recording = a}, {.recording = folder / again}}, {});
+        EXPECT_NE(said_twice.find("given twice"), std::string::npos) << again;
+    }
+}
+
+TEST(Drives, AGivenPoseFileGoesBeforeThatOfAList) {
+    DataOptions how;
+    const std::vector<DriveSource> listed{{.recording = "a", .poses = "listed.txt"}};
+    EXPECT_EQ(options_of(listed, how)[0].data, "a");
+    EXPECT_EQ(options_of(listed, how)[0].open.poses, "listed.txt");
+    how.open.poses = "given.txt";
+    EXPECT_EQ(options_of(listed, how)[0].open.poses, "given.txt");
+    how.open.poses = "none";
+    const auto each = options_of({listed[0], {.recording = "b"}}, how);
+    ASSERT_EQ(each.size(), 2U);
+    for (const DataOptions& one : each) EXPECT_EQ(one.open.poses, "none");
 }
 
 }  // namespace

@@ -124,7 +124,10 @@ TEST(Plan, PartsHaveEveryTileOnceAndSimilarWork) {
 }
 
 TEST(Plan, IsTheSameWhenReadBack) {
-    const Planned p(40, 10.0, 4000, 30);
+    Planned p(40, 10.0, 4000, 30);
+    p.plan.drives[0].warnings = {"the poses jitter"};
+    p.plan.drives[0].scans[7].is_used = false;
+    cut_into_tiles(p.plan, p.config);
     write_plan(p.folder / "plan", p.plan, "run");
     const Plan read = read_plan(p.folder / "plan", "run", p.config);
     ASSERT_EQ(read.tiles.size(), p.plan.tiles.size());
@@ -135,6 +138,8 @@ TEST(Plan, IsTheSameWhenReadBack) {
         EXPECT_EQ(read.tiles[t].voxels, p.plan.tiles[t].voxels);
     }
     EXPECT_EQ(read.drives[0].notes, p.plan.drives[0].notes);
+    EXPECT_EQ(read.drives[0].warnings, p.plan.drives[0].warnings);
+    EXPECT_EQ(used_scans(read.drives[0]).size(), 39U);
     EXPECT_EQ(read.drives[0].most_points, p.plan.drives[0].most_points);
     EXPECT_EQ(read.drives[0].scans[31].part, 1U);
     EXPECT_EQ(read.drives[0].scans[31].position, p.plan.drives[0].scans[31].position);

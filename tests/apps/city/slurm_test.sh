@@ -76,6 +76,15 @@ echo "the same bytes, though a task was killed and node $lost was lost"
 bytes_of "out %a" report.html > out.md5
 cmp expected.md5 out.md5 || fail "other bytes after the second merge" said.txt
 
+# Any number of parts.
+for parts in 1 2 8; do
+    "$script" --parts $parts --tile-voxels 4000 -o "out $parts" --command "$real" --wait -- "${recordings[@]}" > said.txt 2>&1 ||
+        fail "exit $? of $parts parts" said.txt
+    bytes_of "out $parts" report.html > out.md5
+    cmp expected.md5 out.md5 || fail "$parts parts: other bytes than those of one process" said.txt
+done
+echo "the same bytes of 1, 2 and 8 parts"
+
 # What no repetition helps fails at once, and nothing stays in the queue.
 code=0
 "$script" --parts 2 -o wrong --command ./command --set no.such=1 --wait -- "${recordings[@]}" > said.txt 2>&1 || code=$?

@@ -220,6 +220,20 @@ TEST_F(Check, NamesPosesOfAnotherRecordingWhateverTheirReading) {
                 "do not", "--poses none");
 }
 
+TEST_F(Check, FindsNothingWhereScansOfAStreetAreFarApart) {
+    const TemporaryFolder street;
+    sim::SimulationOptions options;
+    options.scene = "city";
+    options.km = 0.4;
+    options.frames = 160;
+    app::write_simulation(options, street.path(), true);
+    OpenOptions sparse;
+    sparse.stride = 16;
+    const Sequence sequence = open_sequence(street.path(), sparse);
+    const Preflight result = check_recording(sequence, Depth::quick);
+    EXPECT_TRUE(result.findings.empty()) << result.findings[0].what;
+}
+
 TEST_F(Check, ASensorThatHangsUpsideDownOnAStraightPathIsNoticed) {
     // The readings of the quaternion overlay alike there.
     const TemporaryFolder straight;

@@ -35,6 +35,22 @@ TEST(ChoosePairs, StartAtEvenStepsAndStayInTheRecording) {
     EXPECT_TRUE(choose_pairs(1, 3).empty());
 }
 
+TEST(Comparable, LeavesOutPairsThatAreFarApartUnlessNeighborsAreToo) {
+    const std::vector<Pair> pairs = choose_pairs(40, 1);
+    const auto count_at = [&](double step) {
+        Samples samples;
+        for (std::size_t i = 0; i < 40; ++i) {
+            samples[i].T_world_sensor.translation().x() = step * static_cast<double>(i);
+        }
+        return comparable(samples, pairs).size();
+    };
+    EXPECT_EQ(count_at(0.0), 4U);
+    EXPECT_EQ(count_at(1.0), 4U);
+    EXPECT_EQ(count_at(2.6), 2U);  // 8 scans are 20.8 m
+    EXPECT_EQ(count_at(19.0), 1U);
+    EXPECT_EQ(count_at(600.0), 4U);  // such as poses in millimetres
+}
+
 TEST_F(SamplesTest, OnlyTheUpperPartOfUprightStructuresWithin30MetresIsKept) {
     Points points;
     for (int i = 0; i <= 10; ++i) {
