@@ -39,6 +39,8 @@ struct DataOptions {
     io::OpenOptions open;
 };
 
+inline constexpr std::size_t kFewestTileVoxels = 1000;  ///< smaller tiles are mostly halo
+
 /// Several recordings of one world, or one that is larger than memory; see docs/city.md.
 struct CityOptions {
     std::vector<std::filesystem::path> recordings;  ///< or lists of them

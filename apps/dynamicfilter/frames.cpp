@@ -80,7 +80,9 @@ std::vector<std::size_t> all_scans(const io::Sequence& sequence) {
 }
 
 InputError changed_in_use(const io::Sequence& sequence, std::size_t i, const std::string& why) {
-    return {sequence.scan_files[i], "", "changed while it was in use: " + why};
+    const std::string file = sequence.scan_files[i].string();
+    const bool names_it = why.starts_with(file + ": ");
+    return {file, "", "changed while it was in use: " + why.substr(names_it ? file.size() + 2 : 0)};
 }
 
 void for_each_frame(const io::Sequence& sequence, const std::vector<std::size_t>& scans,

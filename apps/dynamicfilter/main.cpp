@@ -106,7 +106,7 @@ void add_tile_voxels(CLI::App& command, RunOptions& o) {
     command
         .add_option("--tile-voxels", o.city.tile_voxels,
                     "most voxels in a tile; fewer need less memory, and more time")
-        ->check(whole_from(1000))
+        ->check(whole_from(kFewestTileVoxels))
         ->capture_default_str();
 }
 

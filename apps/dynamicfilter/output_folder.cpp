@@ -116,6 +116,11 @@ void remove_stale(const fs::path& path, Contents contents) {
     for (const auto& [name, suffix] : written_by(contents).folders) {
         if (fs::is_directory(path / name)) remove_files(path / name, is_stale);
     }
+    const fs::path drives = path / "drives";
+    if (contents != Contents::result || !fs::is_directory(drives)) return;
+    for (const auto& drive : fs::directory_iterator(drives)) {
+        if (drive.is_directory()) remove_stale(drive.path(), contents);
+    }
 }
 
 /// Whether the descriptor is still the file of that name: another process may have removed it.

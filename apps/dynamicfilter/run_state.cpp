@@ -50,6 +50,11 @@ bool is_complete(const fs::path& folder, std::string_view state) {
     return fs::exists(file) && io::read_file(file) == std::string(state) + std::string(kComplete);
 }
 
+bool is_begun(const fs::path& folder, std::string_view state) {
+    const fs::path file = folder / kRunState;
+    return fs::exists(file) && io::read_file(file) == state;
+}
+
 void refuse_other_run(const OutputFolder& output, std::string_view state) {
     if (output.is_empty() || is_complete(output.path(), state)) return;
     const fs::path file = output.path() / kRunState;

@@ -23,6 +23,8 @@ void write_complete(const OutputFolder& output, std::string_view state);
 
 /// True if the folder holds this run, complete.
 bool is_complete(const std::filesystem::path& folder, std::string_view state);
+/// True if the folder holds this run, incomplete.
+bool is_begun(const std::filesystem::path& folder, std::string_view state);
 /// Throws ConfigError if the folder holds another run, or something else.
 void refuse_other_run(const OutputFolder& output, std::string_view state);
 

@@ -39,7 +39,9 @@ std::vector<std::byte> unpacked(std::span<const std::byte> bytes, std::size_t si
     const int status =
         uncompress(reinterpret_cast<Bytef*>(result.data()), &length, raw(bytes), bytes.size());
     if (size > 0 && (status != Z_OK || length != size)) {
-        throw InputError(file, "", "is damaged; remove it, and start again with --resume");
+        throw InputError(
+            file, "",
+            "is damaged; make it again: `dynamicfilter plan -o`, or remove it and give --resume");
     }
     return result;
 }
@@ -76,7 +78,9 @@ std::vector<std::byte> read_checked(const std::filesystem::path& file, std::stri
     }
     const auto bytes = std::as_bytes(std::span(text).subspan(end + 1));
     if (bytes.size() != size || crc != fmt::format("{:08x}", crc_of(bytes))) {
-        throw InputError(file, "", "is damaged; remove it, and start again with --resume");
+        throw InputError(
+            file, "",
+            "is damaged; make it again: `dynamicfilter plan -o`, or remove it and give --resume");
     }
     return {bytes.begin(), bytes.end()};
 }

@@ -50,6 +50,9 @@ std::string state_of_output(const City& city, const RunOptions& o) {
 }
 
 void tell_notes(const City& city, bool quiet) {
+    for (const std::string& warning : city.plan.warnings) {
+        fmt::print(stderr, "warning: {}\n", warning);
+    }
     for (std::size_t d = 0; d < city.drives.size(); ++d) {
         const std::string& name = city.drives[d].name;
         const PlannedDrive& planned = city.plan.drives[d];

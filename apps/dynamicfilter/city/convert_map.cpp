@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <limits>
+
 #include "city/autoware_tiles.hpp"
 #include "city/las_tiles.hpp"
 #include "city/map_index.hpp"
@@ -28,6 +31,23 @@ std::string note_on_floats(const MapIndex& index) {
                "expects a frame whose origin is near";
     }
     return "";
+}
+
+/// The origin is where the world's frame begins, so coordinates of a map projection lie far off.
+std::string note_on_origin(const MapIndex& index) {
+    constexpr double kFar = 100'000.0;  // [m] there the tangent plane is 800 m above the ground
+    double least = std::numeric_limits<double>::infinity();
+    for (const MapTile& tile : index.tiles) {
+        const TileSquare square = square_of(index, tile);
+        least = std::min(least, std::hypot(square.west, square.south));
+    }
+    if (least < kFar || index.tiles.empty()) return "";
+    return fmt::format(
+        "the map lies {:.0f} km from the origin of its frame, for which --origin gives latitude "
+        "and "
+        "longitude; coordinates such as UTM have to be made relative to a place nearby first, in "
+        "the poses of the recordings",
+        1e-3 * least);
 }
 
 Contents contents_of(const std::string& to) {
@@ -62,6 +82,7 @@ int convert_map(const ConvertOptions& o) {
     std::string note;
     if (o.to == "3dtiles") {
         files = write_tileset(index, folder, origin, output.path());
+        if (origin) note = note_on_origin(index);
     } else if (o.to == "las") {
         note = write_las_tiles(index, folder, output.path());
     } else {

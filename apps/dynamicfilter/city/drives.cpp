@@ -33,9 +33,10 @@ std::vector<DriveSource> read_list(const fs::path& list) {
     const auto path_of = [&](const std::string& text) {
         return (list.parent_path() / text).lexically_normal();
     };
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
     std::size_t number = 0;
     for (std::string line; std::getline(lines, line);) {
-        ++number;
+        if (++number == 1 && line.starts_with(kByteOrderMark)) line.erase(0, kByteOrderMark.size());
         const auto tab = line.find('\t');
         const std::string recording = trimmed(line.substr(0, tab));
         const std::string poses = tab == std::string::npos ? "" : trimmed(line.substr(tab + 1));

@@ -55,7 +55,7 @@ struct TileRun {
     TileWriter verdicts{folder / tile_file(work.tile), city.run};
     Sightings sightings{city.drives.size()};
     io::Cloud map = empty_tile_map(sightings.words());
-    TileSummary summary{.tile = work.tile, .drives = {}};
+    TileSummary summary{.tile = work.tile, .drives = {}, .map_mark = {}};
     std::optional<eval::ScanScores> scorer{};  // of the drive that is decided, if it has truth
 
     [[nodiscard]] bool contains(const Eigen::Vector3d& world) const {
@@ -267,6 +267,7 @@ bool filter_tile(const City& city, const TileWork& work, const std::filesystem::
         tile.add_to_map(filter);
     }
     io::write_pcd(folder / tile_map_file(work.tile), tile.map);
+    tile.summary.map_mark = file_mark_of(folder / tile_map_file(work.tile));
     tile.verdicts.commit(tile.summary);
     return true;
 }

@@ -36,6 +36,18 @@ std::size_t halo_of(const TileWork& work) {
     return static_cast<std::size_t>(0.5 * share * static_cast<double>(work.voxels));
 }
 
+/// Smaller tiles help only where the tile, not the program, takes most of the memory.
+[[noreturn]] void refuse_memory(std::size_t tile, std::size_t most_voxels) {
+    const bool smaller_helps = tile > kOfProgram && most_voxels >= 2 * kFewestTileVoxels;
+    throw ConfigError(fmt::format(
+        "a process with the largest tile needs about {:.2f} GB, which is more than --memory "
+        "allows; give more{}",
+        static_cast<double>(process_memory(tile)) / kGigabyte,
+        smaller_helps
+            ? fmt::format(", or make the tiles smaller: --tile-voxels {}", most_voxels / 2)
+            : ""));
+}
+
 }  // namespace
 
 std::size_t memory_of(const TileWork& work, const Plan& plan, const Config& config) {
@@ -45,6 +57,8 @@ std::size_t memory_of(const TileWork& work, const Plan& plan, const Config& conf
     return kPerVoxel * (work.voxels + halo_of(work)) +
            kPerPoint * points * std::min(work.scans.size(), images);
 }
+
+std::size_t process_memory(std::size_t tile) { return kOfProgram + tile; }
 
 std::size_t memory_limit_of(const std::string& text) {
     if (text.empty()) {
@@ -56,10 +70,11 @@ std::size_t memory_limit_of(const std::string& text) {
     const auto [unit, error] = std::from_chars(text.data(), end, value);
     const std::string_view rest(unit, static_cast<std::size_t>(end - unit));
     const double factor = rest == "G" ? kGigabyte : rest == "M" ? kMegabyte : rest.empty() ? 1 : 0;
-    if (error == std::errc{} && value > 0.0 && factor > 0.0) {
+    if (error == std::errc{} && value * factor >= kMegabyte) {
         return static_cast<std::size_t>(value * factor);
     }
-    throw ConfigError("--memory " + text + ": expected a size such as 1.5G or 800M");
+    throw ConfigError("--memory " + text +
+                      ": expected a size such as 1.5G or 800M, or a number of bytes");
 }
 
 std::size_t tiles_at_a_time(const City& city, const std::vector<std::size_t>& tiles,
@@ -71,12 +86,7 @@ std::size_t tiles_at_a_time(const City& city, const std::vector<std::size_t>& ti
     const auto threads =
         static_cast<std::size_t>(effort.threads > 0 ? effort.threads : available_threads());
     const std::size_t fit = effort.memory > kOfProgram ? (effort.memory - kOfProgram) / largest : 0;
-    if (fit == 0) {
-        throw ConfigError(fmt::format(
-            "the largest tile needs about {:.1f} GB, which is more than --memory allows; give "
-            "more, or make the tiles smaller: --tile-voxels {}",
-            static_cast<double>(largest + kOfProgram) / kGigabyte, city.plan.most_voxels / 2));
-    }
+    if (fit == 0) refuse_memory(largest, city.plan.most_voxels);
     return std::min({threads, fit, std::max<std::size_t>(1, tiles.size())});
 }
 

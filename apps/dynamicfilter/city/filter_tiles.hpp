@@ -15,6 +15,9 @@ namespace dynamic_filter::app {
 /// [bytes] Estimated for a tile while it is filtered.
 std::size_t memory_of(const TileWork& work, const Plan& plan, const Config& config);
 
+/// [bytes] Estimated for a process that filters a tile of so much memory.
+std::size_t process_memory(std::size_t tile);
+
 /// Reads "1.5G", "800M" or a number of bytes; empty: half of the machine's memory. Throws
 /// ConfigError.
 std::size_t memory_limit_of(const std::string& text);

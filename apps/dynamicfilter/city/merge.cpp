@@ -54,11 +54,17 @@ std::map<Tile, fs::path> find_tiles(const City& city, const std::vector<Part>& p
         }
         if (found.contains(tile)) continue;
         throw ConfigError(fmt::format(
-            "part {}/{} is missing: none of the given folders holds its tile {}; give the "
-            "folder of that part, or run it (again)",
+            "part {}/{} is missing: none of the given folders holds its tile {} undamaged; give "
+            "the folder of that part, or run it again with --resume",
             part_of[t], count, name_of(tile)));
     }
     return found;
+}
+
+void refuse_part(const fs::path& part, const fs::path& output) {
+    std::error_code ignored;
+    if (!fs::equivalent(part, output, ignored)) return;
+    throw ConfigError(output.string() + ": is one of the parts; choose another -o");
 }
 
 }  // namespace
@@ -73,10 +79,18 @@ int merge(const MergeOptions& o) {
     City city = open_city(parts.front().sources, run);
     city.plan = read_plan(o.parts.front() / kTilesFolder / "plan", city.run, city.config);
     prepare(city.drives, city.plan);
+    tell_notes(city, true);
     const auto folders = find_tiles(city, parts, o.parts);
-    for (const fs::path& folder : o.parts) refuse_same_folder(folder, o.output);
-    OutputFolder output(o.output, Contents::result, replaced_if(o.overwrite));
-    write_state(output, state_of_output(city, run));
+    for (const fs::path& folder : o.parts) refuse_part(folder, o.output);
+    const std::string state = state_of_output(city, run);
+    if (!o.overwrite && is_complete(o.output, state)) {
+        if (!o.quiet) fmt::print("complete {}\n", o.output.string());
+        return kDone;
+    }
+    // What an earlier merge of these parts began is of use to nobody else.
+    OutputFolder output(o.output, Contents::result,
+                        is_begun(o.output, state) ? Existing::resume : replaced_if(o.overwrite));
+    write_state(output, state);
     clock.finish("prepare");
     return conclude(
         city, [&](const Tile& tile) { return folders.at(tile); }, false, run, output, clock);

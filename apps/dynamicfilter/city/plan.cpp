@@ -12,6 +12,7 @@
 #include "advice.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/geometry/voxel.hpp"
+#include "dynamic_filter/io/compare_drives.hpp"
 #include "dynamic_filter/io/preflight.hpp"
 #include "dynamic_filter/pipeline/pose_jump.hpp"
 #include "frames.hpp"
@@ -233,6 +234,20 @@ void look_at(Drive& drive, const Config& config, const DataOptions& how, Planned
     }
 }
 
+/// Drives that do not fit each other would see each other's walls as moving.
+std::vector<std::string> offsets_of(const std::vector<Drive>& drives) {
+    if (drives.size() < 2) return {};
+    std::vector<const io::Sequence*> sequences;
+    for (const Drive& drive : drives) sequences.push_back(&drive.sequence);
+    std::vector<std::string> warnings;
+    for (const io::Finding& finding : io::compare_drives(sequences)) {
+        warnings.push_back(
+            fmt::format("{}; {} (`dynamicfilter check` with all drives looks closer)", finding.what,
+                        finding.advice));
+    }
+    return warnings;
+}
+
 bool has_points_in(const PlannedScan& scan, const Tile& tile) {
     return tile.is_whole || std::any_of(scan.cells.begin(), scan.cells.end(), [&](auto cell) {
                return tile_at(cell, tile.level) == tile;
@@ -315,11 +330,13 @@ Plan make_plan(std::vector<Drive>& drives, const Config& config, const DataOptio
                std::size_t most_voxels, bool quiet) {
     Plan plan{.cell = cell_edge(config.map.voxel_size),
               .drives = std::vector<PlannedDrive>(drives.size()),
+              .warnings = {},
               .voxels = {},
               .most_voxels = most_voxels,
               .tiles = {}};
     std::size_t scans = 0;
     for (const Drive& drive : drives) scans += drive.sequence.size();
+    plan.warnings = offsets_of(drives);
     VoxelSample sample;
     Progress progress("plan", scans, quiet);
     for (std::size_t d = 0; d < drives.size() && !interrupted(); ++d) {

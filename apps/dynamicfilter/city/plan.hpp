@@ -57,6 +57,7 @@ struct TileWork {
 struct Plan {
     double cell = 0.0;  ///< [m] edge of a cell
     std::vector<PlannedDrive> drives;
+    std::vector<std::string> warnings;        ///< about how the drives fit each other
     std::map<PlaneCell, std::size_t> voxels;  ///< estimated, by cell
     std::size_t most_voxels = 0;              ///< in a tile
     std::vector<TileWork> tiles;

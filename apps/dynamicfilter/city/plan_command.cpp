@@ -41,11 +41,11 @@ std::string plan_text(const City& city, std::size_t parts) {
     std::string text = fmt::format(
         "drives   {}, {} scans\n"
         "tiles    {}, about {:.1f} million voxels; a scan reaches {:.1f} of them on average\n"
-        "memory   about {:.2f} GB for the largest tile\n"
+        "memory   about {:.2f} GB for a process with the largest tile\n"
         "time     about {:.2f} hours of one core\n",
         city.drives.size(), t.scans, city.plan.tiles.size(), 1e-6 * static_cast<double>(t.voxels),
         static_cast<double>(t.visits) / static_cast<double>(std::max<std::size_t>(t.scans, 1)),
-        1e-9 * static_cast<double>(t.memory), t.cost / 3600.0);
+        1e-9 * static_cast<double>(process_memory(t.memory)), t.cost / 3600.0);
     if (parts > 1) {
         const auto [least, most] = std::minmax_element(t.by_part.begin(), t.by_part.end());
         text += fmt::format("parts    {}, of {:.2f} to {:.2f} hours\n", parts, *least / 3600.0,
@@ -60,7 +60,7 @@ std::string plan_json(const City& city, std::size_t parts) {
     nlohmann::ordered_json json{{"scans", totals.scans},
                                 {"visits", totals.visits},
                                 {"cost_seconds", totals.cost},
-                                {"memory_bytes", totals.memory},
+                                {"memory_bytes", process_memory(totals.memory)},
                                 {"tiles", nlohmann::ordered_json::array()}};
     for (std::size_t t = 0; t < city.plan.tiles.size(); ++t) {
         const TileWork& work = city.plan.tiles[t];

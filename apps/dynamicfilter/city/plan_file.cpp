@@ -90,7 +90,10 @@ PlannedDrive drive_of(const Json& json) {
 }  // namespace
 
 void write_plan(const std::filesystem::path& file, const Plan& plan, const std::string& run) {
-    Json json{{"cell", plan.cell}, {"most_voxels", plan.most_voxels}, {"drives", Json::array()}};
+    Json json{{"cell", plan.cell},
+              {"most_voxels", plan.most_voxels},
+              {"warnings", plan.warnings},
+              {"drives", Json::array()}};
     for (const PlannedDrive& drive : plan.drives) json["drives"].push_back(to_json(drive));
     std::vector<PlaneCell> cells;
     std::vector<std::uint64_t> counts;
@@ -110,6 +113,7 @@ Plan read_plan(const std::filesystem::path& file, const std::string& run, const 
     const Json json = Json::from_cbor(first, first + bytes.size());
     Plan plan{.cell = json.at("cell"),
               .drives = {},
+              .warnings = json.at("warnings"),
               .voxels = {},
               .most_voxels = json.at("most_voxels"),
               .tiles = {}};

@@ -11,7 +11,6 @@
 #include "city/write_city.hpp"
 #include "config_file.hpp"
 #include "dynamic_filter/error.hpp"
-#include "dynamic_filter/io/compare_drives.hpp"
 #include "dynamic_filter/io/file.hpp"
 #include "dynamic_filter/parallel.hpp"
 #include "progress.hpp"
@@ -35,27 +34,23 @@ void refuse_unnamed(const RunOptions& o) {
     }
 }
 
-/// Drives that do not fit each other would see each other's walls as moving.
-void warn_of_offsets(const City& city) {
-    if (city.drives.size() < 2) return;
-    std::vector<const io::Sequence*> sequences;
-    for (const Drive& drive : city.drives) sequences.push_back(&drive.sequence);
-    for (const io::Finding& finding : io::compare_drives(sequences)) {
-        fmt::print(stderr, "warning: {}; {} (`dynamicfilter check` with all drives looks closer)\n",
-                   finding.what, finding.advice);
-    }
+void take_plan(City& city, const fs::path& file) {
+    city.plan = read_plan(file, city.run, city.config);
+    prepare(city.drives, city.plan);
 }
 
-/// The plan of the run: from a file, if there is one; otherwise it is made, and written there.
+/// The plan of the run: the given one; or that of the file, if there is one; otherwise it is made.
+/// It is in the file afterwards.
 void find_plan(City& city, const RunOptions& o, const fs::path& file) {
-    if (o.city.plan || fs::exists(file)) {
-        city.plan = read_plan(o.city.plan.value_or(file), city.run, city.config);
-        prepare(city.drives, city.plan);
-        if (o.city.plan) write_plan(file, city.plan, city.run);
+    if (o.city.plan) {
+        write_plan(file, city.plan, city.run);
+        return;
+    }
+    if (fs::exists(file)) {
+        take_plan(city, file);
         return;
     }
     with_threads(o.threads, [&] {
-        warn_of_offsets(city);
         city.plan = make_plan(city.drives, city.config, o.data, o.city.tile_voxels, o.quiet);
     });
     if (!interrupted()) write_plan(file, city.plan, city.run);
@@ -134,9 +129,11 @@ int run_city(const RunOptions& o) {
     const bool leads = workers->rank() == 0;
     // A part is looked through again, because one of its tiles may have been damaged since.
     if (o.resume && !part && is_complete(place.folder, state_of_output(city, o))) {
+        if (leads) fs::remove_all(place.tiles());  // if a process was killed before it could
         if (leads && !o.quiet) fmt::print("complete {}\n", place.folder.string());
         return kDone;
     }
+    if (o.city.plan) take_plan(city, *o.city.plan);  // before anything is left in the folder
     if (leads) open_output(place, city, o);
 
     catch_interrupts();
@@ -145,7 +142,7 @@ int run_city(const RunOptions& o) {
         tell_notes(city, o.quiet);
     }
     if (!workers->all_done(!interrupted())) return stop(place.output);
-    if (!leads) find_plan(city, o, place.tiles() / kPlan);
+    if (!leads && !o.city.plan) take_plan(city, place.tiles() / kPlan);
     clock.finish("plan");
 
     const std::vector<std::size_t> tiles =

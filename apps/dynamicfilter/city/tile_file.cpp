@@ -84,6 +84,7 @@ Json to_json(const TileSummary& s) {
             {"keyframes", s.keyframes},
             {"low", {s.low.x(), s.low.y(), s.low.z()}},
             {"high", {s.high.x(), s.high.y(), s.high.z()}},
+            {"map", s.map_mark},
             {"scores", drives}};
 }
 
@@ -98,7 +99,8 @@ TileSummary summary_of(const Json& json) {
                   .keyframes = json.at("keyframes"),
                   .low = vector(json.at("low")),
                   .high = vector(json.at("high")),
-                  .drives = {}};
+                  .drives = {},
+                  .map_mark = json.at("map")};
     for (const Json& drive : json.at("scores")) {
         s.drives.push_back({.drive = drive.at("drive"),
                             .final = sums_of(drive.at("final")),
@@ -211,11 +213,25 @@ PointVerdicts TileReader::read(const ScanOfDrive& scan) const {
     return verdicts;
 }
 
+bool TileReader::is_undamaged() const {
+    for (const auto& [scan, block] : blocks_) {
+        const std::string bytes = read_at(path_, block.offset, block.bytes);
+        if (crc_of(std::as_bytes(std::span(bytes))) != block.crc) return false;
+    }
+    if (summary_.map_mark.empty()) return true;
+    const std::filesystem::path map = path_.parent_path() / tile_map_file(summary_.tile);
+    return std::filesystem::exists(map) && file_mark_of(map) == summary_.map_mark;
+}
+
+std::string file_mark_of(const std::filesystem::path& file) {
+    const std::string bytes = io::read_file(file);
+    return fmt::format("{} {:08x}", bytes.size(), crc_of(std::as_bytes(std::span(bytes))));
+}
+
 bool is_done(const std::filesystem::path& file, const std::string& run) {
     if (!std::filesystem::exists(file)) return false;
     try {
-        read_index(file, run);
-        return true;
+        return TileReader(file, run).is_undamaged();
     } catch (const InputError&) {
         return false;
     }

@@ -37,6 +37,8 @@ struct TileSummary {
     std::size_t keyframes = 0;
     Eigen::Vector3d low = Eigen::Vector3d::Zero(), high = Eigen::Vector3d::Zero();  ///< of the map
     std::vector<DriveCounts> drives;
+    /// Of the file with the voxels beside it, see file_mark_of(); empty: there is no such file.
+    std::string map_mark;
 };
 
 inline std::string tile_file(const Tile& tile) { return name_of(tile) + ".tile"; }
@@ -70,6 +72,8 @@ public:
     /// Empty if the scan has no points in the tile.
     [[nodiscard]] PointVerdicts read(const ScanOfDrive& scan) const;
     [[nodiscard]] const TileSummary& summary() const { return summary_; }
+    /// Reads all of it, and the voxels beside it. Throws InputError if the file cannot be read.
+    [[nodiscard]] bool is_undamaged() const;
 
 private:
     struct Block {
@@ -81,7 +85,11 @@ private:
     TileSummary summary_;
 };
 
-/// True if the file is there and complete, and belongs to this run. A damaged file is false.
+/// "SIZE CRC" of all bytes of a file.
+std::string file_mark_of(const std::filesystem::path& file);
+
+/// True if the tile is there and complete with its voxels, and belongs to this run. All bytes are
+/// checked; if any is damaged, the answer is false.
 bool is_done(const std::filesystem::path& file, const std::string& run);
 
 }  // namespace dynamic_filter::app

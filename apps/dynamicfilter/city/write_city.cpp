@@ -79,8 +79,8 @@ Verdict verdict_of(const City& city, const Tiles& tiles, const ScanOfDrive& scan
             in = found == open.end() ? nullptr : &*found;
         }
         if (!in || in->next >= in->verdicts.size()) {
-            throw changed_in_use(city.drives[scan.drive].sequence, scan.scan,
-                                 "its points are others than before");
+            throw InputError(city.drives[scan.drive].sequence.scan_files[scan.scan], "",
+                             "its points or its pose are others than before");
         }
         const PointVerdict& of_point = in->verdicts[in->next++];
         verdict.labels[i] = of_point.final;
@@ -154,15 +154,15 @@ RunSummary write_drive(const City& city, const Tiles& tiles, std::uint32_t numbe
     return summary;
 }
 
-void bring(const fs::path& from, const fs::path& to, bool moves) {
-    if (moves) {
-        fs::rename(from, to);
-        return;
-    }
-    fs::copy_file(from, to, fs::copy_options::overwrite_existing);
+/// Tiles stay whole until the run is complete. A link takes no space beside them.
+void bring(const fs::path& from, const fs::path& to, bool links) {
+    fs::remove(to);
+    std::error_code cannot_link;
+    if (links) fs::create_hard_link(from, to, cannot_link);
+    if (!links || cannot_link) fs::copy_file(from, to);
 }
 
-void write_map(const City& city, const Tiles& tiles, const TileFolders& folders, bool moves,
+void write_map(const City& city, const Tiles& tiles, const TileFolders& folders, bool owns,
                const fs::path& folder) {
     fs::create_directories(folder);
     MapIndex index{.voxel_size = city.config.map.voxel_size, .drives = {}, .tiles = {}};
@@ -173,10 +173,7 @@ void write_map(const City& city, const Tiles& tiles, const TileFolders& folders,
     for (std::size_t t = 0; t < tiles.readers.size(); ++t) {
         const TileSummary& s = tiles.readers[t]->summary();
         const std::string file = tile_map_file(s.tile);
-        // Absent if it was moved before an interruption.
-        if (fs::exists(folders(s.tile) / file)) {
-            bring(folders(s.tile) / file, folder / file, moves);
-        }
+        bring(folders(s.tile) / file, folder / file, owns);
         index.tiles.push_back({.name = name_of(s.tile),
                                .level = s.tile.level,
                                .x = s.tile.x,
@@ -280,7 +277,7 @@ int code_of(const City& city, const CitySummary& summary) {
 
 }  // namespace
 
-CitySummary write_city(const City& city, const TileFolders& folders, bool moves,
+CitySummary write_city(const City& city, const TileFolders& folders, bool owns,
                        const Extras& extras, const OutputFolder& output, StageClock& clock,
                        const Pace& pace, bool quiet) {
     const Tiles tiles = open_tiles(city, folders);
@@ -289,7 +286,7 @@ CitySummary write_city(const City& city, const TileFolders& folders, bool moves,
     with_threads(pace.threads, [&] {
         summary.drives = write_drives(city, tiles, extras.maps, output.path(), quiet);
     });
-    write_map(city, tiles, folders, moves, output.path() / "map");
+    write_map(city, tiles, folders, owns, output.path() / "map");
     clock.finish("write");
     const Json metrics = metrics_of_all(city, summary);
     if (city.drives.size() > 1) io::write_file(output.path() / "metrics.json", text_of(metrics));
@@ -300,7 +297,11 @@ CitySummary write_city(const City& city, const TileFolders& folders, bool moves,
     }
     summary.seconds = clock.total();
     io::write_file(output.path() / "timing.json", text_of(timing(summary, clock, pace)));
-    if (city.drives.size() > 1) io::write_file(output.path() / "run.log", to_text(city, summary));
+    if (city.drives.size() > 1) {
+        std::string log;
+        for (const std::string& line : city.plan.warnings) log += "warning  " + line + "\n";
+        io::write_file(output.path() / "run.log", log + to_text(city, summary));
+    }
     return summary;
 }
 
@@ -325,13 +326,13 @@ std::string to_text(const City& city, const CitySummary& s) {
     return text;
 }
 
-int conclude(const City& city, const TileFolders& folders, bool moves, const RunOptions& o,
+int conclude(const City& city, const TileFolders& folders, bool owns, const RunOptions& o,
              OutputFolder& output, StageClock& clock) {
     const CitySummary summary =
-        write_city(city, folders, moves, {.maps = o.maps, .report = o.report}, output, clock,
+        write_city(city, folders, owns, {.maps = o.maps, .report = o.report}, output, clock,
                    {.threads = o.threads, .online = {}}, o.quiet);
-    if (moves) fs::remove_all(output.path() / kTilesFolder);
     write_complete(output, state_of_output(city, o));
+    if (owns) fs::remove_all(output.path() / kTilesFolder);
     output.commit();
     if (!o.quiet) fmt::print("{}written  {}\n", to_text(city, summary), output.name().string());
     if (!o.output && !link_latest(output.name())) {

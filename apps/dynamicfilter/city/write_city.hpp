@@ -25,13 +25,13 @@ struct CitySummary {
 
 inline constexpr const char* kTilesFolder = "tiles";  ///< of a run in progress, and of a part
 
-/// Writes everything that a run leaves; `clock` is told of the stages. The files of the map are
-/// moved from `tiles` if `moves`, otherwise copied.
-CitySummary write_city(const City& city, const TileFolders& tiles, bool moves, const Extras& extras,
+/// Writes everything that a run leaves; `clock` is told of the stages. `owns`: the tiles
+/// belong to this run alone, so the files of the map are links to theirs, otherwise copies.
+CitySummary write_city(const City& city, const TileFolders& tiles, bool owns, const Extras& extras,
                        const OutputFolder& output, StageClock& clock, const Pace& pace, bool quiet);
 
-/// Writes the result, and with `moves` removes the folder of the tiles. Returns the exit code.
-int conclude(const City& city, const TileFolders& tiles, bool moves, const RunOptions& options,
+/// Writes the result, and with `owns` removes the folder of the tiles. Returns the exit code.
+int conclude(const City& city, const TileFolders& tiles, bool owns, const RunOptions& options,
              OutputFolder& output, StageClock& clock);
 
 /// The closing table.

@@ -327,8 +327,9 @@ void judge_motion(Preflight& result, Sequence sequence) {
     const std::string mistake = find_pose_mistake(sequence, config);
     if (!mistake.empty()) {
         result.findings.push_back({mistake,
-                                   "`run` refines such poses without being asked (as with --refine "
-                                   "on); more accurate poses give better results"});
+                                   "`run` refines such poses of a single recording without being "
+                                   "asked (as with --refine on), but not those of several; more "
+                                   "accurate poses give better results"});
     }
     if (sequence.deskew || !sequence.velocities.empty()) return;
     const Blur blur = measure_motion(sequence, config).found;

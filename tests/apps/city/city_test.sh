@@ -76,9 +76,40 @@ expect 2 "part 3/5 is missing" merge part1 part2 part4 part5 -o other
 expect 3 "holds no part" merge part1 data -o other
 "$command" run a $options --part 1/5 -q -o alone > said 2>&1 || fail "a part of one drive"
 expect 2 "not parts of the same run" merge part1 alone -o other
-printf spoilt > "$(ls part2/tiles/*.tile | head -1)"
-expect 2 "part 2/5 is missing" merge part1 part2 part3 part4 part5 -o other
-"$command" run a b $options --part 2/5 -q --resume -o part2 > said 2>&1 || fail "a spoilt part is not repeated"
+flip() {  # flip FILE: changes a byte in its middle
+    half=$(($(wc -c < "$1") / 2))
+    byte=$(od -An -tu1 -j "$half" -N 1 "$1")
+    printf "\\$(printf %o $((byte ^ 16)))" | dd of="$1" bs=1 seek="$half" conv=notrunc 2> /dev/null
+}
+for file in "$(ls part2/tiles/*.tile | head -1)" "$(ls part2/tiles/*.pcd | head -1)"; do
+    flip "$file"
+    expect 2 "part 2/5 is missing" merge part1 part2 part3 part4 part5 -o other
+    [ ! -e other ] || fail "a merge that was refused left something"
+    "$command" run a b $options --part 2/5 -q --resume -o part2 > said 2>&1 || fail "a spoilt part is not repeated"
+done
+expect 0 "complete" merge part1 part2 part3 part4 part5 -o merged
+expect 2 "is one of the parts" merge part1 part2 part3 part4 part5 -o part1
+
+# A merge that was killed, given again.
+rm -r merged
+"$command" merge part1 part2 part3 part4 part5 -o merged > said 2>&1 &
+until [ -e merged/.run ] || ! kill -0 $!; do sleep 0.01; done
+kill -9 $! 2> /dev/null || true
+wait $! 2> /dev/null || true
+touch merged/.static_map.pcd.tmp.1.1
+"$command" merge part1 part2 part3 part4 part5 -o merged > said 2>&1 || fail "a killed merge, given again"
+bytes_of merged .run > merged.md5
+cmp -s whole.md5 merged.md5 || fail "a killed merge, given again: $(diff whole.md5 merged.md5)"
+
+# Drives whose frames differ: the plan says so, and whoever uses it.
+mkdir -p off/b
+cp -r b/velodyne b/times.txt off/b
+awk '{ $4 += 1; print }' b/poses.txt > off/b/poses.txt
+"$command" plan a off/b $options -o off/plan > said 2>&1 && grep -q "warning: the world frames" said || fail "plan does not warn"
+expect 0 "warning: the world frames" run a off/b $options --plan off/plan -o off/out
+grep -q "warning  the world frames" off/out/run.log || fail "the log has no warning"
+expect 2 "another version" run a b $options --plan off/plan -o off/refused
+[ ! -e off/refused ] || fail "a refused plan left a folder"
 
 mkdir merged/drives/a/own
 touch merged/drives/a/own/notes
@@ -91,7 +122,8 @@ cmp -s whole.md5 merged.md5 || fail "overwritten: $(diff whole.md5 merged.md5)"
 expect 2 "I from 1 to N" run a --part 3/2 -o other
 expect 2 "-o DIR" run a --part 1/2
 expect 2 "expected a size" run a --memory lots -o other
-expect 2 "--tile-voxels" run a --memory 101M -o other
+expect 2 "give more" run a --memory 101M -o other
+expect 2 "expected a size" run a --memory 1.5 -o other
 expect 2 "given twice" run a ./a -o other
 expect 2 "does not go with" run a --memory 1G --online -o other
 expect 2 "default preset" run a --memory 1G --preset paper -o other

@@ -126,6 +126,7 @@ TEST(Plan, PartsHaveEveryTileOnceAndSimilarWork) {
 TEST(Plan, IsTheSameWhenReadBack) {
     Planned p(40, 10.0, 4000, 30);
     p.plan.drives[0].warnings = {"the poses jitter"};
+    p.plan.warnings = {"the frames differ"};
     p.plan.drives[0].scans[7].is_used = false;
     cut_into_tiles(p.plan, p.config);
     write_plan(p.folder / "plan", p.plan, "run");
@@ -138,6 +139,7 @@ TEST(Plan, IsTheSameWhenReadBack) {
         EXPECT_EQ(read.tiles[t].voxels, p.plan.tiles[t].voxels);
     }
     EXPECT_EQ(read.drives[0].notes, p.plan.drives[0].notes);
+    EXPECT_EQ(read.warnings, p.plan.warnings);
     EXPECT_EQ(read.drives[0].warnings, p.plan.drives[0].warnings);
     EXPECT_EQ(used_scans(read.drives[0]).size(), 39U);
     EXPECT_EQ(read.drives[0].most_points, p.plan.drives[0].most_points);

@@ -45,7 +45,8 @@ TileSummary some_summary() {
             .keyframes = 7,
             .low = {-0.1, 2.5, -3.0},
             .high = {1e6 + 0.1, 1.0 / 3.0, 0.0},
-            .drives = {counts}};
+            .drives = {counts},
+            .map_mark = {}};
 }
 
 TEST(TileFile, GivesBackWhatWasWritten) {
@@ -87,6 +88,15 @@ TEST(TileFile, WithoutCommitThereIsNoFile) {
     EXPECT_FALSE(is_done(folder / "a.tile", "run"));
 }
 
+/// True if a run would take the tile for its own.
+bool is_taken(const std::filesystem::path& file) {
+    try {
+        return is_done(file, "run");
+    } catch (const ConfigError&) {
+        return false;
+    }
+}
+
 TEST(TileFile, AnyByteThatDiffersIsNoticed) {
     const test::TemporaryFolder folder;
     const auto file = folder / "a.tile";
@@ -101,12 +111,30 @@ TEST(TileFile, AnyByteThatDiffersIsNoticed) {
         spoilt[i] = static_cast<char>(spoilt[i] ^ 4);
         test::spill(file, spoilt);
         EXPECT_THROW((void)TileReader(file, "run").read({0, 0}), Error) << "byte " << i;
+        EXPECT_FALSE(is_taken(file)) << "byte " << i;
     }
     for (const std::size_t length : {std::size_t{0}, std::size_t{10}, whole.size() - 1}) {
         test::spill(file, whole.substr(0, length));
         EXPECT_FALSE(is_done(file, "run")) << length;
         EXPECT_THROW(TileReader(file, "run"), InputError) << length;
     }
+}
+
+TEST(TileFile, IsNotDoneWithoutItsVoxels) {
+    const test::TemporaryFolder folder;
+    TileSummary summary = some_summary();
+    const auto file = folder / tile_file(summary.tile), map = folder / tile_map_file(summary.tile);
+    test::spill(map, "voxels");
+    summary.map_mark = file_mark_of(map);
+    TileWriter writer(file, "run");
+    writer.commit(summary);
+    EXPECT_TRUE(is_done(file, "run"));
+    test::spill(map, "vOxels");
+    EXPECT_FALSE(is_done(file, "run"));
+    test::spill(map, "voxel");
+    EXPECT_FALSE(is_done(file, "run"));
+    std::filesystem::remove(map);
+    EXPECT_FALSE(is_done(file, "run"));
 }
 
 TEST(TileFile, OfAnotherRunIsRefused) {

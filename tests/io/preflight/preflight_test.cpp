@@ -132,7 +132,7 @@ TEST_F(Check, QuicklyFindsWhatIsWrongAsAWholeOnly) {
         test::Random random(1);
         change_poses(sequence, [&](const Pose& pose) { return pose * random.pose(0.1, 0.01); });
     };
-    expect_only(after(jitter), "jitter", "`run` refines such poses");
+    expect_only(after(jitter), "jitter", "`run` refines such poses of a single recording");
     EXPECT_TRUE(after(jitter, Depth::quick).findings.empty());
     const auto inverse = [](Sequence& sequence) {
         change_poses(sequence, [](const Pose& pose) { return pose.inverse(); });
