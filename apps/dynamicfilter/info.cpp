@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "city/map_index.hpp"
@@ -20,6 +21,15 @@ namespace {
 constexpr const char* kTypeNames[] = {"int8",   "uint8", "int16",  "uint16",  "int32",
                                       "uint32", "int64", "uint64", "float32", "float64"};
 
+/// Four digits say how small values are spread. Of large ones, such as coordinates of a map or
+/// stamps, they would say nothing.
+std::string readable(double value) {
+    constexpr double kLarge = 1e3, kEndless = 1e12;
+    const double size = std::abs(value);
+    if (size < kLarge || size > kEndless) return fmt::format("{:.4g}", value);
+    return fmt::format("{:.{}f}", value, value == std::floor(value) ? 0 : 2);
+}
+
 void describe_cloud(const std::filesystem::path& name, const io::Cloud& cloud) {
     fmt::print("{}\n  points  {}\n", name.string(), cloud.size());
     for (const io::Field& field : cloud.fields) {
@@ -33,7 +43,7 @@ void describe_cloud(const std::filesystem::path& name, const io::Cloud& cloud) {
         }
         fmt::print("  {:<10} {:<8}", field.name, kTypeNames[static_cast<std::size_t>(field.type)]);
         if (field.count > 1) fmt::print(" x{}", field.count);
-        if (finite > 0) fmt::print(" {:.4g} .. {:.4g}", low, high);
+        if (finite > 0) fmt::print(" {} .. {}", readable(low), readable(high));
         if (finite < cloud.size()) fmt::print(" ({} not finite)", cloud.size() - finite);
         fmt::print("\n");
     }

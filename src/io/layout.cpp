@@ -89,6 +89,11 @@ void require_folder(const fs::path& data) {
                              "; expected a bag (.mcap, .bag, .db3), or a folder with "
                              "velodyne/*.bin, pcd/*.pcd, or scans and a pose file");
     }
+    if (present(data / "part.json") && present(data / "config.toml")) {
+        throw InputError(data, "",
+                         "is a part of a run, not a recording; `dynamicfilter merge` puts the "
+                         "parts together");
+    }
     if (present(data / "run.log") && present(data / "config.toml")) {
         throw InputError(data, "",
                          "is the output of a run, not a recording; give the recording that run.log "

@@ -487,10 +487,19 @@ TEST_F(Command, InfoDescribesFilesAndFolders) {
     expect_said("intensity");
     EXPECT_EQ(run("info " + (recording() / "velodyne/000000.bin").string()), 0);
     EXPECT_EQ(run("info nothing.pcd"), 3);
+    spill(folder_ / "utm.xyz", "500123.25 5400000 0.123456\n500987.5 5400321 12\n");
+    EXPECT_EQ(run("info utm.xyz"), 0) << said();
+    for (const char* range : {"500123.25 .. 500987.50", "5400000 .. 5400321", "0.1235 .. 12"})
+        expect_said(range);
     ASSERT_EQ(run("run " + recording().string() + " -o out"), 0) << said();
     for (const char* command : {"info out", "check out", "run out -o x"}) {
         EXPECT_EQ(run(command), 3) << command;
         expect_said("is the output of a run, not a recording");
+    }
+    ASSERT_EQ(run("run " + recording().string() + " --part 1/1 -o part"), 0) << said();
+    for (const char* command : {"info part", "check part", "run part -o x"}) {
+        EXPECT_EQ(run(command), 3) << command;
+        expect_said("is a part of a run, not a recording");
     }
     ASSERT_EQ(run("convert " + recording().string() + " a.bag"), 0);
     fs::rename(folder_ / "a.bag", folder_ / "recording.data");

@@ -116,7 +116,9 @@ Part read_part(const fs::path& folder) {
         part.run.config.file = folder / "config.toml";
         return part;
     } catch (const nlohmann::json::exception& error) {
-        throw InputError(file, "", std::string("is damaged: ") + error.what());
+        throw InputError(file, "",
+                         std::string("is damaged; remove the folder and run this part again (") +
+                             error.what() + ")");
     }
 }
 
