@@ -233,10 +233,10 @@ fs::path OutputFolder::subfolder(const char* name) const {
     return path() / name;
 }
 
-void refuse_same_folder(const fs::path& input, const fs::path& output) {
+void refuse_same_folder(const fs::path& input, const fs::path& output, const std::string& what) {
     std::error_code ignored;
     if (fs::equivalent(input, output, ignored)) {
-        throw ConfigError(output.string() + ": holds the recording itself; choose another -o");
+        throw ConfigError(output.string() + ": " + what + "; choose another -o");
     }
 }
 

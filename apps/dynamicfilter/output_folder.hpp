@@ -59,8 +59,9 @@ private:
     std::optional<Lock> lock_;
 };
 
-/// Throws ConfigError if the output folder is the input folder.
-void refuse_same_folder(const std::filesystem::path& input, const std::filesystem::path& output);
+/// Throws ConfigError if the output folder is the input folder; `what` the message says of it.
+void refuse_same_folder(const std::filesystem::path& input, const std::filesystem::path& output,
+                        const std::string& what = "holds the recording itself");
 
 /// `results/<UTC stamp>`, not yet existing; `results/latest` will point to it after link_latest().
 std::filesystem::path default_output();

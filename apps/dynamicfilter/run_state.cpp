@@ -45,25 +45,23 @@ void write_complete(const OutputFolder& output, std::string_view state) {
     write_state(output, std::string(state) + std::string(kComplete));
 }
 
-bool is_complete(const fs::path& folder, std::string_view state) {
-    const fs::path file = folder / kRunState;
-    return fs::exists(file) && io::read_file(file) == std::string(state) + std::string(kComplete);
-}
-
 bool is_begun(const fs::path& folder, std::string_view state) {
     const fs::path file = folder / kRunState;
     return fs::exists(file) && io::read_file(file) == state;
 }
 
+bool is_complete(const fs::path& folder, std::string_view state) {
+    return is_begun(folder, std::string(state) + std::string(kComplete));
+}
+
 void refuse_other_run(const OutputFolder& output, std::string_view state) {
-    if (output.is_empty() || is_complete(output.path(), state)) return;
-    const fs::path file = output.path() / kRunState;
-    if (!fs::exists(file)) {
+    const fs::path& folder = output.path();
+    if (output.is_empty() || is_begun(folder, state) || is_complete(folder, state)) return;
+    if (!fs::exists(folder / kRunState)) {
         throw ConfigError(output.name().string() +
                           ": holds something that no run of this version began; use --overwrite "
                           "or another -o");
     }
-    if (io::read_file(file) == state) return;
     throw ConfigError(
         output.name().string() +
         ": was begun with another recording, other settings, other outputs (--no-maps, "

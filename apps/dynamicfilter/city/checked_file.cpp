@@ -17,6 +17,12 @@ const Bytef* raw(std::span<const std::byte> bytes) {
     return reinterpret_cast<const Bytef*>(bytes.data());
 }
 
+[[noreturn]] void refuse_damaged(const std::filesystem::path& file) {
+    throw InputError(
+        file, "",
+        "is damaged; make it again: `dynamicfilter plan -o`, or remove it and give --resume");
+}
+
 }  // namespace
 
 std::uint32_t crc_of(std::span<const std::byte> bytes) {
@@ -39,9 +45,7 @@ std::vector<std::byte> unpacked(std::span<const std::byte> bytes, std::size_t si
     const int status =
         uncompress(reinterpret_cast<Bytef*>(result.data()), &length, raw(bytes), bytes.size());
     if (size > 0 && (status != Z_OK || length != size)) {
-        throw InputError(
-            file, "",
-            "is damaged; make it again: `dynamicfilter plan -o`, or remove it and give --resume");
+        refuse_damaged(file);
     }
     return result;
 }
@@ -78,9 +82,7 @@ std::vector<std::byte> read_checked(const std::filesystem::path& file, std::stri
     }
     const auto bytes = std::as_bytes(std::span(text).subspan(end + 1));
     if (bytes.size() != size || crc != fmt::format("{:08x}", crc_of(bytes))) {
-        throw InputError(
-            file, "",
-            "is damaged; make it again: `dynamicfilter plan -o`, or remove it and give --resume");
+        refuse_damaged(file);
     }
     return {bytes.begin(), bytes.end()};
 }

@@ -44,9 +44,8 @@ std::string note_on_origin(const MapIndex& index) {
     if (least < kFar || index.tiles.empty()) return "";
     return fmt::format(
         "the map lies {:.0f} km from the origin of its frame, for which --origin gives latitude "
-        "and "
-        "longitude; coordinates such as UTM have to be made relative to a place nearby first, in "
-        "the poses of the recordings",
+        "and longitude; coordinates such as UTM have to be made relative to a place nearby "
+        "first, in the poses of the recordings",
         1e-3 * least);
 }
 

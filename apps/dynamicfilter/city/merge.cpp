@@ -61,12 +61,6 @@ std::map<Tile, fs::path> find_tiles(const City& city, const std::vector<Part>& p
     return found;
 }
 
-void refuse_part(const fs::path& part, const fs::path& output) {
-    std::error_code ignored;
-    if (!fs::equivalent(part, output, ignored)) return;
-    throw ConfigError(output.string() + ": is one of the parts; choose another -o");
-}
-
 }  // namespace
 
 int merge(const MergeOptions& o) {
@@ -81,7 +75,8 @@ int merge(const MergeOptions& o) {
     prepare(city.drives, city.plan);
     tell_notes(city, true);
     const auto folders = find_tiles(city, parts, o.parts);
-    for (const fs::path& folder : o.parts) refuse_part(folder, o.output);
+    for (const fs::path& folder : o.parts)
+        refuse_same_folder(folder, o.output, "is one of the parts");
     const std::string state = state_of_output(city, run);
     if (!o.overwrite && is_complete(o.output, state)) {
         if (!o.quiet) fmt::print("complete {}\n", o.output.string());

@@ -200,27 +200,29 @@ TileReader::TileReader(std::filesystem::path file, const std::string& run)
     }
 }
 
+std::string TileReader::packed_bytes_of(const Block& block) const {
+    std::string bytes = read_at(path_, block.offset, block.bytes);
+    if (crc_of(std::as_bytes(std::span(bytes))) != block.crc) refuse_damaged(path_);
+    return bytes;
+}
+
 PointVerdicts TileReader::read(const ScanOfDrive& scan) const {
     const auto block = blocks_.find(scan);
     if (block == blocks_.end()) return {};
-    const std::string bytes = read_at(path_, block->second.offset, block->second.bytes);
-    const auto coded = std::as_bytes(std::span(bytes));
-    if (crc_of(coded) != block->second.crc) refuse_damaged(path_);
+    const std::string bytes = packed_bytes_of(block->second);
     PointVerdicts verdicts;
-    for (const std::byte code : unpacked(coded, block->second.points, path_)) {
+    for (const std::byte code :
+         unpacked(std::as_bytes(std::span(bytes)), block->second.points, path_)) {
         verdicts.push_back(verdict_of(code));
     }
     return verdicts;
 }
 
-bool TileReader::is_undamaged() const {
-    for (const auto& [scan, block] : blocks_) {
-        const std::string bytes = read_at(path_, block.offset, block.bytes);
-        if (crc_of(std::as_bytes(std::span(bytes))) != block.crc) return false;
-    }
-    if (summary_.map_mark.empty()) return true;
+void TileReader::check_all() const {
+    for (const auto& [scan, block] : blocks_) (void)packed_bytes_of(block);
+    if (summary_.map_mark.empty()) return;
     const std::filesystem::path map = path_.parent_path() / tile_map_file(summary_.tile);
-    return std::filesystem::exists(map) && file_mark_of(map) == summary_.map_mark;
+    if (file_mark_of(map) != summary_.map_mark) refuse_damaged(map);
 }
 
 std::string file_mark_of(const std::filesystem::path& file) {
@@ -231,7 +233,8 @@ std::string file_mark_of(const std::filesystem::path& file) {
 bool is_done(const std::filesystem::path& file, const std::string& run) {
     if (!std::filesystem::exists(file)) return false;
     try {
-        return TileReader(file, run).is_undamaged();
+        TileReader(file, run).check_all();
+        return true;
     } catch (const InputError&) {
         return false;
     }

@@ -72,14 +72,16 @@ public:
     /// Empty if the scan has no points in the tile.
     [[nodiscard]] PointVerdicts read(const ScanOfDrive& scan) const;
     [[nodiscard]] const TileSummary& summary() const { return summary_; }
-    /// Reads all of it, and the voxels beside it. Throws InputError if the file cannot be read.
-    [[nodiscard]] bool is_undamaged() const;
+    /// Reads all of it, and the voxels beside it. Throws InputError if a byte is damaged.
+    void check_all() const;
 
 private:
     struct Block {
         std::uint64_t offset = 0;
         std::uint32_t points = 0, bytes = 0, crc = 0;
     };
+    [[nodiscard]] std::string packed_bytes_of(const Block& block) const;
+
     std::filesystem::path path_;
     std::map<ScanOfDrive, Block> blocks_;
     TileSummary summary_;
