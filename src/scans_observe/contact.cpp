@@ -24,18 +24,18 @@ std::optional<Point> moving_side(std::span<const VoxelVerdict> around) {
     return Point(sum / static_cast<float>(count));
 }
 
-std::optional<Surface> plane_of(const Points& points, const Config& config) {
+std::optional<ContactSurface> plane_of(const Points& points, const Config& config) {
     if (points.size() < static_cast<std::size_t>(config.fewest)) return std::nullopt;
     Moments moments{.origin = points.front()};
     for (const Point& p : points) moments.add(p);
     const auto axis = smallest_axis(moments);
     if (!axis) return std::nullopt;
     const Point mean = moments.origin + (moments.sum / moments.count).cast<float>();
-    return Surface{axis->cast<float>(), axis->cast<float>().dot(mean), 0.0F};
+    return ContactSurface{axis->cast<float>(), axis->cast<float>().dot(mean), 0.0F};
 }
 
 /// Fits a plane twice: the second time without the points that do not lie on the first plane.
-std::optional<Surface> fit(const Points& points, const Config& config) {
+std::optional<ContactSurface> fit(const Points& points, const Config& config) {
     const auto outlier = static_cast<float>(config.outlier);
     const auto flat = static_cast<float>(config.flat);
     const auto first = plane_of(points, config);
@@ -50,12 +50,12 @@ std::optional<Surface> fit(const Points& points, const Config& config) {
     for (const Point& p : inliers) sum_sq += second->height(p) * second->height(p);
     const float roughness = std::sqrt(sum_sq / static_cast<float>(inliers.size()));
     if (roughness > flat) return std::nullopt;
-    return Surface{second->normal, second->offset, roughness};
+    return ContactSurface{second->normal, second->offset, roughness};
 }
 
 }  // namespace
 
-std::optional<Surface> contact_surface(std::span<const VoxelVerdict> around, const Config& config) {
+std::optional<ContactSurface> contact_surface(std::span<const VoxelVerdict> around, const Config& config) {
     const auto moving = moving_side(around);
     if (!moving) return std::nullopt;
     Points fixed;

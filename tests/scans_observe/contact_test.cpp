@@ -17,7 +17,7 @@ struct World {
     std::map<VoxelKey, VoxelVerdict> voxels{};
 
     void add(const Point& p, Label label) { voxels[pack(*cell_of(p, 1.0F / kSize))] = {p, label}; }
-    [[nodiscard]] std::optional<Surface> contact(const Point& p) const {
+    [[nodiscard]] std::optional<ContactSurface> contact(const Point& p) const {
         const Cell home = *cell_of(p, 1.0F / kSize);
         std::vector<VoxelVerdict> around;
         for (const auto& [key, verdict] : voxels) {

@@ -116,7 +116,7 @@ TEST(DecidePoints, OnARoughSurfaceAPointMustBeHigher) {
     Map map;
     map.add({middle(0, 0, 0), middle(0, 0, 2)});
     const auto roughness = static_cast<float>(config.scans.contact.roughness);
-    const Surface rough{Point::UnitZ(), 0.0F, 0.03F};
+    const ContactSurface rough{Point::UnitZ(), 0.0F, 0.03F};
     const std::vector<VoxelDecision> decided{{0.9F, rough}, {0.1F, {}}};
     const auto label_at = [&](float height, const Point& leg) {
         return decide(map, decided, {{0.1F, 0.1F, height}, leg}).labels[0];

@@ -14,7 +14,7 @@
 namespace dynamic_filter {
 
 /// A plane `normal . p = offset`. The normal points to the side of the moving objects.
-struct Surface {
+struct ContactSurface {
     Point normal = Point::Zero();
     float offset = 0.0F;  ///< [m]
     /// [m] root mean square distance of the static centroids from the plane.
@@ -32,7 +32,7 @@ struct VoxelVerdict {
 /// Fits the static surface in a static voxel that touches a dynamic one: a plane through the static
 /// centroids among `around`. Empty if no dynamic voxel touches the voxel, or if the centroids do
 /// not lie on a plane. See docs/how-it-works.md, "Feet on the ground".
-std::optional<Surface> contact_surface(std::span<const VoxelVerdict> around,
+std::optional<ContactSurface> contact_surface(std::span<const VoxelVerdict> around,
                                        const ScansConfig::Contact& config);
 
 }  // namespace dynamic_filter
