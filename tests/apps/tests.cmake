@@ -61,7 +61,7 @@ if(TARGET dynamic_filter_ros1)
   df_player(live_player_ros1 dynamic_filter_ros1)
   df_test(apps/live/ros1_bus dynamic_filter_ros1)
   target_compile_definitions(apps_live_ros1_bus_test PRIVATE ROS1_PEER="${CMAKE_CURRENT_LIST_DIR}/live/ros1_peer.py")
-  add_dependencies(tests_without_simulator dynamicfilter_ros1)
+  add_dependencies(sanitized_tests dynamicfilter_ros1)
   add_test(NAME apps/live/live_ros1 COMMAND ${CMAKE_CURRENT_LIST_DIR}/live/live_ros1_test.sh $<TARGET_FILE:dynamicfilter>
     $<TARGET_FILE:dynamicfilter_ros1>)
 endif()

@@ -9,6 +9,6 @@ add_test(NAME docs/parameters COMMAND sh -c
          "'${DF_PYTHON}' docs/_ext/parameters.py '$<TARGET_FILE:dynamicfilter>' | diff - docs/parameters.md")
 set_tests_properties(docs/parameters PROPERTIES WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
 add_test(NAME docs/site COMMAND ${DF_PYTHON} ${CMAKE_CURRENT_LIST_DIR}/site_test.py ${PROJECT_SOURCE_DIR} ${CMAKE_BINARY_DIR})
-set_tests_properties(docs/pages PROPERTIES COST 100)  # the longest of the default ones: first
+set_tests_properties(docs/pages PROPERTIES COST 100)  # the longest after the viewer
 set_tests_properties(docs/site docs/pages_of_results PROPERTIES LABELS slow)
 set_tests_properties(docs/site PROPERTIES SKIP_RETURN_CODE 77)

@@ -16,7 +16,7 @@ target_link_libraries(io_png_test PRIVATE PNG::PNG)
 
 add_executable(io_read_back_samples ${CMAKE_CURRENT_LIST_DIR}/read_back_samples.cpp)
 target_link_libraries(io_read_back_samples PRIVATE dynamic_filter_io dynamic_filter_flags)
-add_dependencies(tests_without_simulator io_read_back_samples)
+add_dependencies(sanitized_tests io_read_back_samples)
 add_test(NAME io/read_back
          COMMAND ${DF_PYTHON} ${CMAKE_CURRENT_LIST_DIR}/read_back.py
                  $<TARGET_FILE:io_read_back_samples>)
