@@ -55,7 +55,8 @@ std::optional<ContactSurface> fit(const Points& points, const Config& config) {
 
 }  // namespace
 
-std::optional<ContactSurface> contact_surface(std::span<const VoxelVerdict> around, const Config& config) {
+std::optional<ContactSurface> contact_surface(std::span<const VoxelVerdict> around,
+                                              const Config& config) {
     const auto moving = moving_side(around);
     if (!moving) return std::nullopt;
     Points fixed;

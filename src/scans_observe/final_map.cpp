@@ -15,8 +15,9 @@ void each_within(const EvidenceGrid& grid, int cells, std::uint32_t voxel, const
     grid.neighbors().each_within(grid.voxels(), cells, voxel, use);
 }
 
-std::optional<ContactSurface> contact_of(std::uint32_t voxel, const std::vector<VoxelDecision>& decided,
-                                  const EvidenceGrid& grid, const Config& config) {
+std::optional<ContactSurface> contact_of(std::uint32_t voxel,
+                                         const std::vector<VoxelDecision>& decided,
+                                         const EvidenceGrid& grid, const Config& config) {
     const auto label = [&](std::uint32_t v) {
         return label_of(decided[v].probability, config.map.occupancy_threshold);
     };

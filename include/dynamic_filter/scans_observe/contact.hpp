@@ -33,6 +33,6 @@ struct VoxelVerdict {
 /// centroids among `around`. Empty if no dynamic voxel touches the voxel, or if the centroids do
 /// not lie on a plane. See docs/how-it-works.md, "Feet on the ground".
 std::optional<ContactSurface> contact_surface(std::span<const VoxelVerdict> around,
-                                       const ScansConfig::Contact& config);
+                                              const ScansConfig::Contact& config);
 
 }  // namespace dynamic_filter
