@@ -20,8 +20,6 @@ function(df_compile_alone)
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
-set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
-
 find_program(CCACHE ccache)
 if(CCACHE)
   # The manual of ccache asks for this with precompiled headers.

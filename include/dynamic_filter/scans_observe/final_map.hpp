@@ -15,8 +15,8 @@ namespace dynamic_filter {
 /// The decision on a voxel.
 struct VoxelDecision {
     std::optional<float> probability;  ///< probability of being occupied; empty: unknown
-    std::optional<ContactSurface>
-        contact;  ///< static surface, if a static voxel touches a dynamic one
+    /// Static surface, if a static voxel touches a dynamic one.
+    std::optional<ContactSurface> contact;
 };
 
 /// Decides every voxel of the grid. Runs in parallel.
