@@ -17,7 +17,7 @@ namespace dynamic_filter::app {
 
 namespace {
 
-std::string text_of(const toml::node& node) {
+std::string setting_text(const toml::node& node) {
     if (const auto* text = node.as_string()) return text->get();
     std::ostringstream out;
     node.visit([&](const auto& value) { out << value; });
@@ -41,7 +41,7 @@ void list_settings(const toml::table& table, const std::string& prefix,
         if (const auto* section = node.as_table()) {
             list_settings(*section, name + ".", settings);
         } else {
-            settings.push_back({name, text_of(node), node.source().begin.line});
+            settings.push_back({name, setting_text(node), node.source().begin.line});
         }
     }
 }

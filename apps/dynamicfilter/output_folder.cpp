@@ -157,7 +157,7 @@ void refuse_result_of_a_run(const fs::path& folder, Contents contents) {
 OutputFolder::Lock::Lock(const fs::path& folder) : file(folder / kLock) {
     do {
         if (descriptor >= 0) close(descriptor);
-        descriptor = open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
+        descriptor = ::open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
         if (descriptor < 0) throw OutputError(file, std::strerror(errno));
         if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
             close(descriptor);

@@ -20,7 +20,7 @@ namespace dynamic_filter::io {
 namespace {
 
 template <class Topics>
-std::string names_of(const Topics& topics) {
+std::string topic_names(const Topics& topics) {
     std::string names;
     for (const auto& [name, topic] : topics) names += (names.empty() ? "" : ", ") + name;
     return names;
@@ -57,7 +57,7 @@ const CloudTopic& choose_clouds(const BagContents& contents, const std::filesyst
         const auto found = clouds.find(options.topic);
         if (found != clouds.end()) return found->second;
         throw ConfigError(fmt::format("no point clouds on topic {}; there are: {}{}", options.topic,
-                                      clouds.empty() ? "none" : names_of(clouds),
+                                      clouds.empty() ? "none" : topic_names(clouds),
                                       tell_packets(contents)));
     }
     if (clouds.empty()) {
@@ -111,7 +111,7 @@ std::optional<PoseSource> choose_poses(const BagContents& contents, const CloudT
     if (!options.pose_topic.empty()) {
         if (options.pose_topic == "/tf" && by_frames) return from_frames(frames, clouds.frame);
         if (named != contents.poses.end()) return source(*named);
-        std::string known = names_of(contents.poses);
+        std::string known = topic_names(contents.poses);
         if (by_frames) known += (known.empty() ? "" : ", ") + std::string("/tf");
         throw ConfigError(fmt::format("no poses on topic {}; there are: {}", options.pose_topic,
                                       known.empty() ? "none" : known));
@@ -126,7 +126,8 @@ std::optional<PoseSource> choose_poses(const BagContents& contents, const CloudT
     }
     PoseSource first = source(*contents.poses.begin());
     if (contents.poses.size() > 1) {
-        first.note += fmt::format(" (of {}; choose with --pose-topic)", names_of(contents.poses));
+        first.note +=
+            fmt::format(" (of {}; choose with --pose-topic)", topic_names(contents.poses));
     }
     return first;
 }

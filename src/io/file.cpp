@@ -34,7 +34,7 @@ struct Descriptor {
     int number;
 };
 
-const char* kind_of(mode_t mode) {
+const char* special_kind(mode_t mode) {
     if (S_ISDIR(mode)) return "is a folder; expected a file";
     if (S_ISFIFO(mode)) return "is a pipe; expected a regular file, save the stream to one first";
     if (S_ISSOCK(mode)) return "is a socket; expected a regular file";
@@ -46,7 +46,7 @@ std::size_t regular_size(int descriptor, const std::filesystem::path& file) {
     struct stat status {};
     if (::fstat(descriptor, &status) != 0)
         throw InputError(file, "", "cannot be read: " + reason());
-    if (!S_ISREG(status.st_mode)) throw InputError(file, "", kind_of(status.st_mode));
+    if (!S_ISREG(status.st_mode)) throw InputError(file, "", special_kind(status.st_mode));
     return static_cast<std::size_t>(status.st_size);
 }
 
@@ -113,7 +113,7 @@ void refuse_special(const std::filesystem::path& path) {
     if (!path.has_filename()) throw OutputError(path, "names a folder; expected a file name");
     struct stat status {};
     if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) {
-        throw OutputError(path, kind_of(status.st_mode));
+        throw OutputError(path, special_kind(status.st_mode));
     }
 }
 

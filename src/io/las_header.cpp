@@ -80,9 +80,9 @@ std::string name_of(std::string_view raw) {
     return name;
 }
 
-class HeaderParser {
+class LasHeaderParser {
 public:
-    explicit HeaderParser(std::span<const std::byte> bytes) : bytes_(bytes) {}
+    explicit LasHeaderParser(std::span<const std::byte> bytes) : bytes_(bytes) {}
 
     LasHeader parse() {
         if (ByteReader(bytes_).text(4) != "LASF") {
@@ -247,7 +247,7 @@ private:
 
 LasHeader parse_las_header(std::span<const std::byte> bytes, const std::filesystem::path& file) {
     try {
-        return HeaderParser(bytes).parse();
+        return LasHeaderParser(bytes).parse();
     } catch (const Malformed& error) {
         throw InputError(file, "header", error.what());
     }

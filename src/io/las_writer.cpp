@@ -14,7 +14,7 @@
 namespace dynamic_filter::io {
 namespace {
 
-constexpr double scale = 0.001;  // [m] resolution of coordinates
+constexpr double kResolution = 0.001;  // [m] of coordinates
 constexpr std::size_t header_bytes = 375, base_bytes = 30, returns_at = 14;
 constexpr std::size_t most_name = 32, most_u16 = 65535;
 
@@ -47,20 +47,20 @@ struct Axis {
 };
 
 /// Consecutive little-endian numbers.
-class Bytes {
+class LasBytes {
 public:
     template <class T>
-    Bytes& put(T value) {
+    LasBytes& put(T value) {
         const std::size_t at = bytes_.size();
         bytes_.resize(at + sizeof value);
         store_at(bytes_.data() + at, value);
         return *this;
     }
-    Bytes& text(std::string_view text, std::size_t width) {
+    LasBytes& text(std::string_view text, std::size_t width) {
         for (std::size_t i = 0; i < width; ++i) put(i < text.size() ? text[i] : '\0');
         return *this;
     }
-    Bytes& zeros(std::size_t count) { return text("", count); }
+    LasBytes& zeros(std::size_t count) { return text("", count); }
     [[nodiscard]] const std::vector<std::byte>& bytes() const { return bytes_; }
 
 private:
@@ -108,7 +108,7 @@ std::size_t record_bytes_of(const std::vector<Placed>& placed) {
 
 std::vector<std::byte> extra_record(const std::vector<Placed>& placed,
                                     const std::filesystem::path& path) {
-    Bytes record;
+    LasBytes record;
     for (const Placed& p : placed) {
         if (p.standard != nullptr) continue;
         if (p.name.size() > most_name) {
@@ -144,7 +144,7 @@ std::vector<std::size_t> finite_points(const std::array<Axis, 3>& axes) {
 }
 
 std::int32_t steps(const Axis& axis, double value) {
-    return static_cast<std::int32_t>(std::llround((value - axis.offset) / scale));
+    return static_cast<std::int32_t>(std::llround((value - axis.offset) / kResolution));
 }
 
 /// Chooses the offset of an axis in the middle of the data, in whole metres, so that 32 bits reach
@@ -159,7 +159,8 @@ void span_axis(Axis& axis, char name, const std::vector<std::size_t>& points,
         axis.greatest = std::max(axis.greatest, axis.values[i]);
     }
     axis.offset = std::round(axis.least / 2 + axis.greatest / 2);
-    if (!(axis.greatest - axis.offset < scale * std::numeric_limits<std::int32_t>::max() - 1)) {
+    if (!(axis.greatest - axis.offset <
+          kResolution * std::numeric_limits<std::int32_t>::max() - 1)) {
         throw OutputError(
             path, fmt::format("the cloud goes from {0} = {1:.6g} to {2:.6g} m, wider than the "
                               "4,000 km that LAS holds at its scale of 1 mm; are these "
@@ -167,7 +168,7 @@ void span_axis(Axis& axis, char name, const std::vector<std::size_t>& points,
                               name, axis.least, axis.greatest));
     }
     for (double* bound : {&axis.least, &axis.greatest}) {
-        *bound = steps(axis, *bound) * scale + axis.offset;
+        *bound = steps(axis, *bound) * kResolution + axis.offset;
     }
 }
 
@@ -224,18 +225,18 @@ struct Sizes {
     std::uint64_t points = 0;
 };
 
-Bytes header_of(const Sizes& sizes, const std::array<Axis, 3>& axes,
-                const std::array<std::uint64_t, 15>& returns) {
+LasBytes header_of(const Sizes& sizes, const std::array<Axis, 3>& axes,
+                   const std::array<std::uint64_t, 15>& returns) {
     constexpr std::uint16_t has_wkt = 16;  // required by the format for point formats from 6 on
     const bool has_extra = sizes.extra != 0;
     const std::size_t begin = header_bytes + (has_extra ? las_vlr_header_bytes + sizes.extra : 0);
-    Bytes header;
+    LasBytes header;
     header.text("LASF", 4).put(std::uint16_t{0}).put(has_wkt).zeros(16);
     header.put(std::uint8_t{1}).put(std::uint8_t{4}).text("", 32).text("DynamicFilter", 32);
     header.zeros(4).put(static_cast<std::uint16_t>(header_bytes));
     header.put(static_cast<std::uint32_t>(begin)).put(std::uint32_t{has_extra ? 1U : 0U});
     header.put(std::uint8_t{6}).put(static_cast<std::uint16_t>(sizes.stride)).zeros(24);
-    for (std::size_t a = 0; a < 3; ++a) header.put(scale);
+    for (std::size_t a = 0; a < 3; ++a) header.put(kResolution);
     for (const Axis& axis : axes) header.put(axis.offset);
     for (const Axis& axis : axes) header.put(axis.greatest).put(axis.least);
     header.zeros(20).put(sizes.points);
@@ -254,7 +255,7 @@ Written write_las(const std::filesystem::path& path, const Cloud& cloud) {
     const std::vector<std::byte> extra = extra_record(placed, path);
     const std::vector<std::byte> records = records_of(cloud, placed, axes, points);
     const Sizes sizes{extra.size(), record_bytes_of(placed), points.size()};
-    Bytes header = header_of(sizes, axes, count_returns(records, sizes.stride));
+    LasBytes header = header_of(sizes, axes, count_returns(records, sizes.stride));
     if (!extra.empty()) {
         header.zeros(2).text(las_spec, 16).put(las_extra_id);
         header.put(static_cast<std::uint16_t>(extra.size())).text("Extra Bytes", 32);

@@ -3,11 +3,10 @@
 #include <string_view>
 
 #include "dynamic_filter/io/sequence.hpp"
+#include "text.hpp"
 
 namespace dynamic_filter::io {
 namespace {
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// Removes the digits at the front, and returns them without leading zeros.
 std::string_view take_number(std::string_view& rest) {

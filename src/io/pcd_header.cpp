@@ -45,9 +45,9 @@ std::string type_name(FieldType type) {
 }
 
 /// Collects the lines of the header, then checks them together.
-class HeaderParser {
+class PcdHeaderParser {
 public:
-    explicit HeaderParser(Lines& lines) : lines_(lines) {}
+    explicit PcdHeaderParser(Lines& lines) : lines_(lines) {}
 
     PcdHeader parse() {
         while (lines_.next()) {
@@ -184,7 +184,7 @@ private:
 
 }  // namespace
 
-PcdHeader parse_pcd_header(Lines& lines) { return HeaderParser(lines).parse(); }
+PcdHeader parse_pcd_header(Lines& lines) { return PcdHeaderParser(lines).parse(); }
 
 std::string pcd_count(std::size_t count) { return fmt::format("{:<{}}", count, pcd_count_width); }
 

@@ -16,14 +16,14 @@ namespace {
 
 constexpr std::size_t matrix_columns = 13;
 
-enum Role : std::size_t { x, y, z, qx, qy, qz, qw, time, nanoseconds, role_count };
+enum Role : std::size_t { kX, kY, kZ, kQx, kQy, kQz, kQw, kTime, kNanoseconds, kRoles };
 
-constexpr std::array<const char*, role_count> role_names = {"x",  "y",  "z",         "qx",  "qy",
-                                                            "qz", "qw", "timestamp", "nsec"};
+constexpr std::array<const char*, kRoles> role_names = {"x",  "y",  "z",         "qx",  "qy",
+                                                        "qz", "qw", "timestamp", "nsec"};
 
 /// The meaning of each column, and the factor that converts stamps to seconds.
-struct Columns {
-    std::array<std::optional<std::size_t>, role_count> of;
+struct PoseColumns {
+    std::array<std::optional<std::size_t>, kRoles> of;
     std::size_t count = 0;
     double seconds = 1.0;
 };
@@ -51,16 +51,16 @@ Title title_of(std::string_view cell) {
 
 std::optional<Role> role_of(const std::string& name) {
     for (const char* known : {"timestamp", "stamp", "time", "t", "sec", "secs"}) {
-        if (name == known) return time;
+        if (name == known) return kTime;
     }
-    if (name == "nsec" || name == "nsecs") return nanoseconds;
+    if (name == "nsec" || name == "nsecs") return kNanoseconds;
     for (std::size_t axis = 0; axis < 4; ++axis) {
         const std::string letter(1, "xyzw"[axis]);
         if (name == "q" + letter || name == "q_" + letter || name == "q_rs_" + letter) {
-            return static_cast<Role>(qx + axis);
+            return static_cast<Role>(kQx + axis);
         }
         for (const char* prefix : {"", "t", "p", "t_", "p_", "p_rs_r_", "pos_", "position_"}) {
-            if (axis < 3 && name == prefix + letter) return static_cast<Role>(x + axis);
+            if (axis < 3 && name == prefix + letter) return static_cast<Role>(kX + axis);
         }
     }
     return std::nullopt;
@@ -74,19 +74,19 @@ double seconds_of(const std::string& unit, const Lines& lines) {
     lines.fail("the stamp's unit " + quote(unit) + " is unknown; expected s, ms, us or ns");
 }
 
-Columns columns_of(std::string_view header, const Lines& lines) {
-    Columns columns;
+PoseColumns columns_of(std::string_view header, const Lines& lines) {
+    PoseColumns columns;
     for (const auto cell : split_at(header, ',')) {
         const Title title = title_of(cell);
         if (const auto role = role_of(title.name)) {
             if (columns.of[*role])
                 lines.fail("two columns of the CSV header stand for " + quote(role_names[*role]));
             columns.of[*role] = columns.count;
-            if (*role == time) columns.seconds = seconds_of(title.unit, lines);
+            if (*role == kTime) columns.seconds = seconds_of(title.unit, lines);
         }
         ++columns.count;
     }
-    for (std::size_t role = x; role <= qw; ++role) {
+    for (std::size_t role = kX; role <= kQw; ++role) {
         if (!columns.of[role]) {
             lines.fail(
                 fmt::format("the CSV header names no column '{}'; expected timestamp, x, y, "
@@ -97,14 +97,14 @@ Columns columns_of(std::string_view header, const Lines& lines) {
     return columns;
 }
 
-std::array<double, role_count> values_of(std::string_view line, const Columns& columns,
-                                         const Lines& lines) {
+std::array<double, kRoles> values_of(std::string_view line, const PoseColumns& columns,
+                                     const Lines& lines) {
     const auto cells = split_at(line, ',');
     if (cells.size() != columns.count) {
         lines.fail(fmt::format("{} columns; the header names {}", cells.size(), columns.count));
     }
-    std::array<double, role_count> values{};
-    for (std::size_t role = 0; role < role_count; ++role) {
+    std::array<double, kRoles> values{};
+    for (std::size_t role = 0; role < kRoles; ++role) {
         if (!columns.of[role]) continue;
         const auto value = parse_real(cells[*columns.of[role]]);
         if (!value) lines.fail(quote(cells[*columns.of[role]]) + " is no number");
@@ -113,18 +113,18 @@ std::array<double, role_count> values_of(std::string_view line, const Columns& c
     return values;
 }
 
-void append_row(PoseFile& file, const std::array<double, role_count>& v, const Columns& columns,
+void append_row(PoseFile& file, const std::array<double, kRoles>& v, const PoseColumns& columns,
                 const Lines& lines) {
-    if (columns.of[time]) {
-        append_stamp(file, v[time] * columns.seconds + v[nanoseconds] * 1e-9, lines);
+    if (columns.of[kTime]) {
+        append_stamp(file, v[kTime] * columns.seconds + v[kNanoseconds] * 1e-9, lines);
     }
-    const bool finite =
-        std::all_of(v.begin(), v.begin() + time, [](double value) { return std::isfinite(value); });
-    file.poses.push_back(finite
-                             ? pose_from_quaternion({v[x], v[y], v[z]},
-                                                    Eigen::Quaterniond(v[qw], v[qx], v[qy], v[qz]),
-                                                    "as the CSV header names them", lines)
-                             : lost_pose());
+    const bool finite = std::all_of(v.begin(), v.begin() + kTime,
+                                    [](double value) { return std::isfinite(value); });
+    file.poses.push_back(
+        finite ? pose_from_quaternion({v[kX], v[kY], v[kZ]},
+                                      Eigen::Quaterniond(v[kQw], v[kQx], v[kQy], v[kQz]),
+                                      "as the CSV header names them", lines)
+               : lost_pose());
 }
 
 bool begins_with_number(std::string_view line) {
@@ -158,7 +158,7 @@ void append_matrix(PoseFile& file, std::string_view line, const Lines& lines) {
 PoseFile read_pose_table(Lines& lines) {
     PoseFile file;
     // From the header: the first line with commas, also if it is a comment.
-    std::optional<Columns> columns;
+    std::optional<PoseColumns> columns;
     while (lines.next()) {
         const std::string_view line = trim(lines.line());
         const bool has_comma = line.find(',') != std::string_view::npos;

@@ -21,8 +21,6 @@ namespace {
 
 constexpr std::size_t kitti_columns = 12, tum_columns = 8;
 
-bool is_comment(std::string_view line) { return line.empty() || line.front() == '#'; }
-
 std::vector<double> numbers(std::string_view line, const Lines& lines) {
     std::vector<double> row;
     for (const auto token : split_tokens(line)) {
@@ -64,7 +62,7 @@ PoseFile read_rows(Lines& lines) {
     std::size_t columns = 0;
     while (lines.next()) {
         const std::string_view line = trim(lines.line());
-        if (is_comment(line)) continue;
+        if (is_blank_or_comment(line)) continue;
         const std::vector<double> row = numbers(line, lines);
         if (columns == 0) columns = row.size();
         if (row.size() != columns) {
@@ -89,7 +87,7 @@ bool is_csv(const std::string& text, const std::filesystem::path& file) {
     while (lines.next()) {
         const std::string_view line = trim(lines.line());
         const bool has_comma = line.find(',') != std::string_view::npos;
-        if (!is_comment(line)) return has_comma;
+        if (!is_blank_or_comment(line)) return has_comma;
         comment_has_comma = comment_has_comma || has_comma;
     }
     return comment_has_comma;
@@ -99,7 +97,7 @@ bool is_g2o(const std::string& text, const std::filesystem::path& file) {
     Lines lines(text, file);
     while (lines.next()) {
         const std::string_view line = trim(lines.line());
-        if (is_comment(line)) continue;
+        if (is_blank_or_comment(line)) continue;
         return line.starts_with("VERTEX_") || line.starts_with("EDGE_") ||
                line.starts_with("PARAMS_") || line.starts_with("FIX ");
     }
@@ -147,7 +145,7 @@ void refuse_other_kind(std::string_view text, const std::filesystem::path& file)
 /// Throws if the first row has decimal commas, as some spreadsheets write them.
 void refuse_decimal_commas(std::string_view text, const std::filesystem::path& file) {
     Lines lines(text, file);
-    while (lines.next() && is_comment(trim(lines.line()))) {
+    while (lines.next() && is_blank_or_comment(trim(lines.line()))) {
     }
     const auto within = [](std::string_view token) {
         const std::size_t comma = token.find(',');
@@ -212,7 +210,7 @@ std::vector<double> read_times(const std::filesystem::path& file) {
     std::vector<double> stamps;
     while (lines.next()) {
         const std::string_view line = trim(lines.line());
-        if (is_comment(line)) continue;
+        if (is_blank_or_comment(line)) continue;
         const auto stamp = parse_real(line);
         if (!stamp || !std::isfinite(*stamp)) {
             lines.fail(quote(line) + " is no time; expected one number a line, in seconds");

@@ -42,6 +42,11 @@ std::vector<std::string_view> split_tokens(std::string_view line);
 std::vector<std::string_view> split_at(std::string_view line, char separator);
 std::string_view trim(std::string_view text);
 std::string to_lower(std::string_view text);
+inline bool is_digit(char c) { return c >= '0' && c <= '9'; }
+/// True for lines of pose files that hold no data; the line has no blanks at its ends.
+inline bool is_blank_or_comment(std::string_view line) {
+    return line.empty() || line.front() == '#';
+}
 
 /// Reads the whole token as a number. The decimal separator is always a point; nan and inf are
 /// numbers.

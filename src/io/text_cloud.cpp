@@ -63,7 +63,7 @@ Body survey(std::string_view text, const std::filesystem::path& file) {
 }
 
 /// Throws if lines contain commas and semicolons: 1,5 would be read as two numbers.
-void refuse_decimal_commas(std::string_view text, const std::filesystem::path& file) {
+void refuse_mixed_separators(std::string_view text, const std::filesystem::path& file) {
     for (Lines lines(text, file); lines.next();) {
         const std::string_view line = trim(lines.line());
         const bool both = line.find(';') != line.npos && line.find(',') != line.npos;
@@ -110,7 +110,7 @@ std::string write_text_cloud(const std::filesystem::path& path, const Cloud& clo
 
 Cloud read_text_cloud(const std::filesystem::path& file) {
     std::string text = read_file(file);
-    refuse_decimal_commas(text, file);
+    refuse_mixed_separators(text, file);
     for (char& c : text) {
         if (c == ',' || c == ';') c = ' ';
     }

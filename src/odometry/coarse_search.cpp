@@ -50,9 +50,9 @@ Flat upright_columns(const Points& points) {
 }
 
 /// Raster of upright structures: 2 in a cell with a structure, 1 in the cells beside it.
-class Raster {
+class UprightRaster {
 public:
-    explicit Raster(const Flat& places) {
+    explicit UprightRaster(const Flat& places) {
         for (const auto& p : places) {
             const auto [x, y] = cell(p);
             if (!inside(x, y, 1)) continue;
@@ -84,13 +84,14 @@ struct Candidate {
     int score = 0, x = 0, y = 0, turn = 0;
 };
 
-std::vector<Candidate> correlate(const Raster& raster, const Flat& scan, int cells, int turns) {
+std::vector<Candidate> correlate(const UprightRaster& raster, const Flat& scan, int cells,
+                                 int turns) {
     std::vector<Candidate> found;
     std::vector<std::pair<int, int>> turned(scan.size());
     for (int turn = -turns; turn <= turns; ++turn) {
         const Eigen::Rotation2Df rotation(static_cast<float>(turn * kTurnStep));
         std::transform(scan.begin(), scan.end(), turned.begin(),
-                       [&](const Eigen::Vector2f& p) { return Raster::cell(rotation * p); });
+                       [&](const Eigen::Vector2f& p) { return UprightRaster::cell(rotation * p); });
         for (int x = -cells; x <= cells; ++x) {
             for (int y = -cells; y <= cells; ++y) {
                 Candidate c{0, x, y, turn};
@@ -127,7 +128,7 @@ std::vector<Pose> search_displacements(const Points& map, const Points& scan,
     }
     const int cells = static_cast<int>(std::ceil(window.distance / static_cast<double>(kCell)));
     const int turns = static_cast<int>(std::ceil(window.turn / kTurnStep));
-    std::vector<Candidate> found = correlate(Raster(there), here, cells, turns);
+    std::vector<Candidate> found = correlate(UprightRaster(there), here, cells, turns);
     // Of equal candidates, the smallest motion is first.
     const auto least = [](const Candidate& c) {
         return std::tuple(-c.score, c.x * c.x + c.y * c.y + c.turn * c.turn, c.x, c.y, c.turn);

@@ -9,14 +9,14 @@ namespace {
 
 constexpr float kFewest = 5.0F;  // smallest number of points of a plane
 // Largest number of points; older points have drifted less, so newer ones are not added.
-constexpr float kMost = 1000.0F;
+constexpr float kMostPerPlane = 1000.0F;
 // Of the voxel size: smallest spread of the points in both directions of a plane.
 constexpr float kSpread = 0.1F;
 constexpr float kNoise = 0.01F;  // [m] smallest roughness of a surface
 // [m] largest roughness of a surface, with the uncertainty of its position.
 constexpr float kRoughest = 0.5F;
-// Effective share of the points, because errors of neighboring points are similar.
-constexpr float kIndependent = 0.1F;
+// Share of the points, because errors of neighboring points are similar.
+constexpr float kEffectiveShare = 0.1F;
 // The plane is fitted again when the number of points has grown by this factor.
 constexpr float kGrowth = 1.25F;
 
@@ -49,7 +49,7 @@ void SurfaceMap::insert(Level& level, const Points& in_map) {
         if (i + kAhead < voxels.size()) __builtin_prefetch(&level.moments[voxels[i + kAhead]]);
         const std::uint32_t voxel = voxels[i];
         Moments& m = level.moments[voxel];
-        if (m.count >= kMost) continue;
+        if (m.count >= kMostPerPlane) continue;
         m.count += 1.0F;
         const Point offset = in_map[points[i]] - corner_of(keys[i], level.size) - m.mean;
         m.mean += offset / m.count;
@@ -90,7 +90,7 @@ Surface SurfaceMap::surface_of(const Level& level, std::uint32_t voxel) {
 float Surface::variance_at(const Point& place) const {
     const Point offset = place - point;
     const float a = along[0].dot(offset), b = along[1].dot(offset);
-    return variance * (1.0F + (1.0F + a * a + b * b) / (kIndependent * count));
+    return variance * (1.0F + (1.0F + a * a + b * b) / (kEffectiveShare * count));
 }
 
 const Surface* SurfaceMap::at(const Point& place) const {

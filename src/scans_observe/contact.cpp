@@ -9,8 +9,6 @@ namespace dynamic_filter {
 
 namespace {
 
-using Config = ScansConfig::Contact;
-
 /// Mean centroid of the dynamic voxels that touch this one.
 std::optional<Point> moving_side(std::span<const VoxelVerdict> around) {
     Point sum = Point::Zero();
@@ -24,7 +22,7 @@ std::optional<Point> moving_side(std::span<const VoxelVerdict> around) {
     return Point(sum / static_cast<float>(count));
 }
 
-std::optional<ContactSurface> plane_of(const Points& points, const Config& config) {
+std::optional<ContactSurface> plane_of(const Points& points, const ScansConfig::Contact& config) {
     if (points.size() < static_cast<std::size_t>(config.fewest)) return std::nullopt;
     Moments moments{.origin = points.front()};
     for (const Point& p : points) moments.add(p);
@@ -35,7 +33,7 @@ std::optional<ContactSurface> plane_of(const Points& points, const Config& confi
 }
 
 /// Fits a plane twice: the second time without the points that do not lie on the first plane.
-std::optional<ContactSurface> fit(const Points& points, const Config& config) {
+std::optional<ContactSurface> fit(const Points& points, const ScansConfig::Contact& config) {
     const auto outlier = static_cast<float>(config.outlier);
     const auto flat = static_cast<float>(config.flat);
     const auto first = plane_of(points, config);
@@ -56,7 +54,7 @@ std::optional<ContactSurface> fit(const Points& points, const Config& config) {
 }  // namespace
 
 std::optional<ContactSurface> contact_surface(std::span<const VoxelVerdict> around,
-                                              const Config& config) {
+                                              const ScansConfig::Contact& config) {
     const auto moving = moving_side(around);
     if (!moving) return std::nullopt;
     Points fixed;

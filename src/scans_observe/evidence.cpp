@@ -9,19 +9,19 @@ namespace dynamic_filter {
 
 namespace {
 
-constexpr unsigned kMost = std::numeric_limits<std::uint16_t>::max();
+constexpr unsigned kMostCount = std::numeric_limits<std::uint16_t>::max();
 
 /// Halves all counters until each can grow by `weight`. Only the ratios of counters matter.
 void make_room(Evidence& e, unsigned weight) {
     const unsigned any_bit =
         static_cast<unsigned>(e.n_own | e.n_occ | e.n_free | e.n_switch | e.occupied | e.free |
                               e.hits | e.passes | e.n_flicker | e.moved);
-    if (any_bit + weight <= kMost) return;  // nearly always; no counter is larger than any_bit
+    if (any_bit + weight <= kMostCount) return;  // nearly always; no counter is larger than any_bit
     const auto largest = [&] {
         return std::max({e.n_own, e.n_occ, e.n_free, e.n_switch, e.occupied, e.free, e.hits,
                          e.passes, e.n_flicker, e.moved});
     };
-    while (largest() + weight > kMost) {
+    while (largest() + weight > kMostCount) {
         for (std::uint16_t* counter : {&e.n_own, &e.n_occ, &e.n_free, &e.n_switch, &e.occupied,
                                        &e.free, &e.hits, &e.passes, &e.n_flicker, &e.moved}) {
             // Rounded up, so that a counter above 0 stays above 0.
@@ -59,7 +59,7 @@ float observations_of(const Evidence& e) { return static_cast<float>(e.occupied 
 bool record(Evidence& e, const Observation& o, unsigned longest_run) {
     if (o.sight == Sight::unknown) return false;
     const Evidence before = e;
-    const unsigned weight = std::min(o.weight, kMost / (2 * kSure));
+    const unsigned weight = std::min(o.weight, kMostCount / (2 * kSure));
     make_room(e, kSure * weight);
     const unsigned each = is_weak(o.sight) ? kWeak : kSure;
     const Sight now = is_free(o.sight) ? Sight::free : Sight::occupied;
@@ -93,7 +93,7 @@ void record_owner(Evidence& evidence, std::uint32_t scan) {
 }
 
 void record_moved(Evidence& evidence, unsigned scans) {
-    const unsigned most = std::min(scans, kMost / 2);  // a voxel may be occupied for hours
+    const unsigned most = std::min(scans, kMostCount / 2);  // a voxel may be occupied for hours
     make_room(evidence, most);
     add(evidence.moved, most);
 }

@@ -10,7 +10,7 @@ namespace dynamic_filter {
 
 namespace {
 
-constexpr std::size_t kGrain = 64;  // number of blocks that a thread takes at a time
+constexpr std::size_t kBlocksAtATime = 64;  // number of blocks that a thread takes at a time
 
 Config with_one_keyframe(Config config) {
     config.scans.max_keyframes = 1;
@@ -124,7 +124,7 @@ void EvidenceMap::check_known(std::span<const std::uint32_t> blocks) {
 template <class Wanted>
 void EvidenceMap::observe(const Observer& observer, std::span<const std::uint32_t> blocks,
                           bool newest, const Wanted& wanted) {
-    parallel_for(blocks.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    parallel_for(blocks.size(), kBlocksAtATime, [&](std::size_t begin, std::size_t end) {
         const auto some = blocks.subspan(begin, end - begin);
         std::vector<std::uint32_t> in_sight;
         for (const std::size_t b : blocks_in_sight(some, observer)) in_sight.push_back(some[b]);
@@ -148,7 +148,7 @@ void EvidenceMap::check_new() {
     parallel_for(asked.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) sights[k] = look(*asked[k].observer, places);
     });
-    parallel_for(places.voxels.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    parallel_for(places.voxels.size(), kBlocksAtATime, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             for (std::size_t k = 0; k < asked.size(); ++k) {
                 if (sights[k][i] == Sight::unknown) continue;

@@ -12,8 +12,6 @@ namespace dynamic_filter {
 
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
-
 /// Rounds down without a call to the C library, which std::floor needs on old machines.
 int floor_of(float x) {
     const int cut = static_cast<int>(x);
@@ -95,7 +93,7 @@ bool may_see(const BeamImage& image, const Beam& center, float radius,
     const float rows = reach / grid.elevation_step + 1.1F;
     const float columns = reach / (std::cos(slant) * grid.azimuth_step) + 1.1F;
     const float row = (center.elevation - grid.elevation_min) / grid.elevation_step;
-    const float column = (center.azimuth + kPi) / grid.azimuth_step;
+    const float column = (center.azimuth + std::numbers::pi_v<float>) / grid.azimuth_step;
     const int first_row = std::max(0, floor_of(row - rows));
     const int last_row = std::min(grid.rows - 1, floor_of(row + rows));
     if (first_row > last_row) return false;

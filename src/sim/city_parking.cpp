@@ -9,9 +9,9 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double from_corner = 17.0, spacing = 5.8;     // [m] of the places
-constexpr int most_places = 14;                         // of a side
-constexpr int numbers_of_a_side = 2 * most_places + 2;  // two cars a place, and a site
+constexpr double parking_from = 17.0, parking_spacing = 5.8;  // [m] of the places
+constexpr int most_places = 14;                               // of a side
+constexpr int numbers_of_a_side = 2 * most_places + 2;        // two cars a place, and a site
 static_assert(most_blocks * most_blocks * 4 * numbers_of_a_side < 65536);
 
 std::uint64_t place_seed(std::uint64_t seed, const Block& block, int side, int place) {
@@ -64,8 +64,8 @@ Fixture car(std::uint64_t bits, const Side& side, int place) {
 void add_site(std::uint64_t bits, const Side& side, const Site& site, int number,
               std::vector<Fixture>& out) {
     constexpr double outer = 3.65, inner = 5.5;  // [m] from the middle of the street
-    const double begin = place_at(site.first_place) - 0.5 * spacing;
-    const double end = begin + spacing * site.places;
+    const double begin = place_at(site.first_place) - 0.5 * parking_spacing;
+    const double end = begin + parking_spacing * site.places;
     const double panels = std::floor((end - begin) / fence_length);
     for (const double u : row(begin, begin + (panels - 0.5) * fence_length, fence_length))
         out.push_back(temporary(fence, number, standing(side.at(u, outer), side.along, 0.0)));
@@ -89,10 +89,11 @@ void add_site(std::uint64_t bits, const Side& side, const Site& site, int number
 }  // namespace
 
 int places(const Side& side) {
-    return std::min(most_places, 1 + static_cast<int>((side.length - 2.0 * from_corner) / spacing));
+    return std::min(most_places,
+                    1 + static_cast<int>((side.length - 2.0 * parking_from) / parking_spacing));
 }
 
-double place_at(int place) { return from_corner + spacing * place; }
+double place_at(int place) { return parking_from + parking_spacing * place; }
 
 Site site_at(std::uint64_t seed, const Block& block, int side) {
     Random random{hash(block_seed(seed, block), 0x517e, static_cast<std::uint64_t>(side))};

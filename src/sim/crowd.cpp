@@ -16,9 +16,9 @@ using Eigen::Vector2d;
 constexpr double settle_time = 15.0;  // [s] that the crowd walks before the simulation starts
 constexpr double relaxation = 0.5;    // [s] to reach the desired velocity
 constexpr double wall_strength = 3.0, wall_range = 0.15;
-constexpr double fastest = 1.7;     // [m/s]
-constexpr double look_ahead = 2.0;  // [m] along the route
-constexpr double strongest = 6.0;   // [m/s2]
+constexpr double fastest = 1.7;          // [m/s]
+constexpr double look_ahead = 2.0;       // [m] along the route
+constexpr double strongest_force = 6.0;  // [m/s2]
 
 struct Body {
     Vector2d position, velocity = Vector2d::Zero(), heading, leg_start;
@@ -29,7 +29,7 @@ struct Body {
     bool standing = false, waiting = false;
 };
 
-struct State {
+struct CrowdState {
     const CrowdPlan& plan;
     std::vector<Body> bodies;
     std::vector<Pair> pairs;  // pairs of walkers near each other
@@ -38,7 +38,7 @@ struct State {
 };
 
 /// True if no vehicle comes near while this walker goes from `a` to `b`.
-bool is_free_to_cross(const State& state, const Walker& walker, const Vector2d& a,
+bool is_free_to_cross(const CrowdState& state, const Walker& walker, const Vector2d& a,
                       const Vector2d& b) {
     const double duration = (b - a).norm() / walker.speed + 1.0;
     for (int k = 0; 0.25 * k <= duration; ++k) {
@@ -52,7 +52,7 @@ bool is_free_to_cross(const State& state, const Walker& walker, const Vector2d& 
     return true;
 }
 
-void aim_at_next(const State& state, const Walker& walker, Body& body) {
+void aim_at_next(const CrowdState& state, const Walker& walker, Body& body) {
     const Waypoint& reached = walker.route[body.next];
     body.leg_start = body.position;
     body.leg_since = state.time;
@@ -65,7 +65,7 @@ void aim_at_next(const State& state, const Walker& walker, Body& body) {
 
 /// Follows the route: the walker stands, waits at the kerb, goes on, or skips a waypoint that is
 /// blocked for too long.
-void steer(const State& state, const Walker& walker, Body& body) {
+void steer(const CrowdState& state, const Walker& walker, Body& body) {
     const Waypoint& target = walker.route[body.next];
     if (body.standing && state.time < body.pause_until) return;
     body.standing = false;
@@ -104,7 +104,7 @@ Vector2d desired_velocity(const Walker& walker, const Body& body) {
     return walker.speed * unit_or(carrot - body.position, body.heading);
 }
 
-void add_pair_forces(const State& state, std::vector<Vector2d>& forces) {
+void add_pair_forces(const CrowdState& state, std::vector<Vector2d>& forces) {
     for (const auto& [i, j] : state.pairs) {
         const Walker& a = state.plan.walkers[i];
         const Walker& b = state.plan.walkers[j];
@@ -120,7 +120,7 @@ void add_pair_forces(const State& state, std::vector<Vector2d>& forces) {
 }
 
 /// The forces are soft; this step separates bodies that were pushed into each other.
-void separate(State& state) {
+void separate(CrowdState& state) {
     for (const auto& [i, j] : state.pairs) {
         const Vector2d offset = state.bodies[i].position - state.bodies[j].position;
         const double d = std::sqrt(offset.squaredNorm());
@@ -165,7 +165,7 @@ void update_gait(const Walker& walker, Body& body, const Vector2d& moved) {
     if (speed > 0.12) body.phase += 2.0 * std::numbers::pi * speed * crowd_step / stride;
 }
 
-void advance(State& state) {
+void advance(CrowdState& state) {
     std::vector<Vector2d> positions;
     for (const Body& body : state.bodies) positions.push_back(body.position);
     state.pairs = pairs_within(positions, neighbour_range);
@@ -185,7 +185,7 @@ void advance(State& state) {
         for (const Mover& mover : state.movers)
             force += mover_force(body.position, walker.radius, mover);
         const double size = std::sqrt(force.squaredNorm());
-        if (size > strongest) force *= strongest / size;
+        if (size > strongest_force) force *= strongest_force / size;
         body.velocity += crowd_step * force;
         const double speed = std::sqrt(body.velocity.squaredNorm());
         const double limit = std::min(fastest, 1.4 * walker.speed);
@@ -203,7 +203,7 @@ void advance(State& state) {
 }  // namespace
 
 Crowd simulate_crowd(const CrowdPlan& plan, double duration) {
-    State state{.plan = plan, .bodies = {}, .pairs = {}, .movers = {}};
+    CrowdState state{.plan = plan, .bodies = {}, .pairs = {}, .movers = {}};
     for (const Walker& walker : plan.walkers) {
         const Vector2d to = walker.route[walker.next].at - walker.start;
         Body body;

@@ -14,7 +14,7 @@ constexpr double wall_thickness = 0.3;
 constexpr double floor_height = 3.0;
 constexpr double door_half_width = 0.9;
 constexpr double door_height = 2.3;
-constexpr float plaster = 0.5F, wood = 0.3F, pane = 0.15F, stone = 0.4F;
+constexpr float plaster = 0.5F, timber = 0.3F, pane = 0.15F, stone = 0.4F;
 
 /// Places the boxes of one facade, given in the frame of the facade.
 struct Front {
@@ -45,7 +45,7 @@ void add_room(const Front& front, double x0, double x1, Random& random) {
     for (const double x : row(x0 + 0.3, x1 - 0.9, 1.0)) {  // shelves
         const double height = random.uniform(1.2, 2.6);
         for (const double z : row(0.1, height, 0.45)) {
-            front.box({x, depth - 0.4, z}, {x + 0.9, depth, z + 0.04}, wood);
+            front.box({x, depth - 0.4, z}, {x + 0.9, depth, z + 0.04}, timber);
             const double goods = random.uniform(0.3, 0.85);
             front.box({x + 0.05, depth - 0.3, z + 0.04},
                       {x + goods, depth - 0.05, z + random.uniform(0.1, 0.35)}, stone);
@@ -61,10 +61,12 @@ void add_shop(const Front& front, double x0, double x1, Random& random) {
     for (const double x : {x0, (x0 + x1) / 2 - 0.04, x1 - 0.08}) {
         front.box({x, 0.02, 0.45}, {x + 0.08, 0.1, 2.7}, stone);
     }
-    if (random.chance(0.6)) front.box({x0 + 0.2, -0.9, 2.75}, {x1 - 0.2, 0, 2.85}, wood);  // awning
-    for (int i = 0; i < 3; ++i) {  // displays
+    if (random.chance(0.6))
+        front.box({x0 + 0.2, -0.9, 2.75}, {x1 - 0.2, 0, 2.85}, timber);  // awning
+    for (int i = 0; i < 3; ++i) {                                        // displays
         const double x = x0 + 0.4 + (x1 - x0 - 1.2) * i / 2.0;
-        front.box({x, 0.5, 0}, {x + random.uniform(0.3, 0.6), 1.0, random.uniform(0.7, 1.6)}, wood);
+        front.box({x, 0.5, 0}, {x + random.uniform(0.3, 0.6), 1.0, random.uniform(0.7, 1.6)},
+                  timber);
     }
 }
 
@@ -90,7 +92,7 @@ void add_recess(const Front& front, double x0, double x1) {
     front.solid({x0, 0}, {x0 + 0.4, 1.2}, top, plaster);
     front.solid({x1 - 0.4, 0}, {x1, 1.2}, top, plaster);
     front.solid({x0, 1.2}, {x1, 1.5}, top, plaster);
-    front.box({x0 + 0.9, 1.1, 0}, {x1 - 0.9, 1.2, 2.2}, wood);
+    front.box({x0 + 0.9, 1.1, 0}, {x1 - 0.9, 1.2, 2.2}, timber);
     front.box({x0, 0, 2.8}, {x1, 1.2, top}, plaster);
 }
 

@@ -30,6 +30,10 @@ struct Outline {
     double z = 0.0;
 };
 
+inline Eigen::Affine3d shift(double x, double y, double z) {
+    return Eigen::Affine3d(Eigen::Translation3d(x, y, z));
+}
+
 void append(Mesh& mesh, const Mesh& other, const Eigen::Affine3d& T);
 
 /// A rectangle spanned by `u` and `v` from `corner`.

@@ -12,9 +12,7 @@ using Eigen::Affine3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr float cloth = 0.45F, skin = 0.5F, paint = 0.6F, rubber = 0.08F, metal = 0.4F;
-
-Affine3d shift(double x, double y, double z) { return Affine3d(Eigen::Translation3d(x, y, z)); }
+constexpr float skin = 0.5F, rubber = 0.08F;  // reflectivities
 
 /// Upper body of a person of 1.75 m, from the hips up. The origin of the frame is on the ground
 /// below the hips.

@@ -26,6 +26,8 @@ enum class Prototype {
     aft_doors    ///< the door leaves that slide backward to open
 };
 
+constexpr float cloth = 0.45F, paint = 0.6F, metal = 0.4F;  ///< reflectivities
+
 constexpr double thigh_length = 0.44;  ///< [m] of a cyclist
 constexpr double shin_length = 0.46;
 

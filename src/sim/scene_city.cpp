@@ -8,9 +8,9 @@
 #include "city.hpp"
 
 namespace dynamic_filter::sim {
+namespace city {
 namespace {
 
-using namespace city;
 using Eigen::Vector2d;
 
 /// One drive through the city.
@@ -89,8 +89,10 @@ Surroundings City::around(double t, double reach) {
 }
 
 }  // namespace
+}  // namespace city
 
 Scene city_scene(int pedestrians, std::uint64_t seed, const Trip& trip) {
+    using namespace city;
     auto made = std::make_shared<City>();
     made->seed = seed;
     made->day = {trip.drive, trip.drives};

@@ -8,6 +8,7 @@
 #include "random.hpp"
 
 namespace dynamic_filter::sim {
+namespace crowd {
 namespace {
 
 using Eigen::AlignedBox2d;
@@ -201,8 +202,10 @@ std::vector<Walker> people(int count, const Facade& left, const Facade& right, R
 }
 
 }  // namespace
+}  // namespace crowd
 
 Scene crowd_scene(int pedestrians, std::uint64_t seed) {
+    using namespace crowd;
     Scene scene;
     scene.low = {-half_length - lobby_depth - 1.0, -10.0};
     scene.high = -scene.low;

@@ -8,6 +8,7 @@
 #include "random.hpp"
 
 namespace dynamic_filter::sim {
+namespace hall {
 namespace {
 
 using Eigen::AlignedBox2d;
@@ -115,8 +116,10 @@ void add_people(Scene& scene, int pedestrians, std::uint64_t seed) {
 }
 
 }  // namespace
+}  // namespace hall
 
 Scene hall_scene(int pedestrians, std::uint64_t seed) {
+    using namespace hall;
     Scene scene;
     scene.low = {-half_length, -half_width};
     scene.high = {half_length, half_width};

@@ -9,13 +9,13 @@
 #include "random.hpp"
 
 namespace dynamic_filter::sim {
+namespace jam {
 namespace {
 
-using namespace jam;
 using Eigen::AlignedBox2d;
 using Eigen::Vector2d;
 
-constexpr double first = -70.0, last = 400.0;  // [m] along x
+constexpr double street_from = -70.0, street_until = 400.0;  // [m] along x
 
 double ground(const Vector2d& p) {
     constexpr double step = 0.3;  // [m] over which people step up
@@ -35,8 +35,8 @@ void add_grounds(Scene& scene) {
 
 /// Houses of three to six bays, each with its own depth and height.
 void add_fronts(Scene& scene, double side, Random& random) {
-    double x = first;
-    while (x < last) {
+    double x = street_from;
+    while (x < street_until) {
         const int bays = 3 + random.below(4);
         Facade house{.spot = {.axis = {side, 0.0}, .z = pavement},
                      .bays = {},
@@ -68,7 +68,7 @@ void add_furniture(Scene& scene, const Plan& plan, double side, Random& random) 
     const auto kept = [&](double x) {
         return is_crossing(plan, x, 3.5) || (side > 0.0 && std::abs(x - plan.bus_stop) < 6.5);
     };
-    for (const double x : row(first + 5.0, last, 12.0)) {
+    for (const double x : row(street_from + 5.0, street_until, 12.0)) {
         const Spot tree{.at = {x, side * (kerb + 0.7)}, .axis = {1.0, 0.0}, .z = pavement};
         const double height = random.uniform(6.0, 9.0);
         if (!kept(x)) add_tree(scene, tree, height, random.bits());
@@ -93,7 +93,7 @@ void add_furniture(Scene& scene, const Plan& plan, double side, Random& random) 
 
 /// Cars that are parked all the time: one every 5.8 m, with some gaps.
 void add_parked(Scene& scene, const Plan& plan, double side, Random& random) {
-    for (const double x : row(first, last, 5.8)) {
+    for (const double x : row(street_from, street_until, 5.8)) {
         if (is_free(plan, side, x, 2.6) || random.chance(0.2)) continue;
         const Spot spot{.at = {x + random.uniform(-0.3, 0.3), side * parking}, .axis = {side, 0.0}};
         add_parked_car(scene, spot, static_cast<float>(random.uniform(0.4, 1.4)));
@@ -126,11 +126,13 @@ void add_traffic(Scene& scene, const Plan& plan, Random& random) {
 }
 
 }  // namespace
+}  // namespace jam
 
 Scene jam_scene(int pedestrians, std::uint64_t seed) {
+    using namespace jam;
     Scene scene;
-    scene.low = {first - 5.0, -15.0};
-    scene.high = {last + 5.0, 15.0};
+    scene.low = {street_from - 5.0, -15.0};
+    scene.high = {street_until + 5.0, 15.0};
     scene.floor = 0.05;
     scene.ground = ground;
     scene.robot_radius = 1.2;

@@ -9,9 +9,9 @@
 #include "random.hpp"
 
 namespace dynamic_filter::sim {
+namespace platform {
 namespace {
 
-using namespace platform;
 using Eigen::AlignedBox2d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -129,7 +129,7 @@ void add_edge(Scene& scene) {
 
 }  // namespace
 
-platform::Train platform::train(std::uint64_t seed) {
+Train train(std::uint64_t seed) {
     Random random{hash(seed, 0x9a0)};
     const double comes = random.uniform(70.0, 95.0), stands = random.uniform(32.0, 40.0);
     const Path path = polyline({{-3000.0, train_y}, {0.0, train_y}, {3000.0, train_y}});
@@ -144,7 +144,10 @@ platform::Train platform::train(std::uint64_t seed) {
     return out;
 }
 
+}  // namespace platform
+
 Scene platform_scene(int pedestrians, std::uint64_t seed) {
+    using namespace platform;
     Scene scene;
     scene.low = {-exit_until - 1.0, -half_width - 2.0};
     scene.high = {exit_until + 1.0, far_wall};
@@ -162,7 +165,7 @@ Scene platform_scene(int pedestrians, std::uint64_t seed) {
         return {travelled(wagon, t) - wagon.stop_at, 0.0};
     };
     scene.walkers = people(pedestrians, train.timetable, seed);
-    scene.robot = {.path = stadium(half_length - 7.0, leg, random.uniform(-26.0, -10.0)),
+    scene.robot = {.path = stadium(half_length - 7.0, platform::leg, random.uniform(-26.0, -10.0)),
                    .speed = 0.6};
     scene.sensor_height = 0.82;
     scene.duration = std::floor(scene.robot.path.lengths.back() / scene.robot.speed);

@@ -10,6 +10,7 @@
 #include "random.hpp"
 
 namespace dynamic_filter::sim {
+namespace square {
 namespace {
 
 using Eigen::AlignedBox2d;
@@ -143,8 +144,10 @@ void add_vehicles(Scene& scene) {
 }
 
 }  // namespace
+}  // namespace square
 
 Scene square_scene(int pedestrians, std::uint64_t seed) {
+    using namespace square;
     Scene scene;
     scene.low = {-half, -half};
     scene.high = {half, half};

@@ -8,6 +8,7 @@
 #include "random.hpp"
 
 namespace dynamic_filter::sim {
+namespace street {
 namespace {
 
 using Eigen::AlignedBox2d;
@@ -168,8 +169,10 @@ std::vector<Waypoint> route(Random& random) {
 }
 
 }  // namespace
+}  // namespace street
 
 Scene street_scene(int pedestrians, std::uint64_t seed) {
+    using namespace street;
     Scene scene;
     scene.low = {first - 5.0, -14.0};
     scene.high = {last + 5.0, 14.0};

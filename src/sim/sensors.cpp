@@ -3,13 +3,12 @@
 
 #include <numbers>
 
+#include "degree.hpp"
 #include "portable.hpp"
 #include "random.hpp"
 
 namespace dynamic_filter::sim {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 Eigen::Vector3f direction(const SinCos& a, const SinCos& e) {
     return Eigen::Vector3d(e.cos * a.cos, e.cos * a.sin, e.sin).cast<float>();

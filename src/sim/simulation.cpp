@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "degree.hpp"
 #include "dynamic_filter/error.hpp"
 #include "lidar.hpp"
 #include "portable.hpp"
@@ -175,7 +176,6 @@ Pose true_pose(const Scene& scene, double t) {
 }
 
 Pose noisy_pose(const Pose& pose, const SimulationOptions& options, std::size_t scan) {
-    constexpr double degree = std::numbers::pi / 180.0;
     Eigen::Matrix<double, 6, 1> draws;
     for (int k = 0; k < 6; ++k) {
         draws[k] = normal(hash(hash(options.seed, 0x905e), scan, static_cast<std::uint64_t>(k)));

@@ -17,7 +17,7 @@ constexpr double side_room = 0.25;                // [m] beside vehicles that ar
 constexpr double merge = 16.0;                    // [m] that must be free to swerve
 constexpr double line_gap = 0.6;  // [m] distance from the line at which vehicles halt
 
-struct State {
+struct VehicleState {
     double u = 0.0, v = 0.0, a = 0.0;
     std::size_t halts = 0;  // number of completed halts
     double since = 0.0;     // start of the present halt
@@ -28,7 +28,7 @@ struct State {
 struct Traffic {
     const std::vector<Driver>& drivers;
     const std::vector<Signal>& signals;
-    std::vector<State> states;
+    std::vector<VehicleState> states;
     double time = 0.0;
 
     [[nodiscard]] Vector2d half(std::size_t i) const { return half_footprint(drivers[i].kind); }
@@ -52,17 +52,17 @@ Span covered(const Driver& driver, double u0, double u1) {
 }
 
 bool is_in(const Traffic& traffic, const Span& span, std::size_t j) {
-    const State& other = traffic.states[j];
+    const VehicleState& other = traffic.states[j];
     return other.low < span.high + side_room && other.high > span.low - side_room;
 }
 
 /// True if no vehicle stands where vehicle i is about to swerve to, or approaches from behind.
 bool may_merge(const Traffic& traffic, std::size_t i) {
-    const State& state = traffic.states[i];
+    const VehicleState& state = traffic.states[i];
     const double length = traffic.half(i).x();
     const Span span = covered(traffic.drivers[i], state.u - length, state.u + merge);
     for (std::size_t j = 0; j < traffic.states.size(); ++j) {
-        const State& other = traffic.states[j];
+        const VehicleState& other = traffic.states[j];
         if (j == i || traffic.drivers[j].way != traffic.drivers[i].way) continue;
         const double ahead = other.u - state.u;
         const double touch = length + traffic.half(j).x();
@@ -75,7 +75,7 @@ bool may_merge(const Traffic& traffic, std::size_t i) {
 
 /// Acceleration [m/s2] at speed `v` with `gap` to the vehicle ahead; `rest` is the gap when both
 /// stand.
-double follow(const State& state, double desired, double gap, double v, double rest) {
+double follow(const VehicleState& state, double desired, double gap, double v, double rest) {
     const double closing = state.v * (state.v - v) / (2.0 * std::sqrt(strongest * comfort));
     const double wanted = rest + std::max(0.0, state.v * headway + closing);
     const double ratio = wanted / std::max(gap, 0.1), share = state.v / desired;
@@ -88,7 +88,7 @@ bool is_blocked(const Traffic& traffic, std::size_t i, double line) {
     const double needed = line + 2.0 * stop_line + 2.0 * traffic.half(i).x() + 2.0;
     const Span span = covered(traffic.drivers[i], line, line + 4.0);
     for (std::size_t j = 0; j < traffic.states.size(); ++j) {
-        const State& other = traffic.states[j];
+        const VehicleState& other = traffic.states[j];
         if (j == i || traffic.drivers[j].way != traffic.drivers[i].way || other.u < line) continue;
         const double halts = other.u - traffic.half(j).x() + other.v * other.v / (2.0 * comfort);
         if (other.a < 0.1 && halts < needed && is_in(traffic, span, j)) return true;
@@ -97,7 +97,7 @@ bool is_blocked(const Traffic& traffic, std::size_t i, double line) {
 }
 
 double at_signals(const Traffic& traffic, std::size_t i) {
-    const State& state = traffic.states[i];
+    const VehicleState& state = traffic.states[i];
     const Driver& driver = traffic.drivers[i];
     double out = strongest;
     for (const Signal& signal : traffic.signals) {
@@ -112,12 +112,12 @@ double at_signals(const Traffic& traffic, std::size_t i) {
 }
 
 double behind_others(const Traffic& traffic, std::size_t i) {
-    const State& state = traffic.states[i];
+    const VehicleState& state = traffic.states[i];
     const Driver& driver = traffic.drivers[i];
     const double length = traffic.half(i).x();
     double out = strongest;
     for (std::size_t j = 0; j < traffic.states.size(); ++j) {
-        const State& other = traffic.states[j];
+        const VehicleState& other = traffic.states[j];
         const double ahead = other.u - state.u;
         if (j == i || traffic.drivers[j].way != driver.way || ahead <= 0.0 || ahead > 60.0)
             continue;
@@ -131,7 +131,7 @@ double behind_others(const Traffic& traffic, std::size_t i) {
 
 /// Drives to the next halt, stands there, and goes on.
 double at_halts(Traffic& traffic, std::size_t i) {
-    State& state = traffic.states[i];
+    VehicleState& state = traffic.states[i];
     const Driver& driver = traffic.drivers[i];
     if (state.halts == driver.halts.size()) return strongest;
     const Halt& halt = driver.halts[state.halts];
@@ -156,7 +156,7 @@ double at_halts(Traffic& traffic, std::size_t i) {
 }
 
 void update_width(Traffic& traffic, std::size_t i) {
-    State& state = traffic.states[i];
+    VehicleState& state = traffic.states[i];
     const double length = traffic.half(i).x();
     const Span span = covered(traffic.drivers[i], state.u - length, state.u + length);
     state.low = span.low;
@@ -171,7 +171,7 @@ void advance(Traffic& traffic) {
             {free, behind_others(traffic, i), at_signals(traffic, i), at_halts(traffic, i)}));
     }
     for (std::size_t i = 0; i < traffic.states.size(); ++i) {
-        State& state = traffic.states[i];
+        VehicleState& state = traffic.states[i];
         state.a = std::clamp(accelerations[i], -hardest, strongest);
         const double v = std::max(0.0, state.v + state.a * log_step);
         // In the model, vehicles creep towards their gap for ever; very slow ones are stopped.

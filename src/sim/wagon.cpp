@@ -9,10 +9,6 @@ namespace {
 using Eigen::Affine3d;
 using Eigen::Vector3d;
 
-constexpr float paint = 0.6F, metal = 0.4F, cloth = 0.45F;
-
-Affine3d shift(double x, double y, double z) { return Affine3d(Eigen::Translation3d(x, y, z)); }
-
 /// A wall of a wagon along x with sill, windows and lintel; with open doorways if `doors` is set.
 void add_wagon_side(Mesh& mesh, double y, bool doors) {
     const auto wall = [&](double x0, double x1, double z0, double z1) {

@@ -12,7 +12,7 @@
 #include "dynamic_filter/sim/simulation.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace floors_test {
 
 struct Case {
     std::string scene, sensor;
@@ -77,5 +77,5 @@ INSTANTIATE_TEST_SUITE_P(
                       Case{"platform", "vlp16", 420, 2.0, "default", 0.985, 0.915}),
     [](const auto& test) { return test.param.scene + "_" + test.param.preset; });
 
-}  // namespace
+}  // namespace floors_test
 }  // namespace dynamic_filter

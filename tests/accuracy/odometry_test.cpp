@@ -11,7 +11,7 @@
 #include "odometry/drive.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace accuracy_odometry_test {
 
 using test::Drive;
 using test::lost;
@@ -132,5 +132,5 @@ TEST(OdometryInScenes, TimesOfPointsMakeSweepsBetter) {
     EXPECT_LT(off, off_without);
 }
 
-}  // namespace
+}  // namespace accuracy_odometry_test
 }  // namespace dynamic_filter

@@ -1,3 +1,1 @@
-df_test(accuracy/floors dynamic_filter_sim dynamic_filter_eval)
-df_test(accuracy/odometry dynamic_filter_sim)
-df_test(accuracy/without_poses dynamic_filter_sim dynamic_filter_eval)
+df_room(accuracy LIBRARIES dynamic_filter_sim dynamic_filter_eval SHARED OdometryInScenes)

@@ -9,7 +9,7 @@
 #include "dynamic_filter/sim/simulation.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace without_poses_test {
 
 std::vector<sim::SimulatedScan> crowd() {
     sim::SimulationOptions options;
@@ -62,5 +62,5 @@ TEST(WithoutPoses, LabelsAreHardlyWorse) {
     EXPECT_GE(without, with_poses - 0.006);
 }
 
-}  // namespace
+}  // namespace without_poses_test
 }  // namespace dynamic_filter

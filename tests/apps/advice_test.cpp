@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace dynamic_filter::app {
-namespace {
+namespace advice_test {
 
 DataOptions with_fix(const std::string& fix) {
     DataOptions options;
@@ -66,5 +66,5 @@ TEST(Advice, AWarningSaysWhatIsWrongAndWhatToTry) {
               "(`dynamicfilter check` looks closer)");
 }
 
-}  // namespace
+}  // namespace advice_test
 }  // namespace dynamic_filter::app

@@ -22,7 +22,7 @@
 namespace fs = std::filesystem;
 
 namespace dynamic_filter {
-namespace {
+namespace command_test {
 
 using test::slurp;
 using test::spill;
@@ -831,5 +831,5 @@ TEST_F(Command, CheckComparesTheFramesOfSeveralRecordings) {
     EXPECT_EQ(run("check monday nowhere"), 3);
 }
 
-}  // namespace
+}  // namespace command_test
 }  // namespace dynamic_filter

@@ -9,7 +9,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace dynamic_filter::app {
-namespace {
+namespace config_file_test {
 
 using test::spill;
 using test::TemporaryFolder;
@@ -124,5 +124,5 @@ TEST(LoadConfig, AppliesPresetFileThenAssignmentsAndChecksBounds) {
     EXPECT_THROW(load_config(options), ConfigError);
 }
 
-}  // namespace
+}  // namespace config_file_test
 }  // namespace dynamic_filter::app

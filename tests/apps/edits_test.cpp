@@ -15,7 +15,7 @@
 #include "view/edit_server.hpp"
 
 namespace dynamic_filter::app {
-namespace {
+namespace edits_test {
 
 constexpr std::size_t kFromStatic = 1, kFromDynamic = 2;
 
@@ -135,5 +135,5 @@ TEST(ApplyEdits, AFolderThatIsNoRunIsRefused) {
     EXPECT_THROW(EditServer{folder.path()}, InputError);
 }
 
-}  // namespace
+}  // namespace edits_test
 }  // namespace dynamic_filter::app

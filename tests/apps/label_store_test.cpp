@@ -11,7 +11,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace dynamic_filter::app {
-namespace {
+namespace label_store_test {
 
 TEST(LabelStore, GivesBackWhatWasPutInAnyOrder) {
     const test::TemporaryFolder folder;
@@ -42,5 +42,5 @@ TEST(LabelStore, NamesAFolderThatCannotHoldAFile) {
     EXPECT_THROW(store.put(0, Labels(1)), OutputError);
 }
 
-}  // namespace
+}  // namespace label_store_test
 }  // namespace dynamic_filter::app

@@ -9,7 +9,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace dynamic_filter::app {
-namespace {
+namespace map_files_test {
 
 /// x y z in the given type and a ring per point; points (i, 0, 0).
 template <class T>
@@ -110,5 +110,5 @@ TEST(MapFiles, LeaveNothingWithoutCommit) {
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
-}  // namespace
+}  // namespace map_files_test
 }  // namespace dynamic_filter::app

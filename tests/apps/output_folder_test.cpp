@@ -9,7 +9,7 @@
 namespace fs = std::filesystem;
 
 namespace dynamic_filter::app {
-namespace {
+namespace output_folder_test {
 
 using test::slurp;
 using test::spill;
@@ -131,5 +131,5 @@ TEST(LinkLatest, PointsToTheNewest) {
     }
 }
 
-}  // namespace
+}  // namespace output_folder_test
 }  // namespace dynamic_filter::app

@@ -11,7 +11,7 @@
 #include <thread>
 
 namespace dynamic_filter::app {
-namespace {
+namespace progress_test {
 
 /// In a process of its own, because signals stay caught.
 TEST(CatchInterrupts, TheFirstIsNotedAndALaterOneKills) {
@@ -48,5 +48,5 @@ TEST(Progress, ALogHasFiveLinesOfAStageWhateverItsLength) {
     }
 }
 
-}  // namespace
+}  // namespace progress_test
 }  // namespace dynamic_filter::app

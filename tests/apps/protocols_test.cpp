@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace dynamic_filter::app {
-namespace {
+namespace protocols_test {
 
 eval::Scores scores() {
     eval::Scores s;
@@ -53,5 +53,5 @@ TEST(Protocols, NamesAreThoseThatAreTaken) {
     EXPECT_EQ(protocol_names().front(), "all");
 }
 
-}  // namespace
+}  // namespace protocols_test
 }  // namespace dynamic_filter::app

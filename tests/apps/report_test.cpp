@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 namespace dynamic_filter::app {
-namespace {
+namespace report_test {
 
 eval::Scores some_scores() {
     eval::Scores scores;
@@ -47,5 +47,5 @@ TEST(Report, StageTimesAreMillisecondsByRank) {
     EXPECT_NEAR(json["max"], 100.0, 1e-9);
 }
 
-}  // namespace
+}  // namespace report_test
 }  // namespace dynamic_filter::app

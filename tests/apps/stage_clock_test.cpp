@@ -6,7 +6,7 @@
 #include <thread>
 
 namespace dynamic_filter::app {
-namespace {
+namespace stage_clock_test {
 
 TEST(StageClock, StagesFollowEachOtherFromTheBeginningOfTheProcess) {
     StageClock clock;
@@ -44,5 +44,5 @@ TEST(StageClock, SleepingCostsNoProcessorTime) {
     EXPECT_LT(clock.stages()[1].seconds.cpu, 0.04);
 }
 
-}  // namespace
+}  // namespace stage_clock_test
 }  // namespace dynamic_filter::app

@@ -6,7 +6,7 @@
 #include <cmath>
 
 namespace dynamic_filter::eval {
-namespace {
+namespace point_scores_test {
 
 TEST(PointScore, IsWorkedByHand) {
     const PointScore s =
@@ -52,5 +52,5 @@ TEST(Confusion, CountsTheDynamicClassOnly) {
     EXPECT_DOUBLE_EQ(*c.iou(), 2.0 / 5.0);
 }
 
-}  // namespace
+}  // namespace point_scores_test
 }  // namespace dynamic_filter::eval

@@ -12,7 +12,7 @@
 #include "dynamic_filter/error.hpp"
 
 namespace dynamic_filter::eval {
-namespace {
+namespace scores_test {
 
 constexpr Label kStill = Label::static_, kDynamic = Label::dynamic, kUnknown = Label::unknown;
 
@@ -232,5 +232,5 @@ TEST(ScoreSums, OfTwoAreasAddUpToThoseOfBoth) {
     EXPECT_GT(whole.dynamic_share, 0.0);
 }
 
-}  // namespace
+}  // namespace scores_test
 }  // namespace dynamic_filter::eval

@@ -1,3 +1,1 @@
-foreach(unit point_scores scores voxel_scores)
-  df_test(eval/${unit} dynamic_filter_eval)
-endforeach()
+df_room(eval LIBRARIES dynamic_filter_eval)

@@ -9,7 +9,7 @@
 #include <tuple>
 
 namespace dynamic_filter::eval {
-namespace {
+namespace voxel_scores_test {
 
 constexpr Label kStill = Label::static_, kDynamic = Label::dynamic;
 
@@ -187,5 +187,5 @@ TEST(VoxelTally, AgreesWithAPlainCountOnRandomPoints) {
                  plain.score([](const auto& v) { return v.still >= v.dynamic; }, all));
 }
 
-}  // namespace
+}  // namespace voxel_scores_test
 }  // namespace dynamic_filter::eval

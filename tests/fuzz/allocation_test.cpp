@@ -19,7 +19,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace allocation_test {
 
 namespace fs = std::filesystem;
 
@@ -206,5 +206,5 @@ TEST(Allocation, TheOnlineFilterSurvivesEveryFailure) {
         16);
 }
 
-}  // namespace
+}  // namespace allocation_test
 }  // namespace dynamic_filter

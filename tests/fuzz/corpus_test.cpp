@@ -10,7 +10,7 @@
 #include "fuzz/targets.hpp"
 
 namespace dynamic_filter::fuzz {
-namespace {
+namespace corpus_test {
 
 std::vector<std::uint8_t> bytes_of(const std::filesystem::path& file) {
     std::ifstream in(file, std::ios::binary);
@@ -46,5 +46,5 @@ TEST(Corpus, EveryBeginningOfEveryFileGivesAResultOrAnError) {
     }
 }
 
-}  // namespace
+}  // namespace corpus_test
 }  // namespace dynamic_filter::fuzz

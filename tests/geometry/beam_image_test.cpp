@@ -11,7 +11,7 @@
 #include "support/random.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace beam_image_test {
 
 constexpr float kInf = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -289,5 +289,5 @@ TEST(BeamImage, TheLimitsOfRangesAndSteps) {
     EXPECT_EQ(BeamImage(points, spacing(90.0)).grid().columns, 120);
 }
 
-}  // namespace
+}  // namespace beam_image_test
 }  // namespace dynamic_filter

@@ -7,7 +7,7 @@
 #include "geometry/odd_points.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace map_points_test {
 
 using test::kNan;
 using test::points_of_all_kinds;
@@ -49,5 +49,5 @@ TEST(ToVoxels, NothingGivesNothing) {
     EXPECT_TRUE(out.keys.empty());
 }
 
-}  // namespace
+}  // namespace map_points_test
 }  // namespace dynamic_filter

@@ -9,7 +9,7 @@
 #include "support/random.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace neighbor_grid_test {
 
 constexpr float kInf = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -153,5 +153,5 @@ TEST(NeighborGrid, WorksAtTheLimitsOfTheKeys) {
     expect_nearest(points, 1.0F, points);
 }
 
-}  // namespace
+}  // namespace neighbor_grid_test
 }  // namespace dynamic_filter

@@ -9,7 +9,7 @@
 #include "support/random.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace pose_test {
 
 void expect_rotation(const Eigen::Matrix3d& r) {
     EXPECT_TRUE((r * r.transpose()).isIdentity(1e-9));
@@ -96,5 +96,5 @@ TEST(NearbyOrigin, IsNearAndAWholeMultipleOfTheStep) {
     EXPECT_TRUE(nearby_origin(Pose::Identity(), 0.2).isZero());
 }
 
-}  // namespace
+}  // namespace pose_test
 }  // namespace dynamic_filter

@@ -10,7 +10,7 @@
 #include "support/reference_axes.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace principal_axes_test {
 
 Moments moments_of(const Points& points, const Point& origin = Point::Zero()) {
     Moments m{.origin = origin};
@@ -131,5 +131,5 @@ TEST(Moments, LargeCoordinatesLoseNothingNearTheOrigin) {
     EXPECT_EQ(near_sums.sum_of_squares, far_sums.sum_of_squares);
 }
 
-}  // namespace
+}  // namespace principal_axes_test
 }  // namespace dynamic_filter

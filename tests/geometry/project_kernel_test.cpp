@@ -14,7 +14,7 @@
 #include "support/random.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace project_kernel_test {
 
 constexpr float kInf = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -245,5 +245,5 @@ TEST(SphericalKernel, EveryLevelAgreesWithTheLibraryFunctionsBitForBitAmongThem)
     }
 }
 
-}  // namespace
+}  // namespace project_kernel_test
 }  // namespace dynamic_filter

@@ -11,7 +11,7 @@
 #include "support/random.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace range_image_test {
 
 constexpr float kInf = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -231,5 +231,5 @@ TEST(BeamPattern, ScansWithoutTwoPointsLeaveZeroAndDoNotDisturbOthers) {
     EXPECT_NEAR(estimate_beam_pattern(scans).elevation_spacing, 2.0 * kDeg, 0.2 * kDeg);
 }
 
-}  // namespace
+}  // namespace range_image_test
 }  // namespace dynamic_filter

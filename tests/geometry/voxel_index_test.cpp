@@ -11,7 +11,7 @@
 #include "support/cells.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace voxel_index_test {
 
 TEST(VoxelIndex, NumbersVoxelsInTheOrderTheyAreMet) {
     test::Random random(4);
@@ -112,5 +112,5 @@ TEST(BlockTable, FindsWhatWasInsertedAndNothingElse) {
     }
 }
 
-}  // namespace
+}  // namespace voxel_index_test
 }  // namespace dynamic_filter

@@ -10,7 +10,7 @@
 #include "support/levels.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace voxel_kernel_test {
 
 TEST(VoxelKernel, EveryLevelAgreesBitByBit) {
     const Points points = test::points_of_all_kinds(1013);  // no whole number of vectors
@@ -36,5 +36,5 @@ TEST(VoxelKernel, EveryLevelAgreesBitByBit) {
     }
 }
 
-}  // namespace
+}  // namespace voxel_kernel_test
 }  // namespace dynamic_filter

@@ -10,7 +10,7 @@
 #include "support/cells.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace voxel_neighbors_test {
 
 TEST(VoxelNeighbors, EachWithinIsTheCubeAroundACell) {
     const Cell last = Cell::Constant(kCellLimit - 1), first = Cell::Constant(-kCellLimit);
@@ -81,5 +81,5 @@ TEST(VoxelNeighbors, EachAroundIsABlockAndItsMargin) {
     }
 }
 
-}  // namespace
+}  // namespace voxel_neighbors_test
 }  // namespace dynamic_filter

@@ -10,7 +10,7 @@
 #include "support/random.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace voxel_test {
 
 constexpr float kInf = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -109,5 +109,5 @@ TEST(Voxel, TheHashSpreadsNeighboursOverSmallTables) {
     EXPECT_LT(*std::max_element(load.begin(), load.end()), 3 * 32);
 }
 
-}  // namespace
+}  // namespace voxel_test
 }  // namespace dynamic_filter

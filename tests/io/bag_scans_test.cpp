@@ -12,7 +12,7 @@
 #include "io/recording.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace bag_scans_test {
 
 Pose moved(double x, double y = 0.0, double z = 0.0) { return Pose(Eigen::Translation3d(x, y, z)); }
 
@@ -251,5 +251,5 @@ TEST_F(BagScansTest, ABagWithoutScansSaysWhatWasLookedFor) {
     EXPECT_HAS(failure(), "holds no point clouds");
 }
 
-}  // namespace
+}  // namespace bag_scans_test
 }  // namespace dynamic_filter::io

@@ -17,15 +17,15 @@
 namespace dynamic_filter::io {
 
 /// A message on its own.
-struct Written {
+struct WrittenMessage {
     Topic topic;
     std::int64_t time_ns = 0;
     std::vector<std::byte> data;
-    bool operator==(const Written&) const = default;
+    bool operator==(const WrittenMessage&) const = default;
 };
 
 struct ReadBack {
-    std::vector<Written> messages;
+    std::vector<WrittenMessage> messages;
     std::vector<std::string> notes;
     bool lost = false;  ///< by what the notes say
 };
@@ -49,9 +49,10 @@ inline ReadBack read_all(const std::filesystem::path& path) {
     return back;
 }
 
-inline void write_bag(const std::filesystem::path& path, const std::vector<Written>& messages) {
+inline void write_bag(const std::filesystem::path& path,
+                      const std::vector<WrittenMessage>& messages) {
     const auto writer = BagWriter::create(path);
-    for (const Written& m : messages) writer->write(m.topic, m.time_ns, m.data);
+    for (const WrittenMessage& m : messages) writer->write(m.topic, m.time_ns, m.data);
     writer->commit();
 }
 
@@ -79,10 +80,10 @@ inline Cloud cloud_of_all_types(std::size_t points, test::Random& random) {
 }
 
 /// Small clouds and poses on several topics, one cloud of them empty.
-inline std::vector<Written> some_messages(MessageEncoding encoding, std::size_t rounds,
-                                          std::size_t points) {
+inline std::vector<WrittenMessage> some_messages(MessageEncoding encoding, std::size_t rounds,
+                                                 std::size_t points) {
     test::Random random(1);
-    std::vector<Written> messages;
+    std::vector<WrittenMessage> messages;
     for (std::size_t i = 0; i < rounds; ++i) {
         const double stamp = 1.6e9 + 0.1 * static_cast<double>(i);
         const Cloud cloud = cloud_of_all_types(i == 1 ? 0 : points, random);

@@ -4,7 +4,7 @@
 #include "io/recording.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace benchmark_test {
 
 using BenchmarkTest = Recording;
 
@@ -52,5 +52,5 @@ TEST_F(BenchmarkTest, NoPoses) {
     EXPECT_EQ(read_frame(sequence, 1).points[0].x(), 9.0F);
 }
 
-}  // namespace
+}  // namespace benchmark_test
 }  // namespace dynamic_filter::io

@@ -4,7 +4,7 @@
 #include "io/support.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace byte_writer_test {
 
 TEST(ByteWriter, WritesLittleEndianNumbersAndBlocksWithTheirLength) {
     ByteWriter out;
@@ -18,5 +18,5 @@ TEST(ByteWriter, WritesLittleEndianNumbersAndBlocksWithTheirLength) {
                                  13));
 }
 
-}  // namespace
+}  // namespace byte_writer_test
 }  // namespace dynamic_filter::io

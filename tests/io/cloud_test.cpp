@@ -5,7 +5,7 @@
 #include "io/support.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace cloud_test {
 
 TEST(Cloud, FieldsFollowEachOther) {
     Cloud cloud;
@@ -83,5 +83,5 @@ TEST(Cloud, KindsAreToldByExtension) {
     EXPECT_EQ(read_cloud(folder.put("a.BIN", floats({1, 2, 3, 4}))).size(), 1U);
 }
 
-}  // namespace
+}  // namespace cloud_test
 }  // namespace dynamic_filter::io

@@ -3,7 +3,7 @@
 #include "io/support.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace cloud_writers_test {
 
 constexpr FieldType all_types[] = {FieldType::i8,  FieldType::u8,  FieldType::i16, FieldType::u16,
                                    FieldType::i32, FieldType::u32, FieldType::f32, FieldType::f64};
@@ -107,5 +107,5 @@ TEST_F(CloudWriters, KindIsToldByExtension) {
     EXPECT_FALSE(std::filesystem::exists(folder_ / "b.ply"));
 }
 
-}  // namespace
+}  // namespace cloud_writers_test
 }  // namespace dynamic_filter::io

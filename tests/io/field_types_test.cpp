@@ -4,7 +4,7 @@
 #include "io/support.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace field_types_test {
 
 TEST(FieldTypes, EachHasItsOwnCppType) {
     constexpr FieldType kTypes[] = {FieldType::i8,  FieldType::u8,  FieldType::i16, FieldType::u16,
@@ -35,5 +35,5 @@ TEST(FieldTypes, AFieldOfSeveralValuesBecomesAsManyFields) {
     EXPECT_EQ(single_fields(cloud), expected);
 }
 
-}  // namespace
+}  // namespace field_types_test
 }  // namespace dynamic_filter::io

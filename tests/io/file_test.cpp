@@ -11,7 +11,7 @@
 #include "io/support.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace file_test {
 
 namespace fs = std::filesystem;
 
@@ -138,5 +138,5 @@ TEST(AtomicFile, ALinkStaysAndItsTargetIsReplaced) {
     EXPECT_THROW(write_file(folder / "dangling", "x"), OutputError);
 }
 
-}  // namespace
+}  // namespace file_test
 }  // namespace dynamic_filter::io

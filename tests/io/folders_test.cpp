@@ -4,7 +4,7 @@
 #include "io/support.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace folders_test {
 
 std::vector<std::string> names(const Paths& paths) {
     std::vector<std::string> names;
@@ -46,5 +46,5 @@ TEST(Folders, WholePathsHaveANameAndAParent) {
     EXPECT_EQ(extension_of("a.d/b"), "");
 }
 
-}  // namespace
+}  // namespace folders_test
 }  // namespace dynamic_filter::io

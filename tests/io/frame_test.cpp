@@ -2,7 +2,7 @@
 #include "io/recording.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace frame_test {
 
 using FrameTest = Recording;
 
@@ -97,5 +97,5 @@ TEST_F(FrameTest, AScanWithoutAMeasurementOrWithAnAbsurdPoseIsRefused) {
     EXPECT_HAS(error_of([&] { (void)read_frame(sequence, 1); }), "metres");
 }
 
-}  // namespace
+}  // namespace frame_test
 }  // namespace dynamic_filter::io

@@ -4,7 +4,7 @@
 #include "io/support.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace las_test {
 
 constexpr std::size_t header_bytes = 227;
 
@@ -301,5 +301,5 @@ TEST_F(Las, CountsOf64Bits) {
     EXPECT_EQ(read(old_count).size(), 2U);
 }
 
-}  // namespace
+}  // namespace las_test
 }  // namespace dynamic_filter::io

@@ -4,7 +4,7 @@
 #include "io/recording.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace io_layout_test {
 
 using LayoutTest = Recording;
 
@@ -97,5 +97,5 @@ TEST_F(LayoutTest, ScansAndOptimizedPoses) {
     EXPECT_EQ(sequence.stamps[2], 11.5);
 }
 
-}  // namespace
+}  // namespace io_layout_test
 }  // namespace dynamic_filter::io

@@ -7,7 +7,7 @@
 #include "io/support.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace lzf_test {
 
 std::optional<std::string> expand(const std::string& stream, std::size_t size) {
     const auto bytes = lzf_expand(std::as_bytes(std::span(stream)), size);
@@ -56,5 +56,5 @@ TEST(Lzf, PacksAndExpands) {
     }
 }
 
-}  // namespace
+}  // namespace lzf_test
 }  // namespace dynamic_filter::io

@@ -4,7 +4,7 @@
 #include "io/recording.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace matching_test {
 
 using MatchingTest = Recording;
 
@@ -97,5 +97,5 @@ TEST_F(MatchingTest, TimesFile) {
     EXPECT_TRUE(has_note(sequence, "times.txt"));
 }
 
-}  // namespace
+}  // namespace matching_test
 }  // namespace dynamic_filter::io

@@ -3,7 +3,7 @@
 #include "io/support.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace natural_order_test {
 
 TEST(NaturalOrder, NumbersCountAsNumbers) {
     const std::vector<std::string> sorted = {"",
@@ -26,5 +26,5 @@ TEST(NaturalOrder, NumbersCountAsNumbers) {
     }
 }
 
-}  // namespace
+}  // namespace natural_order_test
 }  // namespace dynamic_filter::io

@@ -4,7 +4,7 @@
 #include "io/support.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace npy_test {
 
 std::string npy(const std::string& dictionary, const std::string& body, char version = 1) {
     const auto length = static_cast<std::uint32_t>(dictionary.size());
@@ -107,5 +107,5 @@ TEST_F(Npy, RoundTrip) {
     EXPECT_EQ(read_npy(folder_ / "w.npy").fields.size(), 3U);
 }
 
-}  // namespace
+}  // namespace npy_test
 }  // namespace dynamic_filter::io

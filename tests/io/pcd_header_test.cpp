@@ -4,7 +4,7 @@
 #include "io/support.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace pcd_header_test {
 
 /// A good header in which one line is replaced (or dropped, if `with` is empty).
 std::string header_with(const std::string& key, const std::string& with) {
@@ -92,5 +92,5 @@ TEST(PcdHeader, WrittenCountsHaveRoom) {
     EXPECT_EQ(header.data, PcdData::binary);
 }
 
-}  // namespace
+}  // namespace pcd_header_test
 }  // namespace dynamic_filter::io

@@ -5,7 +5,7 @@
 #include "io/support.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace pcd_test {
 
 std::string header(const std::string& data, const std::string& points = "2") {
     return "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z i\nSIZE 4 4 4 1\nTYPE F F F U\n"
@@ -148,5 +148,5 @@ TEST_F(Pcd, NoPoints) {
     EXPECT_EQ(read(header("binary_compressed", "0") + compressed("", 0)).size(), 0U);
 }
 
-}  // namespace
+}  // namespace pcd_test
 }  // namespace dynamic_filter::io

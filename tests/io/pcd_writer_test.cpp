@@ -3,7 +3,7 @@
 #include "io/support.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace pcd_writer_test {
 
 Cloud two_points() {
     Cloud cloud;
@@ -52,5 +52,5 @@ TEST(PcdWriter, CompressedDataBeginWithTheirSizes) {
     EXPECT_EQ(read_pcd(folder / "a.pcd").data, two_points().data);
 }
 
-}  // namespace
+}  // namespace pcd_writer_test
 }  // namespace dynamic_filter::io

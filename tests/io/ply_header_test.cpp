@@ -4,7 +4,7 @@
 #include "io/support.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace ply_header_test {
 
 PlyHeader parse(const std::string& text) {
     Lines lines(text, "f.ply");
@@ -43,5 +43,5 @@ TEST(PlyHeader, GarbageIsNamed) {
     }
 }
 
-}  // namespace
+}  // namespace ply_header_test
 }  // namespace dynamic_filter::io

@@ -3,7 +3,7 @@
 #include "io/support.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace ply_test {
 
 const std::string vertex =
     "element vertex 2\nproperty float x\nproperty double y\nproperty float32 z\n"
@@ -94,5 +94,5 @@ TEST_F(Ply, HugeCountsCostNothing) {
     EXPECT_HAS(error(many), "0 of 4000000000");
 }
 
-}  // namespace
+}  // namespace ply_test
 }  // namespace dynamic_filter::io

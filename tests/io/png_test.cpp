@@ -8,7 +8,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace png_test {
 
 TEST(Png, ReadsBackEqual) {
     const test::TemporaryFolder folder;
@@ -34,5 +34,5 @@ TEST(Png, AFolderThatIsNotThereIsAnError) {
     EXPECT_THROW(write_png("/nowhere/a.png", {1, 1, {{0, 0, 0}}}), OutputError);
 }
 
-}  // namespace
+}  // namespace png_test
 }  // namespace dynamic_filter::io

@@ -6,7 +6,7 @@
 #include <set>
 
 namespace dynamic_filter::io {
-namespace {
+namespace pose_fix_test {
 
 TEST(PoseFix, EachHasAName) {
     std::set<std::string> names{to_string(PoseFix::none)};
@@ -33,5 +33,5 @@ TEST(PoseFix, ACameraLooksAhead) {
     EXPECT_TRUE(ahead.translation().isApprox(Eigen::Vector3d::UnitX(), 1e-12));
 }
 
-}  // namespace
+}  // namespace pose_fix_test
 }  // namespace dynamic_filter::io

@@ -4,7 +4,7 @@
 #include "io/support.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace pose_table_test {
 
 PoseFile read(const std::string& text) {
     const TemporaryFolder folder;
@@ -61,5 +61,5 @@ TEST(PoseTable, FaultsAreNamed) {
     EXPECT_HAS(error(euroc + "2,1,2,3,1,0,0,0\n1,1,2,3,1,0,0,0\n"), "line 3");
 }
 
-}  // namespace
+}  // namespace pose_table_test
 }  // namespace dynamic_filter::io

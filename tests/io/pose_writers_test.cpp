@@ -3,7 +3,7 @@
 #include "io/support.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace pose_writers_test {
 
 /// At (1, 2.5, -3), upside down: half a turn about x.
 std::vector<Pose> turned() {
@@ -39,5 +39,5 @@ TEST(PoseWriters, RefuseAnotherNumberOfStampsAndLeaveNothing) {
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
-}  // namespace
+}  // namespace pose_writers_test
 }  // namespace dynamic_filter::io

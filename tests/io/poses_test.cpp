@@ -5,7 +5,7 @@
 #include "io/support.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace poses_test {
 
 class Poses : public testing::Test {
 protected:
@@ -146,5 +146,5 @@ TEST_F(Poses, Times) {
     EXPECT_HAS(error_of([&] { read_times(folder_.put("t.txt", "nan\n")); }), "no time");
 }
 
-}  // namespace
+}  // namespace poses_test
 }  // namespace dynamic_filter::io

@@ -4,7 +4,7 @@
 #include "io/support.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace records_test {
 
 const std::vector<Column> padded = {
     {"_", FieldType::u8, 2, true},   {"x", FieldType::f32, 1, false},
@@ -68,5 +68,5 @@ TEST(Records, CoordinatesAreRequired) {
     EXPECT_HAS(error_of([&] { empty_cloud(columns, "f"); }), "two fields");
 }
 
-}  // namespace
+}  // namespace records_test
 }  // namespace dynamic_filter::io

@@ -4,7 +4,7 @@
 #include "io/support.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace rigid_test {
 
 Rows34 rows(const Eigen::Matrix3d& R) {
     Rows34 out;
@@ -57,5 +57,5 @@ TEST(Rigid, QuaternionsWithinOnePercent) {
     EXPECT_FALSE(lost_pose().matrix().allFinite());
 }
 
-}  // namespace
+}  // namespace rigid_test
 }  // namespace dynamic_filter::io

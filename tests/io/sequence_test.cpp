@@ -4,7 +4,7 @@
 #include "io/recording.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace sequence_test {
 
 using SequenceTest = Recording;
 
@@ -140,5 +140,5 @@ TEST_F(SequenceTest, FolderWithTum) {
     EXPECT_THROW(read_frame(sequence, sequence.size()), InputError);
 }
 
-}  // namespace
+}  // namespace sequence_test
 }  // namespace dynamic_filter::io

@@ -4,7 +4,7 @@
 #include "io/support.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace text_cloud_test {
 
 class TextCloud : public testing::Test {
 protected:
@@ -77,5 +77,5 @@ TEST_F(TextCloud, FaultsAreNamed) {
     EXPECT_HAS(error(",,,\n;\n"), "no point");
 }
 
-}  // namespace
+}  // namespace text_cloud_test
 }  // namespace dynamic_filter::io

@@ -6,7 +6,7 @@
 #include "io/support.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace text_test {
 
 TEST(Text, LinesKnowTheirNumberAndOffset) {
     Lines lines("one\r\n\ntwo", "f");
@@ -52,5 +52,5 @@ TEST(Lines, AUtf8MarkIsNoPartOfTheFirstLine) {
     EXPECT_EQ(lines.line(), "3");
 }
 
-}  // namespace
+}  // namespace text_test
 }  // namespace dynamic_filter::io

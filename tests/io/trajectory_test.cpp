@@ -8,7 +8,7 @@
 #include "support/random.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace trajectory_test {
 
 /// Moving and turning at constant rates.
 Pose pose_of_ride(double time) {
@@ -196,5 +196,5 @@ TEST(UndoMotion, WhatCannotBeMovedStays) {
     EXPECT_EQ(points, before);
 }
 
-}  // namespace
+}  // namespace trajectory_test
 }  // namespace dynamic_filter::io

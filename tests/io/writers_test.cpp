@@ -5,7 +5,7 @@
 #include "io/support.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace writers_test {
 
 Cloud cloud_of(std::size_t points) {
     Cloud cloud;
@@ -72,5 +72,5 @@ TEST(Writers, Faults) {
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
-}  // namespace
+}  // namespace writers_test
 }  // namespace dynamic_filter::io

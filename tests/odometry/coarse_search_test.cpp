@@ -9,7 +9,7 @@
 #include "odometry/planes.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace coarse_search_test {
 
 /// Poles, and walls of a few metres, on a floor.
 Points poles_and_walls(test::Random& random) {
@@ -129,5 +129,5 @@ TEST(CoarseSearch, WhatIsTooFarOrNoNumberIsPassedOver) {
     }
 }
 
-}  // namespace
+}  // namespace coarse_search_test
 }  // namespace dynamic_filter

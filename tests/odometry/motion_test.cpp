@@ -11,7 +11,7 @@
 #include "support/random.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace motion_test {
 
 Twist random_twist(test::Random& random, double reach, double angle) {
     Twist twist;
@@ -141,5 +141,5 @@ TEST(Motion, WithoutATimeOrAMeasurementPointsStay) {
     EXPECT_TRUE(undo_motion({}, {}, velocity).empty());
 }
 
-}  // namespace
+}  // namespace motion_test
 }  // namespace dynamic_filter

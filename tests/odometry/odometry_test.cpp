@@ -14,7 +14,7 @@
 #include "odometry/planes.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace odometry_odometry_test {
 
 using test::Drive;
 using test::lost;
@@ -268,5 +268,5 @@ TEST(Odometry, CovarianceIsThatOfARegistration) {
     }
 }
 
-}  // namespace
+}  // namespace odometry_odometry_test
 }  // namespace dynamic_filter

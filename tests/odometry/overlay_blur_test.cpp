@@ -7,7 +7,7 @@
 #include "odometry/planes.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace overlay_blur_test {
 
 struct Drive {
     std::vector<Scan> scans;
@@ -80,5 +80,5 @@ TEST(OverlayBlur, OfOneScanIsNothing) {
     EXPECT_EQ(overlay_blur({scans.data(), 1}, {truth.data(), 1}, {}), 0.0);
 }
 
-}  // namespace
+}  // namespace overlay_blur_test
 }  // namespace dynamic_filter

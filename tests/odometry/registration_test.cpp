@@ -8,7 +8,7 @@
 #include "odometry/planes.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace registration_test {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
@@ -175,5 +175,5 @@ TEST(BlurOnMap, GrowsWithTheErrorOfThePose) {
     EXPECT_NEAR(blur_on_map(SurfaceMap(0.5), points, Pose::Identity()), 0.5, 1e-9);
 }
 
-}  // namespace
+}  // namespace registration_test
 }  // namespace dynamic_filter

@@ -11,7 +11,7 @@
 #include "support/random.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace scan_sample_test {
 
 std::vector<float> times_of(const Points& points) {
     std::vector<float> times(points.size());
@@ -102,5 +102,5 @@ TEST(ScanSample, MotionIsUndoneWhereTimesAreKnown) {
     EXPECT_NEAR(sample.at_stamp(velocity)[0].x(), 6.0F, 1e-4F);
 }
 
-}  // namespace
+}  // namespace scan_sample_test
 }  // namespace dynamic_filter

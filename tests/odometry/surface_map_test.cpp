@@ -12,7 +12,7 @@
 #include "support/reference_axes.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace surface_map_test {
 
 /// A plane through all points of a voxel, in double precision and two passes.
 struct Plane {
@@ -292,5 +292,5 @@ TEST(SurfaceMap, PointsOnALineOrASpotAreNoSurface) {
     for (const Point& p : points) EXPECT_EQ(line.at(p), nullptr);
 }
 
-}  // namespace
+}  // namespace surface_map_test
 }  // namespace dynamic_filter

@@ -8,7 +8,7 @@
 #include <numbers>
 
 namespace dynamic_filter {
-namespace {
+namespace sweep_times_test {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
@@ -40,5 +40,5 @@ TEST(SweepTimes, WhatIsNotMeasuredHasTimeZero) {
     EXPECT_TRUE(sweep_times({}, {}).empty());
 }
 
-}  // namespace
+}  // namespace sweep_times_test
 }  // namespace dynamic_filter

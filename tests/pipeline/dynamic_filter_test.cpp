@@ -19,7 +19,7 @@
 #include "pipeline/outcome.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace dynamic_filter_test {
 
 using test::all_are;
 using test::drive;
@@ -683,5 +683,5 @@ TEST(DynamicFilter, WhatOnlyOneDriveSawIsDynamic) {
     }
 }
 
-}  // namespace
+}  // namespace dynamic_filter_test
 }  // namespace dynamic_filter

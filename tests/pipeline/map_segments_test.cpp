@@ -6,7 +6,7 @@
 #include "pipeline/outcome.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace map_segments_test {
 
 using test::drive;
 using test::RoomScan;
@@ -126,5 +126,5 @@ TEST(MapSegments, PlacesNameVoxelsOfTheirOwnMap) {
     }
 }
 
-}  // namespace
+}  // namespace map_segments_test
 }  // namespace dynamic_filter

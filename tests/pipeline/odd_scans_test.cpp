@@ -9,7 +9,7 @@
 #include "support/random.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace odd_scans_test {
 
 using test::Box;
 using test::drive;
@@ -113,5 +113,5 @@ TEST_P(OddScans, NoiseOfThePosesCostsSomeOfItOnly) {
 INSTANTIATE_TEST_SUITE_P(Presets, OddScans, testing::Values("default", "paper"),
                          [](const auto& test) { return std::string(test.param); });
 
-}  // namespace
+}  // namespace odd_scans_test
 }  // namespace dynamic_filter

@@ -13,7 +13,7 @@
 #include "pipeline/outcome.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace online_filter_test {
 
 using test::drive;
 using test::expect_same;
@@ -504,5 +504,5 @@ TEST(OnlineFilter, AScanThatAloneHasOrLacksAPoseOrWhoseTimesAreNotOnePerPointIsR
     }
 }
 
-}  // namespace
+}  // namespace online_filter_test
 }  // namespace dynamic_filter

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace dynamic_filter {
-namespace {
+namespace pose_jump_test {
 
 StampedPose at(double x, double stamp) {
     StampedPose pose;
@@ -57,5 +57,5 @@ TEST(PoseJump, TwoSensorsThatTakeTurnsAreNone) {
     EXPECT_FALSE(pose_jump(at(0.5, 0.01), at(0.1, 0.1), at(0.6, 0.11)));
 }
 
-}  // namespace
+}  // namespace pose_jump_test
 }  // namespace dynamic_filter

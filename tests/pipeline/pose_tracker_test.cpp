@@ -10,7 +10,7 @@
 #include "support/random.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace pose_tracker_test {
 
 using test::drive;
 using test::RoomScan;
@@ -224,5 +224,5 @@ TEST(PoseTracker, BeginsAnewWithTheScanThatTheOdometryGaveUpAt) {
     }
 }
 
-}  // namespace
+}  // namespace pose_tracker_test
 }  // namespace dynamic_filter

@@ -6,7 +6,7 @@
 #include <cmath>
 
 namespace dynamic_filter {
-namespace {
+namespace scan_queue_test {
 
 Scan scan(double stamp, double x = 0.0, std::size_t index = 0) {
     Scan s{{Point(1, 0, 0)}, Pose::Identity(), stamp, index};
@@ -85,5 +85,5 @@ TEST(ScanQueue, RefusesWhatIsNoPoseOrNoTime) {
     EXPECT_EQ(refused(queue, mirrored), NoticeKind::invalid);
 }
 
-}  // namespace
+}  // namespace scan_queue_test
 }  // namespace dynamic_filter

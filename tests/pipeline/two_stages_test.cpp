@@ -11,7 +11,7 @@
 #include "dynamic_filter/error.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace two_stages_test {
 
 /// Numbers to work on; what was done with them is noted in order.
 struct Line {
@@ -142,5 +142,5 @@ TEST(TwoStages, ItsOwnThreadsMustNotWaitForThemselves) {
     EXPECT_NO_THROW(stages->refuse_own_threads());
 }
 
-}  // namespace
+}  // namespace two_stages_test
 }  // namespace dynamic_filter

@@ -6,7 +6,7 @@
 #include <set>
 
 namespace dynamic_filter {
-namespace {
+namespace clusters_test {
 
 /// Points 1.8 m below the sensor: flat ground, and what is put on it.
 struct Place {
@@ -86,5 +86,5 @@ TEST(FindClusters, PointsOfNoVoxelAndBeyondTheReachAreLeftOut) {
     EXPECT_EQ(find_clusters({}, {}, ScansConfig{}.instances).count, 0U);
 }
 
-}  // namespace
+}  // namespace clusters_test
 }  // namespace dynamic_filter

@@ -8,7 +8,7 @@
 #include "support/random.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace contact_test {
 
 constexpr float kSize = 0.2F;
 
@@ -100,5 +100,5 @@ TEST(ContactSurface, IgnoresAFewCentroidsThatWereFeetThemselves) {
     EXPECT_NEAR(surface->height({0.1F, 0.1F, 0.07F}), 0.0F, 0.02F);
 }
 
-}  // namespace
+}  // namespace contact_test
 }  // namespace dynamic_filter

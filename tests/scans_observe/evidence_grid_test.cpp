@@ -8,7 +8,7 @@
 #include "support/random.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace evidence_grid_test {
 
 constexpr float kSize = 0.2F;
 
@@ -220,5 +220,5 @@ TEST(EvidenceGrid, WhatIsKeptHasItsNeighborsAndItsNewestScan) {
     EXPECT_FALSE(corners(grid, false).empty());
 }
 
-}  // namespace
+}  // namespace evidence_grid_test
 }  // namespace dynamic_filter

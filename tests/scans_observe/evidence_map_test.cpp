@@ -12,7 +12,7 @@
 #include "scans_observe/filled_map.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace evidence_map_test {
 
 using test::drive;
 using test::every_scan;
@@ -248,5 +248,5 @@ TEST(EvidenceMap, ScansWithoutMeasurementsChangeNothing) {
     }
 }
 
-}  // namespace
+}  // namespace evidence_map_test
 }  // namespace dynamic_filter

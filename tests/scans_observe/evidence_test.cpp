@@ -13,7 +13,7 @@
 #include "support/random.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace evidence_test {
 
 const DynamicScore score(ScansConfig{}.evidence);
 constexpr unsigned kRun = 16;
@@ -310,5 +310,5 @@ TEST(DynamicScore, IsTheSmallerOfBothLogarithms) {
     }
 }
 
-}  // namespace
+}  // namespace evidence_test
 }  // namespace dynamic_filter

@@ -6,7 +6,7 @@
 #include <cmath>
 
 namespace dynamic_filter {
-namespace {
+namespace final_map_test {
 
 const Config config;
 constexpr float kSize = 0.2F;
@@ -171,5 +171,5 @@ TEST(OccupiedSince, BeginsWithTheLastRunIfThatIsLongEnough) {
     EXPECT_FALSE(occupied_since({{std::nullopt, {}}}, parked(7, 90).grid, config)[0]);
 }
 
-}  // namespace
+}  // namespace final_map_test
 }  // namespace dynamic_filter

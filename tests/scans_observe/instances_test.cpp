@@ -6,7 +6,7 @@
 #include <algorithm>
 
 namespace dynamic_filter {
-namespace {
+namespace instances_test {
 
 /// Ground 1.8 m below the sensor, a bench, and a person at `x` who may walk into it.
 struct Glance {
@@ -243,5 +243,5 @@ TEST(Instances, TheClusterThatSharesMostContinuesTheTrack) {
     EXPECT_EQ(dynamic_share(f, sight_of(29).bench), 0.0);
 }
 
-}  // namespace
+}  // namespace instances_test
 }  // namespace dynamic_filter

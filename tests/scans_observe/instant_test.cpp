@@ -9,7 +9,7 @@
 #include "scans_observe/filled_map.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace instant_test {
 
 using test::every_scan;
 
@@ -54,5 +54,5 @@ TEST(InstantVerdicts, AreRememberedByTheNewNumbersOfVoxels) {
     EXPECT_EQ(after.labels.size(), before.labels.size());
 }
 
-}  // namespace
+}  // namespace instant_test
 }  // namespace dynamic_filter

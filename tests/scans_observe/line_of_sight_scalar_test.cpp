@@ -8,7 +8,7 @@
 #include <numbers>
 
 namespace dynamic_filter {
-namespace {
+namespace line_of_sight_scalar_test {
 
 constexpr float kDeg = std::numbers::pi_v<float> / 180.0F;
 const SightMargins margins = margins_of(ScansConfig{}.sight, 0.2);
@@ -105,5 +105,5 @@ TEST(LineOfSightScalar, JudgesFromTheNearestToTheFarthestRange) {
     EXPECT_EQ(sight_at(std::nanf(""), returns), Sight::unknown);
 }
 
-}  // namespace
+}  // namespace line_of_sight_scalar_test
 }  // namespace dynamic_filter

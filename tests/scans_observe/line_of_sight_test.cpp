@@ -11,7 +11,7 @@
 #include "support/random.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace line_of_sight_test {
 
 constexpr double kDeg = std::numbers::pi / 180.0;
 const SightMargins margins = margins_of(ScansConfig{}.sight, Config{}.map.voxel_size);
@@ -211,5 +211,5 @@ TEST(MaySee, IsFalseOnlyWhereNothingIsKnown) {
     EXPECT_TRUE(may_see(scan(room), place_of({-6.0, 0.1, 0.1}), 0.7F, margins));
 }
 
-}  // namespace
+}  // namespace line_of_sight_test
 }  // namespace dynamic_filter

@@ -6,7 +6,7 @@
 #include "pipeline/room.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace observers_test {
 
 Scan room_scan(std::size_t index, double stamp, double x) {
     Pose pose = Pose::Identity();
@@ -97,5 +97,5 @@ TEST(Observers, TheFirstScanOfADriveIsAKeyframeThatLooksFar) {
     EXPECT_EQ(observers.kept().back().reach, 80.0F);
 }
 
-}  // namespace
+}  // namespace observers_test
 }  // namespace dynamic_filter

@@ -10,7 +10,7 @@
 #include "scans_observe/filled_map.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace scans_method_test {
 
 using test::drive;
 using test::every_scan;
@@ -242,5 +242,5 @@ TEST(ScansMethod, WhatLiesFarCanBeForgottenAndTheRestGoesOn) {
     EXPECT_GT(dynamic, 50U);
 }
 
-}  // namespace
+}  // namespace scans_method_test
 }  // namespace dynamic_filter

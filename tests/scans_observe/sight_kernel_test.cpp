@@ -14,7 +14,7 @@
 #include "support/random.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace sight_kernel_test {
 
 const SightMargins kMargins = margins_of(ScansConfig{}.sight, Config{}.map.voxel_size);
 constexpr double kDeg = std::numbers::pi / 180.0;
@@ -137,5 +137,5 @@ TEST(SightKernel, WhatIsNotANumberIsNotSeen) {
     }
 }
 
-}  // namespace
+}  // namespace sight_kernel_test
 }  // namespace dynamic_filter

@@ -10,7 +10,7 @@
 #include "support/random.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace vote_kernel_test {
 
 struct Voters {
     std::vector<float> x, y, z, weight, score, first, last;
@@ -76,5 +76,5 @@ TEST(VoteKernel, NobodyNearSaysNothing) {
     }
 }
 
-}  // namespace
+}  // namespace vote_kernel_test
 }  // namespace dynamic_filter

@@ -10,7 +10,7 @@
 #include "scans_observe/filled_map.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace vote_test {
 
 using test::drive;
 using test::every_scan;
@@ -71,5 +71,5 @@ TEST(OccupancyOf, IsUnknownUntilAnotherKeyframeLookedAtTheVoxelOrAtANeighbor) {
     }
 }
 
-}  // namespace
+}  // namespace vote_test
 }  // namespace dynamic_filter

@@ -50,6 +50,8 @@ OTHERS = {
 def mirrored(source):
     folder, below = ("tests/apps", APP) if source.startswith(APP) else ("tests", "src")
     path = pathlib.PurePosixPath(source).relative_to(below)
+    if path.parent.name == "" and below == "src":
+        folder = "tests/core"
     return f"{folder}/{path.with_suffix('')}_test.cpp"
 
 

@@ -7,7 +7,7 @@
 
 #include "sim/prototypes.hpp"
 
-using namespace dynamic_filter::sim;
+namespace dynamic_filter::sim::bodies_test {
 
 namespace {
 
@@ -151,3 +151,5 @@ TEST(Bodies, MoversCoverTheVehicle) {
     }
     EXPECT_NEAR(movers[0].velocity.x(), 7.0, 1e-6);
 }
+
+}  // namespace dynamic_filter::sim::bodies_test

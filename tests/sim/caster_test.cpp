@@ -9,7 +9,8 @@
 #include "sim/prototypes.hpp"
 #include "sim/random.hpp"
 
-using namespace dynamic_filter::sim;
+namespace dynamic_filter::sim::caster_test {
+
 using Eigen::Vector3d;
 
 namespace {
@@ -126,3 +127,5 @@ TEST(Caster, TellsSurfaceFromRay) {
     EXPECT_EQ(ahead.kind, Kind::standing);
     EXPECT_FALSE(caster.cast({0, 0, 0.5F}, Eigen::Vector3f::UnitX(), 3.0F).found);
 }
+
+}  // namespace dynamic_filter::sim::caster_test

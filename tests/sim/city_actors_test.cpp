@@ -6,7 +6,7 @@
 #include "sim/city.hpp"
 
 namespace dynamic_filter::sim::city {
-namespace {
+namespace city_actors_test {
 
 Eigen::Vector2d position(const Ride& ride, double t) {
     return at(ride.path, travelled(ride, t)).position;
@@ -32,8 +32,6 @@ const std::vector<Actor>& people_and_traffic() {
     static const std::vector<Actor> made = actors(1, way(), 14, 1);
     return made;
 }
-
-}  // namespace
 
 TEST(CityActors, AllKindsAreThereAndMostMove) {
     std::map<VehicleKind, int> kinds;
@@ -101,4 +99,5 @@ TEST(CityActors, LegsMoveWhileSomebodyWalks) {
     }
 }
 
+}  // namespace city_actors_test
 }  // namespace dynamic_filter::sim::city

@@ -7,7 +7,7 @@
 #include "sim/city.hpp"
 
 namespace dynamic_filter::sim::city {
-namespace {
+namespace city_parking_test {
 
 constexpr std::uint64_t seed = 4;
 
@@ -32,8 +32,6 @@ std::map<Matrix, int> where(const Block& block, int drive, int drives) {
     for (const Fixture& f : parked(seed, block, {drive, drives})) out[key(f)] = f.part.instance;
     return out;
 }
-
-}  // namespace
 
 TEST(CityParking, NumbersAreThoseOfThingsThatAreAbsentFromAnotherDrive) {
     std::size_t stay = 0, change = 0;
@@ -115,4 +113,5 @@ TEST(CityParking, CarsStandBetweenLaneAndKerb) {
     });
 }
 
+}  // namespace city_parking_test
 }  // namespace dynamic_filter::sim::city

@@ -8,7 +8,7 @@
 #include "sim/city.hpp"
 
 namespace dynamic_filter::sim::city {
-namespace {
+namespace city_route_test {
 
 Eigen::Vector2d position(const Route& route, double t) {
     return at(route.ride.path, travelled(route.ride, t)).position;
@@ -24,8 +24,6 @@ std::set<std::pair<std::pair<double, double>, std::pair<double, double>>> street
     }
     return out;
 }
-
-}  // namespace
 
 TEST(CityRoute, IsAsLongAsAskedAndSmooth) {
     for (const double km : {0.1, 1.0, 5.0}) {
@@ -91,4 +89,5 @@ TEST(CityRoute, TheLongestDriveStaysWithinTheNumberedBlocks) {
     EXPECT_LE(blocks_across(80.0) + 2 * reserve, most_blocks);
 }
 
+}  // namespace city_route_test
 }  // namespace dynamic_filter::sim::city

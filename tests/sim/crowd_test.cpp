@@ -5,7 +5,8 @@
 
 #include <algorithm>
 
-using namespace dynamic_filter::sim;
+namespace dynamic_filter::sim::crowd_test {
+
 using Eigen::Vector2d;
 
 namespace {
@@ -134,3 +135,5 @@ TEST(Crowd, YieldsToTheRobot) {
         EXPECT_GT((p - plan.movers(t)[0].centre).norm(), 0.6);
     }
 }
+
+}  // namespace dynamic_filter::sim::crowd_test

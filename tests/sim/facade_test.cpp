@@ -3,7 +3,8 @@
 
 #include "sim/props.hpp"
 
-using namespace dynamic_filter::sim;
+namespace dynamic_filter::sim::facade_test {
+
 using Eigen::Vector2d;
 
 namespace {
@@ -44,3 +45,5 @@ TEST(Facade, ReachesFromTheGroundToTheEaves) {
     EXPECT_NEAR(box.min().x(), 1.0F, 0.01F);
     EXPECT_NEAR(box.max().x(), 17.0F, 0.01F);
 }
+
+}  // namespace dynamic_filter::sim::facade_test

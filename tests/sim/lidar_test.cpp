@@ -8,7 +8,8 @@
 
 #include "dynamic_filter/odometry/motion.hpp"
 
-using namespace dynamic_filter::sim;
+namespace dynamic_filter::sim::lidar_test {
+
 using dynamic_filter::Label;
 using dynamic_filter::Pose;
 
@@ -149,3 +150,5 @@ TEST(Sweep, IsStraightOnceTheMotionIsUndone) {
     EXPECT_LT(off_walls(dynamic_filter::undo_motion(returns.points, returns.shares, velocity)),
               sensor.sigma * 1.1);
 }
+
+}  // namespace dynamic_filter::sim::lidar_test

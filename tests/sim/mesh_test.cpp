@@ -6,7 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-using namespace dynamic_filter::sim;
+namespace dynamic_filter::sim::mesh_test {
+
 using Eigen::Affine3d;
 using Eigen::Vector3d;
 
@@ -111,3 +112,5 @@ TEST(Mesh, PavingTakesTheLevelFacesFromATriangleOn) {
     EXPECT_EQ(before, 0U);
     EXPECT_EQ(after, 8U);  // top and bottom of the box and of the ramp
 }
+
+}  // namespace dynamic_filter::sim::mesh_test

@@ -5,7 +5,8 @@
 
 #include <cmath>
 
-using namespace dynamic_filter::sim;
+namespace dynamic_filter::sim::obstacles_test {
+
 using Eigen::Vector2d;
 
 TEST(Obstacles, DistanceToDiscAndRectangle) {
@@ -43,3 +44,5 @@ TEST(Obstacles, ClearOnlyWhereTheBodyFits) {
     EXPECT_TRUE(is_clear(field, {-4, 1.5}, {4, 1.5}, 0.2));
     EXPECT_FALSE(is_clear(field, {-4, 1.5}, {4, 1.5}, 0.7));
 }
+
+}  // namespace dynamic_filter::sim::obstacles_test

@@ -6,7 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-using namespace dynamic_filter::sim;
+namespace dynamic_filter::sim::path_test {
+
 using Eigen::Vector2d;
 
 TEST(Path, StadiumHasItsLengthAndCloses) {
@@ -79,3 +80,5 @@ TEST(Path, RideBrakesStandsAndGoesOn) {
     EXPECT_NEAR(standing, 10.0, 0.05);
     EXPECT_NEAR(speed, 6.0, 1e-6);
 }
+
+}  // namespace dynamic_filter::sim::path_test

@@ -3,7 +3,8 @@
 
 #include <gtest/gtest.h>
 
-using namespace dynamic_filter::sim;
+namespace dynamic_filter::sim::people_test {
+
 using Eigen::Vector2d;
 
 TEST(People, SizesAndSpeedsAreThoseOfAdultsAndChildren) {
@@ -55,3 +56,5 @@ TEST(People, ScatteredClearOfWallsAndOthers) {
             EXPECT_GT((walkers[i].start - walkers[j].start).norm(), 0.4);
     }
 }
+
+}  // namespace dynamic_filter::sim::people_test

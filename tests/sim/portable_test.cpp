@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-using namespace dynamic_filter::sim;
+namespace dynamic_filter::sim::portable_test {
 
 TEST(Portable, AgreesWithTheLibrary) {
     for (double x = -30.0; x < 30.0; x += 0.0137) {
@@ -20,3 +20,5 @@ TEST(Portable, LargeAngles) {
     EXPECT_NEAR(portable_sincos(98765.4).sin, std::sin(98765.4), 1e-10);
     EXPECT_NEAR(portable_sincos(-98765.4).cos, std::cos(98765.4), 1e-10);
 }
+
+}  // namespace dynamic_filter::sim::portable_test

@@ -6,7 +6,7 @@
 #include <functional>
 #include <set>
 
-using namespace dynamic_filter::sim;
+namespace dynamic_filter::sim::props_test {
 
 namespace {
 
@@ -76,3 +76,5 @@ TEST(Props, PeopleCannotWalkIntoWhatIsAtKneeHeight) {
         }
     }
 }
+
+}  // namespace dynamic_filter::sim::props_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-using namespace dynamic_filter::sim;
+namespace dynamic_filter::sim::prototypes_test {
 
 namespace {
 
@@ -54,3 +54,5 @@ TEST(Prototypes, PersonReaches175Centimetres) {
     EXPECT_NEAR(bounds(all[static_cast<std::size_t>(Prototype::torso)]).max().z(), 1.75F, 1e-4F);
     EXPECT_NEAR(bounds(all[static_cast<std::size_t>(Prototype::leg)]).min().z(), -0.873F, 0.005F);
 }
+
+}  // namespace dynamic_filter::sim::prototypes_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-using namespace dynamic_filter::sim;
+namespace dynamic_filter::sim::random_test {
 
 TEST(Random, UnitHasMeanAndVarianceOfTheUniform) {
     constexpr int n = 100000;
@@ -42,3 +42,5 @@ TEST(Random, SameKeySameDraws) {
     EXPECT_NE(a.bits(), c.bits());
     for (int i = 0; i < 100; ++i) EXPECT_LT(a.below(3), 3);
 }
+
+}  // namespace dynamic_filter::sim::random_test

@@ -6,7 +6,7 @@
 #include "sim/city.hpp"
 
 namespace dynamic_filter::sim {
-namespace {
+namespace scene_city_test {
 
 Scene small(const Trip& trip = {.km = 0.1}) { return entry("city").make_trip(5, 1, trip); }
 
@@ -14,8 +14,6 @@ std::size_t count(const std::vector<Part>& parts, std::size_t prototype) {
     return static_cast<std::size_t>(std::count_if(
         parts.begin(), parts.end(), [&](const Part& part) { return part.prototype == prototype; }));
 }
-
-}  // namespace
 
 TEST(SceneCity, LevelBeamsAreOffTheBoundaries) { expect_off_boundaries(small()); }
 
@@ -102,4 +100,5 @@ TEST(SceneCity, PeopleAndTheVehicleKeepClearOfTheFurniture) {
     }
 }
 
+}  // namespace scene_city_test
 }  // namespace dynamic_filter::sim

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene_checks.hpp"
 
-using namespace dynamic_filter::sim;
+namespace dynamic_filter::sim::scene_crowd_test {
 
 TEST(SceneCrowd, TwoRoundsAtWalkingPace) {
     const Scene scene = entry("crowd").make(10, 1);
@@ -57,3 +57,5 @@ TEST(SceneCrowd, FewStandAndTalk) {
     EXPECT_GT(companies, 3U);
     EXPECT_LT(companies, 50U);
 }
+
+}  // namespace dynamic_filter::sim::scene_crowd_test

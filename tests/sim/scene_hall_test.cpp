@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene_checks.hpp"
 
-using namespace dynamic_filter::sim;
+namespace dynamic_filter::sim::scene_hall_test {
 
 TEST(SceneHall, RobotsPathIsFree) {
     for (const std::uint64_t seed : {1U, 2U, 3U}) expect_path_free(entry("hall").make(0, seed));
@@ -25,3 +25,5 @@ TEST(SceneHall, PeopleWalkOnBothLevelsAndStayThere) {
     }
     EXPECT_EQ(upstairs, 10U);
 }
+
+}  // namespace dynamic_filter::sim::scene_hall_test

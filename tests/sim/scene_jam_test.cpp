@@ -3,7 +3,8 @@
 #include "sim/jam.hpp"
 #include "vehicle_checks.hpp"
 
-using namespace dynamic_filter::sim;
+namespace dynamic_filter::sim::scene_jam_test {
+
 using Eigen::Vector2d;
 
 namespace {
@@ -141,3 +142,5 @@ TEST(SceneJam, RobotsPathIsFree) {
 }
 
 TEST(SceneJam, SensorIsOnNoBoundaryOfVoxels) { expect_off_boundaries(jam_of(1)); }
+
+}  // namespace dynamic_filter::sim::scene_jam_test

@@ -4,7 +4,8 @@
 #include "scene_checks.hpp"
 #include "sim/platform.hpp"
 
-using namespace dynamic_filter::sim;
+namespace dynamic_filter::sim::scene_platform_test {
+
 using Eigen::Vector2d;
 
 namespace {
@@ -115,3 +116,5 @@ TEST(ScenePlatform, RobotsPathIsFree) {
 }
 
 TEST(ScenePlatform, SensorIsOnNoBoundaryOfVoxels) { expect_off_boundaries(platform_of(1)); }
+
+}  // namespace dynamic_filter::sim::scene_platform_test

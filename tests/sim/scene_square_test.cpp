@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene_checks.hpp"
 
-using namespace dynamic_filter::sim;
+namespace dynamic_filter::sim::scene_square_test {
 
 TEST(SceneSquare, RobotsPathIsFree) {
     for (const std::uint64_t seed : {1U, 2U, 3U}) expect_path_free(entry("square").make(0, seed));
@@ -32,3 +32,5 @@ TEST(SceneSquare, SomethingStopsAndLeaves) {
     }
     EXPECT_EQ(stops, 1U);
 }
+
+}  // namespace dynamic_filter::sim::scene_square_test

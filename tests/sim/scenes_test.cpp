@@ -5,7 +5,7 @@
 
 #include "sim/scene.hpp"
 
-using namespace dynamic_filter::sim;
+namespace dynamic_filter::sim::scenes_test {
 
 TEST(Scenes, NamesAreUniqueAndAllCanBeMade) {
     std::set<std::string> names;
@@ -38,3 +38,5 @@ TEST(Scenes, SeedsGiveOtherPeople) {
         EXPECT_EQ(entry.make(5, 1).walkers[0].start, entry.make(5, 1).walkers[0].start);
     }
 }
+
+}  // namespace dynamic_filter::sim::scenes_test

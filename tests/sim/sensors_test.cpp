@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-using namespace dynamic_filter::sim;
+namespace dynamic_filter::sim::sensors_test {
 
 namespace {
 
@@ -52,3 +52,5 @@ TEST(Sensors, TurningSensorStartsEachScanElsewhere) {
     EXPECT_NE(ray_directions(sensor, 1, 0)[0], ray_directions(sensor, 1, 1)[0]);
     EXPECT_EQ(ray_directions(sensor, 1, 1)[0], ray_directions(sensor, 1, 1)[0]);
 }
+
+}  // namespace dynamic_filter::sim::sensors_test

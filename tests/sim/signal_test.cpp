@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-using namespace dynamic_filter::sim;
+namespace dynamic_filter::sim::signal_test {
 
 TEST(Signal, IsRedForItsPartOfEveryCycle) {
     const Signal signal{.cycle = 75.0, .red = 48.0, .first = 10.0};
@@ -24,3 +24,5 @@ TEST(Signal, PeopleSetOutEarlyInTheRedOnly) {
     EXPECT_DOUBLE_EQ(may_walk(signal, 60.0), 78.0);
     EXPECT_DOUBLE_EQ(may_walk(signal, -10.0), 3.0);
 }
+
+}  // namespace dynamic_filter::sim::signal_test

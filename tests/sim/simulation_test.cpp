@@ -13,7 +13,7 @@
 #include "dynamic_filter/parallel.hpp"
 
 namespace dynamic_filter::sim {
-namespace {
+namespace simulation_test {
 
 SimulationOptions short_run(const std::string& scene) {
     SimulationOptions options;
@@ -32,8 +32,6 @@ void expect_equal(const SimulatedScan& a, const SimulatedScan& b) {
     EXPECT_EQ(a.stamp, b.stamp);
     EXPECT_EQ(a.times, b.times);
 }
-
-}  // namespace
 
 TEST(Simulation, SameOptionsSameBytesWhateverTheThreadsAndTheOrder) {
     for (const auto& scene : scene_names()) {
@@ -381,4 +379,5 @@ TEST(Simulation, WrongOptionsAreNamed) {
     EXPECT_NE(message(options).find("drives is -1"), std::string::npos);
 }
 
+}  // namespace simulation_test
 }  // namespace dynamic_filter::sim

@@ -5,7 +5,8 @@
 
 #include "sim/random.hpp"
 
-using namespace dynamic_filter::sim;
+namespace dynamic_filter::sim::social_force_test {
+
 using Eigen::Vector2d;
 
 TEST(SocialForce, PairsAreThoseOfAllAgainstAll) {
@@ -45,3 +46,5 @@ TEST(SocialForce, LeavesTheLaneOfAMover) {
     EXPECT_LT(mover_force({1.5, -0.2}, 0.2, robot).y(), -0.5);
     EXPECT_EQ(mover_force({5.0, 0.0}, 0.2, robot), Vector2d(0, 0));
 }
+
+}  // namespace dynamic_filter::sim::social_force_test

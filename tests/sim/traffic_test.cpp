@@ -5,7 +5,7 @@
 
 #include "vehicle_checks.hpp"
 
-using namespace dynamic_filter::sim;
+namespace dynamic_filter::sim::traffic_test {
 
 namespace {
 
@@ -124,3 +124,5 @@ TEST(Traffic, NobodyHaltsOnTheCrossing) {
         EXPECT_TRUE(x - 2.15 > 62.0 || x + 2.15 < 60.0 - stop_line) << x;
     }
 }
+
+}  // namespace dynamic_filter::sim::traffic_test

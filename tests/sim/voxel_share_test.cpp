@@ -9,7 +9,7 @@
 #include "dynamic_filter/sim/simulation.hpp"
 
 namespace dynamic_filter::sim {
-namespace {
+namespace voxel_share_test {
 
 /// [%] of the 0.2 m voxels of all returns that hold a dynamic one.
 double dynamic_share(int pedestrians) {
@@ -33,10 +33,9 @@ double dynamic_share(int pedestrians) {
     return 100.0 * static_cast<double>(dynamic) / static_cast<double>(voxels.size());
 }
 
-}  // namespace
-
 TEST(VoxelShare, Of50People) { EXPECT_NEAR(dynamic_share(50), 54.8, 4.0); }
 TEST(VoxelShare, Of100People) { EXPECT_NEAR(dynamic_share(100), 58.5, 4.0); }
 TEST(VoxelShare, Of150People) { EXPECT_NEAR(dynamic_share(150), 59.3, 4.0); }
 
+}  // namespace voxel_share_test
 }  // namespace dynamic_filter::sim

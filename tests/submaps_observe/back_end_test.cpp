@@ -11,7 +11,7 @@
 #include "support/random.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace back_end_test {
 
 constexpr BeamPattern kBeams{0.01F, 0.03F};
 
@@ -204,5 +204,5 @@ TEST(BackEnd, WithoutIncidentCorrectionItNeedsNoNormals) {
     EXPECT_FALSE(back_end.local_map(pose_at(0), times).voxels.empty());
 }
 
-}  // namespace
+}  // namespace back_end_test
 }  // namespace dynamic_filter

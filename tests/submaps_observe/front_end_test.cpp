@@ -13,7 +13,7 @@
 #include "pipeline/room.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace front_end_test {
 
 constexpr double kDeg = std::numbers::pi / 180.0;
 
@@ -166,5 +166,5 @@ TEST(FrontEnd, AWindowOfOneScanIsAllStill) {
     EXPECT_EQ(count(result.labels, Label::static_), window.scans[0].points.size());
 }
 
-}  // namespace
+}  // namespace front_end_test
 }  // namespace dynamic_filter

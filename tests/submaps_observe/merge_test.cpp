@@ -8,7 +8,7 @@
 #include "support/random.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace merge_test {
 
 constexpr double kSize = 0.5;
 
@@ -82,5 +82,5 @@ TEST(Merge, OfEmptyMapsIsEmpty) {
     EXPECT_TRUE(merged.probability.empty());
 }
 
-}  // namespace
+}  // namespace merge_test
 }  // namespace dynamic_filter

@@ -14,7 +14,7 @@
 #include "support/reference_axes.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace normals_test {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
@@ -157,5 +157,5 @@ TEST(IsGrazing, WithoutANormalAPointIsOrdinary) {
     EXPECT_FALSE(is_grazing({1, 0, 0}, Point::Zero(), {0, 0, 0}, 0.5F));
 }
 
-}  // namespace
+}  // namespace normals_test
 }  // namespace dynamic_filter

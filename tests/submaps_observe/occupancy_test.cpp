@@ -11,7 +11,7 @@
 #include "support/random.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace occupancy_test {
 
 const Point kRay = Point(1.0F, 0.05F, 0.05F).normalized();
 
@@ -207,5 +207,5 @@ TEST(CountOwners, OfNoSubmapsIsEmpty) {
     EXPECT_TRUE(count_owners({}, scratch).voxels.empty());
 }
 
-}  // namespace
+}  // namespace occupancy_test
 }  // namespace dynamic_filter

@@ -11,7 +11,7 @@
 #include "support/random.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace removert_test {
 
 constexpr float kInf = std::numeric_limits<float>::infinity();
 constexpr float kVoxel = 0.2F;
@@ -172,5 +172,5 @@ TEST(Removert, NeverRemovesMoreThanTheFirstLookMarks) {
     EXPECT_GT(dynamic, 50);
 }
 
-}  // namespace
+}  // namespace removert_test
 }  // namespace dynamic_filter

@@ -11,7 +11,7 @@
 #include "support/random.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace reverting_test {
 
 FrontEndConfig config_with(int neighbors, double dist_max = 0.05) {
     FrontEndConfig config;
@@ -166,5 +166,5 @@ TEST(RevertByMap, TurnsExactlyTheDynamicPointsThatFit) {
     EXPECT_EQ(labels[1], after);
 }
 
-}  // namespace
+}  // namespace reverting_test
 }  // namespace dynamic_filter

@@ -8,7 +8,7 @@
 #include "support/random.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace submap_buffer_test {
 
 std::vector<BufferedSubmap> at(const std::vector<Eigen::Vector3d>& places) {
     std::vector<BufferedSubmap> buffer(places.size());
@@ -63,5 +63,5 @@ TEST(SearchRadius, AnEmptyBufferHasNothing) {
     EXPECT_TRUE(search_radius({}, {0, 0, 0}, 9.0, 3, 0).empty());
 }
 
-}  // namespace
+}  // namespace submap_buffer_test
 }  // namespace dynamic_filter

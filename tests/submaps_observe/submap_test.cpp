@@ -11,7 +11,7 @@
 #include "support/random.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace submap_test {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
@@ -107,5 +107,5 @@ TEST(VoxelOf, IsEmptyWhereAKeyCannotReach) {
     EXPECT_TRUE(voxel_of({1e5F, -1e5F, 0}, 0.2F));
 }
 
-}  // namespace
+}  // namespace submap_test
 }  // namespace dynamic_filter

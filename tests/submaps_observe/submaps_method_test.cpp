@@ -8,7 +8,7 @@
 #include "pipeline/outcome.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace submaps_method_test {
 
 using test::drive;
 using test::RoomScan;
@@ -138,5 +138,5 @@ TEST(SubmapsMethod, MapsHoldTheVoxelsThatReachTheThreshold) {
     EXPECT_TRUE(method.local_map(far, std::nullopt).empty());
 }
 
-}  // namespace
+}  // namespace submaps_method_test
 }  // namespace dynamic_filter

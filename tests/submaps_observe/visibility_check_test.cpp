@@ -11,7 +11,7 @@
 #include "support/random.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace visibility_check_test {
 
 const Point kRay = Point(1.0F, 0.05F, 0.05F).normalized();  // the middle of a pixel, nearly
 const Point kHeadOn = kRay, kGrazing = Point(-kRay.y(), kRay.x(), 0.0F).normalized();
@@ -159,5 +159,5 @@ TEST(VisibilityBoundary, AgreesWithAlgorithmOneOnRandomSubmaps) {
     }
 }
 
-}  // namespace
+}  // namespace visibility_check_test
 }  // namespace dynamic_filter

@@ -11,7 +11,7 @@
 #include "support/random.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace visibility_removal_test {
 
 constexpr float kInf = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -193,5 +193,5 @@ TEST(RemovalMargin, GrowsWithTheRange) {
     EXPECT_EQ(margin.at(4.0F), 1.5F);
 }
 
-}  // namespace
+}  // namespace visibility_removal_test
 }  // namespace dynamic_filter

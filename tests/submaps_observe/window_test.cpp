@@ -6,7 +6,7 @@
 #include "support/random.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace window_test {
 
 Scan scan_at(std::size_t index, double stamp, double x = 0.0) {
     Scan scan;
@@ -128,5 +128,5 @@ TEST(WindowCutter, ReturnsAWindowAsSoonAsAnotherStarts) {
 
 TEST(WindowCutter, WithoutScansThereIsNoWindow) { EXPECT_TRUE(cut(2, {1.0, 1.0}, {}).empty()); }
 
-}  // namespace
+}  // namespace window_test
 }  // namespace dynamic_filter

@@ -52,9 +52,9 @@ void append(io::Cloud& cloud, const TilePoints& points, std::size_t i) {
 }
 
 /// Squares under way: what they hold, and how many tiles are still to come.
-class Squares {
+class OpenSquares {
 public:
-    Squares(const MapIndex& index, fs::path folder)
+    OpenSquares(const MapIndex& index, fs::path folder)
         : index_(index), folder_(std::move(folder)), words_(session_words(index.drives.size())) {
         for (const MapTile& tile : index.tiles)
             for (const Corner& corner : squares_of(index_, tile)) ++to_come_[corner];
@@ -92,7 +92,7 @@ private:
 
 /// In the order of the quadtree, so that squares across borders are soon complete.
 void add_tiles(const TreeNode& node, const MapIndex& index, const fs::path& folder,
-               Squares& squares) {
+               OpenSquares& squares) {
     if (node.tile != nullptr) squares.add(read_tile(folder, index, *node.tile), *node.tile);
     for (const TreeNode& child : node.children) add_tiles(child, index, folder, squares);
 }
@@ -119,7 +119,7 @@ std::size_t write_autoware_tiles(const MapIndex& index, const fs::path& folder,
                                  const fs::path& output) {
     const TreeNode tree = tree_of(index, folder);
     fs::create_directories(output / "pointcloud_map");
-    Squares squares(index, output / "pointcloud_map");
+    OpenSquares squares(index, output / "pointcloud_map");
     add_tiles(tree, index, folder, squares);
     io::write_file(output / "pointcloud_map_metadata.yaml", autoware_metadata(squares.written()));
     return squares.written().size();

@@ -82,7 +82,7 @@ void add_tracks(const std::vector<DriveTrack>& tracks, const Eigen::Vector3d& or
 }
 
 /// Whole metres, so that floats hold what is relative to it.
-Eigen::Vector3d origin_of(const MapIndex& index) {
+Eigen::Vector3d origin_of_map(const MapIndex& index) {
     if (index.tiles.empty()) return Eigen::Vector3d::Zero();
     const TileSquare first = square_of(index, index.tiles.front());
     return {std::floor(first.west), std::floor(first.south), 0.0};
@@ -127,7 +127,7 @@ void write_city_report(const fs::path& out, const ordered_json& metrics, const o
         io::write_file(pages / (tile.name + ".html"),
                        shared.with(embedded(view_of_tile(index, tile, points, most), 0)));
     }
-    const Eigen::Vector3d origin = origin_of(index);
+    const Eigen::Vector3d origin = origin_of_map(index);
     overview.info["origin"] = {origin.x(), origin.y(), origin.z()};
     overview.info["heights"] = {heights.low, heights.high};
     overview.arrays.push_back(page_array("tile-picture", 1, pictures));

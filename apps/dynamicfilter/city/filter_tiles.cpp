@@ -25,7 +25,7 @@ constexpr double kGigabyte = 1e9, kMegabyte = 1e6;
 // [bytes] Measured, see docs/city.md: of a voxel with its index, its decision and its scores, of
 // the image of a keyframe per point of a scan, and of the program and the scans that are read
 // ahead.
-constexpr std::size_t kPerVoxel = 520, kPerPoint = 9, kOfProgram = 150'000'000;
+constexpr std::size_t kBytesPerVoxel = 520, kBytesPerPoint = 9, kBytesOfProgram = 150'000'000;
 
 std::size_t halo_of(const TileWork& work) {
     if (work.tile.is_whole) return 0;
@@ -38,7 +38,7 @@ std::size_t halo_of(const TileWork& work) {
 
 /// Smaller tiles help only where the tile, not the program, takes most of the memory.
 [[noreturn]] void refuse_memory(std::size_t tile, std::size_t most_voxels) {
-    const bool smaller_helps = tile > kOfProgram && most_voxels >= 2 * kFewestTileVoxels;
+    const bool smaller_helps = tile > kBytesOfProgram && most_voxels >= 2 * kFewestTileVoxels;
     throw ConfigError(fmt::format(
         "a process with the largest tile needs about {:.2f} GB, which is more than --memory "
         "allows; give more{}",
@@ -54,11 +54,11 @@ std::size_t memory_of(const TileWork& work, const Plan& plan, const Config& conf
     std::size_t points = 0;
     for (const PlannedDrive& drive : plan.drives) points = std::max(points, drive.most_points);
     const auto images = static_cast<std::size_t>(config.scans.max_keyframes);
-    return kPerVoxel * (work.voxels + halo_of(work)) +
-           kPerPoint * points * std::min(work.scans.size(), images);
+    return kBytesPerVoxel * (work.voxels + halo_of(work)) +
+           kBytesPerPoint * points * std::min(work.scans.size(), images);
 }
 
-std::size_t process_memory(std::size_t tile) { return kOfProgram + tile; }
+std::size_t process_memory(std::size_t tile) { return kBytesOfProgram + tile; }
 
 std::size_t memory_limit_of(const std::string& text) {
     if (text.empty()) {
@@ -85,7 +85,8 @@ std::size_t tiles_at_a_time(const City& city, const std::vector<std::size_t>& ti
     }
     const auto threads =
         static_cast<std::size_t>(effort.threads > 0 ? effort.threads : available_threads());
-    const std::size_t fit = effort.memory > kOfProgram ? (effort.memory - kOfProgram) / largest : 0;
+    const std::size_t fit =
+        effort.memory > kBytesOfProgram ? (effort.memory - kBytesOfProgram) / largest : 0;
     if (fit == 0) refuse_memory(largest, city.plan.most_voxels);
     return std::min({threads, fit, std::max<std::size_t>(1, tiles.size())});
 }

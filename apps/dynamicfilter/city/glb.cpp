@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "draw/canvas.hpp"
+#include "little_endian.hpp"
 
 namespace dynamic_filter::app {
 
@@ -129,10 +130,6 @@ ordered_json metadata_of(std::size_t words) {
              ordered_json::array({{{"class", "voxel"}, {"properties", places}}})}};
 }
 
-void put(std::string& bytes, std::uint32_t value) {
-    for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(value >> shift & 255U);
-}
-
 std::string file_of(const Glb& glb) {
     std::string json = glb.json.dump();
     json.append((4 - json.size() % 4) % 4, ' ');
@@ -140,7 +137,7 @@ std::string file_of(const Glb& glb) {
     const std::size_t total = kHeader + 2 * kChunkHeader + json.size() + glb.data.size();
     std::string bytes = "glTF";
     bytes.reserve(total);
-    put(bytes, 2);
+    put(bytes, std::uint32_t{2});
     put(bytes, static_cast<std::uint32_t>(total));
     put(bytes, static_cast<std::uint32_t>(json.size()));
     bytes += "JSON" + json;

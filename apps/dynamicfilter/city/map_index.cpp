@@ -12,6 +12,7 @@
 
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/io/file.hpp"
+#include "json_vector.hpp"
 
 namespace fs = std::filesystem;
 
@@ -25,7 +26,7 @@ constexpr const char* kIndex = "index.json";
 constexpr int kMostLevel = 30;
 
 /// A part of the file, and where it is, for messages.
-struct Place {
+struct IndexPlace {
     const fs::path& file;
     std::string where;
 
@@ -75,11 +76,11 @@ struct Place {
     }
 };
 
-MapDrive drive_of(const ordered_json& json, const Place& place) {
+MapDrive drive_of(const ordered_json& json, const IndexPlace& place) {
     return {place.text(json, "name"), place.count(json, "scans")};
 }
 
-MapTile tile_of(const ordered_json& json, const Place& place) {
+MapTile tile_of(const ordered_json& json, const IndexPlace& place) {
     constexpr std::int64_t kFarthest = std::int64_t{1} << 40;
     MapTile tile;
     tile.name = place.text(json, "name");
@@ -104,7 +105,7 @@ MapTile tile_of(const ordered_json& json, const Place& place) {
 using Key = std::tuple<int, std::int64_t, std::int64_t>;
 
 /// A place that two tiles cover would be in every export twice.
-void refuse_overlaps(const MapIndex& index, const Place& place) {
+void refuse_overlaps(const MapIndex& index, const IndexPlace& place) {
     std::set<Key> keys;
     const bool has_whole = std::any_of(index.tiles.begin(), index.tiles.end(),
                                        [](const MapTile& tile) { return tile.is_whole; });
@@ -126,7 +127,7 @@ void refuse_overlaps(const MapIndex& index, const Place& place) {
     }
 }
 
-void check_version(const ordered_json& json, const Place& place) {
+void check_version(const ordered_json& json, const IndexPlace& place) {
     const std::int64_t version = place.whole(json, "version", 0, 1'000'000);
     if (version == kMapVersion) return;
     throw InputError(place.file, "",
@@ -134,8 +135,6 @@ void check_version(const ordered_json& json, const Place& place) {
                                  "the program that wrote it, or run again",
                                  version, kMapVersion));
 }
-
-ordered_json array_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 /// One line each, so that a map of ten thousand tiles can still be read and compared.
 template <class List, class ToJson>
@@ -192,7 +191,7 @@ MapIndex read_map_index(const fs::path& folder) {
                          "is not JSON; expected the index that a run over several recordings "
                          "writes into OUT/map");
     }
-    const Place whole{file, ""};
+    const IndexPlace whole{file, ""};
     check_version(json, whole);
     MapIndex index;
     if (!whole.at(json, "voxel_size").is_number() || !(json["voxel_size"].get<double>() > 0.0))

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 std::string full(const fs::path& path) { return fs::absolute(path).lexically_normal().string(); }
 
-Json to_json(const std::vector<DriveSource>& sources) {
+Json json_of(const std::vector<DriveSource>& sources) {
     Json json = Json::array();
     for (const DriveSource& source : sources) {
         Json one{{"recording", full(source.recording)}};
@@ -28,7 +28,7 @@ Json to_json(const std::vector<DriveSource>& sources) {
     return json;
 }
 
-Json to_json(const DataOptions& data) {
+Json json_of(const DataOptions& data) {
     Json json{{"format", data.format},
               {"pose_fix", data.pose_fix},
               {"time_unit", data.time_unit},
@@ -81,8 +81,8 @@ void write_part(const fs::path& folder, const Part& part) {
     const Json json{{"version", 1},
                     {"part", part.number.part},
                     {"parts", part.number.parts},
-                    {"drives", to_json(part.sources)},
-                    {"reading", to_json(run.data)},
+                    {"drives", json_of(part.sources)},
+                    {"reading", json_of(run.data)},
                     {"tile_voxels", run.city.tile_voxels},
                     {"maps", run.maps},
                     {"report", run.report}};

@@ -10,25 +10,25 @@ namespace dynamic_filter::app {
 
 namespace {
 
-using Json = nlohmann::json;
-constexpr const char* kMagic = "dynamicfilter-plan-1";
+using PlanJson = nlohmann::json;
+constexpr const char* kPlanMagic = "dynamicfilter-plan-1";
 
 /// Numbers as they are in memory, which is far smaller than an array of numbers.
 template <class T>
-Json blob(const std::vector<T>& values) {
+PlanJson blob(const std::vector<T>& values) {
     const auto* const first = reinterpret_cast<const std::uint8_t*>(values.data());
-    return Json::binary({first, first + values.size() * sizeof(T)});
+    return PlanJson::binary({first, first + values.size() * sizeof(T)});
 }
 
 template <class T>
-std::vector<T> from_blob(const Json& json) {
+std::vector<T> from_blob(const PlanJson& json) {
     const auto& bytes = json.get_binary();
     std::vector<T> values(bytes.size() / sizeof(T));
     if (!values.empty()) std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
     return values;
 }
 
-Json to_json(const PlannedDrive& drive) {
+PlanJson json_of(const PlannedDrive& drive) {
     std::vector<std::uint8_t> used;
     std::vector<std::uint32_t> parts, counts, counts_around;
     std::vector<double> positions;
@@ -42,19 +42,19 @@ Json to_json(const PlannedDrive& drive) {
         cells.insert(cells.end(), scan.cells.begin(), scan.cells.end());
         around.insert(around.end(), scan.around.begin(), scan.around.end());
     }
-    Json json{{"used", blob(used)},           {"parts", blob(parts)},
-              {"positions", blob(positions)}, {"counts", blob(counts)},
-              {"cells", blob(cells)},         {"counts_around", blob(counts_around)},
-              {"around", blob(around)},       {"rejected", drive.rejected},
-              {"notes", drive.notes},         {"warnings", drive.warnings},
-              {"deskew", drive.deskew},       {"most_points", drive.most_points}};
+    PlanJson json{{"used", blob(used)},           {"parts", blob(parts)},
+                  {"positions", blob(positions)}, {"counts", blob(counts)},
+                  {"cells", blob(cells)},         {"counts_around", blob(counts_around)},
+                  {"around", blob(around)},       {"rejected", drive.rejected},
+                  {"notes", drive.notes},         {"warnings", drive.warnings},
+                  {"deskew", drive.deskew},       {"most_points", drive.most_points}};
     if (drive.sweep) {
         json["sweep"] = {drive.sweep->clockwise, drive.sweep->seam, drive.sweep->duration};
     }
     return json;
 }
 
-PlannedDrive drive_of(const Json& json) {
+PlannedDrive drive_of(const PlanJson& json) {
     PlannedDrive drive{.scans = {},
                        .rejected = json.at("rejected"),
                        .notes = json.at("notes"),
@@ -63,7 +63,7 @@ PlannedDrive drive_of(const Json& json) {
                        .deskew = json.at("deskew"),
                        .sweep = {}};
     if (json.contains("sweep")) {
-        const Json& sweep = json["sweep"];
+        const PlanJson& sweep = json["sweep"];
         drive.sweep = Sweep{.clockwise = sweep[0], .seam = sweep[1], .duration = sweep[2]};
     }
     const auto used = from_blob<std::uint8_t>(json.at("used"));
@@ -90,11 +90,11 @@ PlannedDrive drive_of(const Json& json) {
 }  // namespace
 
 void write_plan(const std::filesystem::path& file, const Plan& plan, const std::string& run) {
-    Json json{{"cell", plan.cell},
-              {"most_voxels", plan.most_voxels},
-              {"warnings", plan.warnings},
-              {"drives", Json::array()}};
-    for (const PlannedDrive& drive : plan.drives) json["drives"].push_back(to_json(drive));
+    PlanJson json{{"cell", plan.cell},
+                  {"most_voxels", plan.most_voxels},
+                  {"warnings", plan.warnings},
+                  {"drives", PlanJson::array()}};
+    for (const PlannedDrive& drive : plan.drives) json["drives"].push_back(json_of(drive));
     std::vector<PlaneCell> cells;
     std::vector<std::uint64_t> counts;
     for (const auto& [cell, count] : plan.voxels) {
@@ -103,21 +103,21 @@ void write_plan(const std::filesystem::path& file, const Plan& plan, const std::
     }
     json["cells"] = blob(cells);
     json["voxels"] = blob(counts);
-    const std::vector<std::uint8_t> bytes = Json::to_cbor(json);
-    write_checked(file, kMagic, fingerprint(run), std::as_bytes(std::span(bytes)));
+    const std::vector<std::uint8_t> bytes = PlanJson::to_cbor(json);
+    write_checked(file, kPlanMagic, fingerprint(run), std::as_bytes(std::span(bytes)));
 }
 
 Plan read_plan(const std::filesystem::path& file, const std::string& run, const Config& config) {
-    const std::vector<std::byte> bytes = read_checked(file, kMagic, fingerprint(run));
+    const std::vector<std::byte> bytes = read_checked(file, kPlanMagic, fingerprint(run));
     const auto* const first = reinterpret_cast<const std::uint8_t*>(bytes.data());
-    const Json json = Json::from_cbor(first, first + bytes.size());
+    const PlanJson json = PlanJson::from_cbor(first, first + bytes.size());
     Plan plan{.cell = json.at("cell"),
               .drives = {},
               .warnings = json.at("warnings"),
               .voxels = {},
               .most_voxels = json.at("most_voxels"),
               .tiles = {}};
-    for (const Json& drive : json.at("drives")) plan.drives.push_back(drive_of(drive));
+    for (const PlanJson& drive : json.at("drives")) plan.drives.push_back(drive_of(drive));
     const auto cells = from_blob<PlaneCell>(json.at("cells"));
     const auto counts = from_blob<std::uint64_t>(json.at("voxels"));
     for (std::size_t i = 0; i < cells.size(); ++i) plan.voxels[cells[i]] = counts[i];

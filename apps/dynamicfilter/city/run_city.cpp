@@ -70,7 +70,7 @@ int stop(const std::optional<OutputFolder>& output) {
 
 /// Whom the folder of the result belongs to: only the first process holds it, the others write
 /// tiles into it.
-struct Place {
+struct ResultPlace {
     fs::path folder;
     std::optional<OutputFolder> output;
     [[nodiscard]] fs::path tiles() const {
@@ -79,7 +79,7 @@ struct Place {
 };
 
 /// Opens the folder, unless the run is complete.
-void open_output(Place& place, const City& city, const RunOptions& o) {
+void open_output(ResultPlace& place, const City& city, const RunOptions& o) {
     for (const Drive& drive : city.drives) {
         refuse_same_folder(drive.sequence.root, place.folder);
         refuse_same_folder(drive.sequence.scan_files.front().parent_path(), place.folder);
@@ -125,7 +125,7 @@ int run_city(const RunOptions& o) {
     const std::unique_ptr<Workers> workers = o.city.mpi ? mpi_workers() : alone();
     const std::vector<DriveSource> sources = expand(o.city.recordings);
     City city = open_city(sources, o);
-    Place place{.folder = o.output ? *o.output : default_output(), .output = {}};
+    ResultPlace place{.folder = o.output ? *o.output : default_output(), .output = {}};
     const bool leads = workers->rank() == 0;
     // A part is looked through again, because one of its tiles may have been damaged since.
     if (o.resume && !part && is_complete(place.folder, state_of_output(city, o))) {

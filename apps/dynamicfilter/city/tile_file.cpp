@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 
 // The file: the first line, packed blocks, the index as JSON, and the last line, which says where
 // the index lies. Both lines end with a line feed.
-constexpr const char* kMagic = "dynamicfilter-tile-1";
+constexpr const char* kTileMagic = "dynamicfilter-tile-1";
 constexpr std::size_t kLastLine = 64;  // bytes
 
 /// Bits 0-1: final, 2-3: instant, 4: stays.
@@ -37,7 +37,7 @@ PointVerdict verdict_of(std::byte byte) {
             .stays = (code >> 4 & 1U) != 0};
 }
 
-Json to_json(const eval::ScoreSums& sums) {
+Json json_of(const eval::ScoreSums& sums) {
     Json voxel = Json::object();
     for (const auto& [reading, t] : sums.voxel) {
         voxel[reading] = {t.static_total, t.static_kept, t.dynamic_total, t.dynamic_kept};
@@ -68,12 +68,12 @@ eval::ScoreSums sums_of(const Json& json) {
     return sums;
 }
 
-Json to_json(const TileSummary& s) {
+Json json_of(const TileSummary& s) {
     Json drives = Json::array();
     for (const DriveCounts& drive : s.drives) {
         drives.push_back({{"drive", drive.drive},
-                          {"final", to_json(drive.final)},
-                          {"instant", to_json(drive.instant)}});
+                          {"final", json_of(drive.final)},
+                          {"instant", json_of(drive.instant)}});
     }
     return {{"level", s.tile.level},
             {"x", s.tile.x},
@@ -109,7 +109,7 @@ TileSummary summary_of(const Json& json) {
     return s;
 }
 
-[[noreturn]] void refuse_damaged(const std::filesystem::path& file) {
+[[noreturn]] void refuse_damaged_tile(const std::filesystem::path& file) {
     throw InputError(file, "", "is damaged; remove it, and start again with --resume");
 }
 
@@ -119,12 +119,12 @@ std::string read_at(const std::filesystem::path& file, std::uint64_t offset, std
     std::string bytes(size, '\0');
     in.seekg(static_cast<std::streamoff>(offset));
     in.read(bytes.data(), static_cast<std::streamsize>(size));
-    if (static_cast<std::size_t>(in.gcount()) != size) refuse_damaged(file);
+    if (static_cast<std::size_t>(in.gcount()) != size) refuse_damaged_tile(file);
     return bytes;
 }
 
 std::string first_line(const std::string& run) {
-    return std::string(kMagic) + " " + fingerprint(run) + "\n";
+    return std::string(kTileMagic) + " " + fingerprint(run) + "\n";
 }
 
 std::string last_line(std::uint64_t offset, std::string_view index) {
@@ -137,10 +137,10 @@ std::string last_line(std::uint64_t offset, std::string_view index) {
 Json read_index(const std::filesystem::path& file, const std::string& run) {
     const std::string first = first_line(run);
     const std::uint64_t size = std::filesystem::file_size(file);
-    if (size < first.size() + kLastLine) refuse_damaged(file);
+    if (size < first.size() + kLastLine) refuse_damaged_tile(file);
     const std::string begin = read_at(file, 0, first.size());
-    if (!begin.starts_with(std::string(kMagic) + " ")) {
-        throw InputError(file, "line 1", fmt::format("expected \"{} ...\"", kMagic));
+    if (!begin.starts_with(std::string(kTileMagic) + " ")) {
+        throw InputError(file, "line 1", fmt::format("expected \"{} ...\"", kTileMagic));
     }
     if (begin != first) {
         throw ConfigError(file.string() +
@@ -150,10 +150,10 @@ Json read_index(const std::filesystem::path& file, const std::string& run) {
     unsigned long long offset = 0, bytes = 0;
     if (std::sscanf(end.c_str(), "index %llu %llu", &offset, &bytes) != 2 ||
         offset + bytes + kLastLine != size) {
-        refuse_damaged(file);
+        refuse_damaged_tile(file);
     }
     const std::string index = read_at(file, offset, bytes);
-    if (last_line(offset, index) != end) refuse_damaged(file);
+    if (last_line(offset, index) != end) refuse_damaged_tile(file);
     return Json::parse(index);
 }
 
@@ -179,7 +179,7 @@ void TileWriter::add(const ScanOfDrive& scan, const PointVerdicts& verdicts) {
 }
 
 void TileWriter::commit(const TileSummary& summary) {
-    Json json = to_json(summary);
+    Json json = json_of(summary);
     Json& scans = json["scans"] = Json::array();
     for (const Block& b : blocks_) {
         scans.push_back({b.scan.drive, b.scan.scan, b.points, b.offset, b.bytes, b.crc});
@@ -202,7 +202,7 @@ TileReader::TileReader(std::filesystem::path file, const std::string& run)
 
 std::string TileReader::packed_bytes_of(const Block& block) const {
     std::string bytes = read_at(path_, block.offset, block.bytes);
-    if (crc_of(std::as_bytes(std::span(bytes))) != block.crc) refuse_damaged(path_);
+    if (crc_of(std::as_bytes(std::span(bytes))) != block.crc) refuse_damaged_tile(path_);
     return bytes;
 }
 
@@ -222,7 +222,7 @@ void TileReader::check_all() const {
     for (const auto& [scan, block] : blocks_) (void)packed_bytes_of(block);
     if (summary_.map_mark.empty()) return;
     const std::filesystem::path map = path_.parent_path() / tile_map_file(summary_.tile);
-    if (file_mark_of(map) != summary_.map_mark) refuse_damaged(map);
+    if (file_mark_of(map) != summary_.map_mark) refuse_damaged_tile(map);
 }
 
 std::string file_mark_of(const std::filesystem::path& file) {

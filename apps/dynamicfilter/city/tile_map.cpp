@@ -1,21 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "city/tile_map.hpp"
 
-#include <span>
-
 #include "dynamic_filter/geometry/voxel.hpp"
+#include "little_endian.hpp"
 
 namespace dynamic_filter::app {
-
-namespace {
-
-template <class T>
-void put(std::vector<std::byte>& data, const T& value) {
-    const auto bytes = std::as_bytes(std::span(&value, 1));
-    data.insert(data.end(), bytes.begin(), bytes.end());
-}
-
-}  // namespace
 
 void Sightings::make_room(std::uint32_t voxel) {
     if (voxel < counts_.size()) return;

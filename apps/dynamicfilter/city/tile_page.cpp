@@ -6,7 +6,9 @@
 #include <bit>
 #include <cmath>
 #include <numeric>
-#include <random>
+#include <utility>
+
+#include "view/sampling.hpp"
 
 namespace dynamic_filter::app {
 
@@ -15,17 +17,17 @@ namespace {
 using nlohmann::ordered_json;
 
 /// In units of level 0, so that tiles of all levels compare exactly.
-struct Square {
+struct GridSquare {
     std::int64_t west, south, east, north;
 };
 
-Square units_of(const MapTile& tile) {
+GridSquare units_of(const MapTile& tile) {
     const std::int64_t side = std::int64_t{1} << tile.level;
     return {tile.x * side, tile.y * side, (tile.x + 1) * side, (tile.y + 1) * side};
 }
 
 /// Where `other` touches the side of `tile`: "" if it does not.
-std::string direction_of(const Square& tile, const Square& other) {
+std::string direction_of(const GridSquare& tile, const GridSquare& other) {
     const bool beside = other.south < tile.north && other.north > tile.south;
     const bool above = other.west < tile.east && other.east > tile.west;
     if (beside && other.west == tile.east) return "east";
@@ -36,7 +38,7 @@ std::string direction_of(const Square& tile, const Square& other) {
 
 ordered_json neighbours_of(const MapIndex& index, const MapTile& tile) {
     ordered_json list = ordered_json::array();
-    const Square square = units_of(tile);
+    const GridSquare square = units_of(tile);
     for (const MapTile& other : index.tiles) {
         const std::string direction = direction_of(square, units_of(other));
         if (!direction.empty()) list.push_back({{"name", other.name}, {"where", direction}});
@@ -55,15 +57,6 @@ TilePoints shown_of(const TilePoints& points, double voxel_size, std::size_t mos
         shown = thinned(points, spacing);
     spacing /= kGrowth;
     return shown;
-}
-
-/// So that every beginning of the cloud is a fair sample of it.
-std::vector<std::size_t> shuffled(std::size_t size) {
-    std::vector<std::size_t> order(size);
-    std::iota(order.begin(), order.end(), 0U);
-    std::mt19937 random(1);
-    for (std::size_t i = size; i > 1; --i) std::swap(order[i - 1], order[random() % i]);
-    return order;
 }
 
 /// Of the greatest but for a hundredth: a few voxels beside a standing sensor are seen far more
@@ -175,7 +168,9 @@ PageRun view_of_tile(const MapIndex& index, const MapTile& tile, const TilePoint
     run.info["spacing"] = spacing;
     run.info["scores"] = nullptr;
     run.info["tile"] = facts_of(index, tile, points);
-    const std::vector<std::size_t> order = shuffled(shown.size());
+    std::vector<std::size_t> order(shown.size());
+    std::iota(order.begin(), order.end(), 0U);
+    order = shuffled(std::move(order));
     add_positions(shown, order, index.voxel_size, run);
     add_values(shown, order, index.drives.size(), run);
     return run;

@@ -10,12 +10,12 @@ namespace dynamic_filter::app {
 
 namespace {
 
-using Tiles = std::vector<const MapTile*>;
-using Squares = std::map<std::pair<std::int64_t, std::int64_t>, Tiles>;
+using TileList = std::vector<const MapTile*>;
+using TilesBySquare = std::map<std::pair<std::int64_t, std::int64_t>, TileList>;
 
 /// By the square of a level that each tile lies in.
-Squares squares_of(const Tiles& tiles, int level) {
-    Squares squares;
+TilesBySquare squares_of(const TileList& tiles, int level) {
+    TilesBySquare squares;
     for (const MapTile* tile : tiles) {
         const int up = level - tile->level;
         squares[{tile->y >> up, tile->x >> up}].push_back(tile);
@@ -23,15 +23,15 @@ Squares squares_of(const Tiles& tiles, int level) {
     return squares;
 }
 
-TreeNode node_of(const Tiles& tiles, int level);
+TreeNode node_of(const TileList& tiles, int level);
 
-std::vector<TreeNode> nodes_of(const Squares& squares, int level) {
+std::vector<TreeNode> nodes_of(const TilesBySquare& squares, int level) {
     std::vector<TreeNode> nodes;
     for (const auto& [square, tiles] : squares) nodes.push_back(node_of(tiles, level));
     return nodes;
 }
 
-TreeNode node_of(const Tiles& tiles, int level) {
+TreeNode node_of(const TileList& tiles, int level) {
     const MapTile& first = *tiles.front();
     if (tiles.size() == 1) return {first.name, first.level, &first, {}};
     std::vector<TreeNode> children = nodes_of(squares_of(tiles, level - 1), level - 1);
@@ -42,7 +42,7 @@ TreeNode node_of(const Tiles& tiles, int level) {
 
 /// Two squares in a row and in a column at most: what is around the origin never has a square of
 /// its own, as x = -1 and x = 0 are in different squares of every level.
-bool are_close(const Squares& squares) {
+bool are_close(const TilesBySquare& squares) {
     const auto y = std::minmax_element(
         squares.begin(), squares.end(),
         [](const auto& a, const auto& b) { return a.first.first < b.first.first; });
@@ -57,7 +57,7 @@ bool are_close(const Squares& squares) {
 
 TreeNode tree_of(const MapIndex& index, const std::filesystem::path& folder) {
     if (index.tiles.empty()) throw InputError(folder / "index.json", "", "lists no tiles");
-    Tiles tiles;
+    TileList tiles;
     int level = 0;
     for (const MapTile& tile : index.tiles) {
         tiles.push_back(&tile);

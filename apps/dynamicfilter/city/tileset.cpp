@@ -47,7 +47,7 @@ struct Done {
     TilePoints above;
 };
 
-ordered_json box_of(const Eigen::AlignedBox3d& box) {
+ordered_json bounding_volume(const Eigen::AlignedBox3d& box) {
     const Eigen::Vector3d c = box.center(), half = box.sizes() / 2.0;
     return {{"box", {c.x(), c.y(), c.z(), half.x(), 0, 0, 0, half.y(), 0, 0, 0, half.z()}}};
 }
@@ -78,7 +78,7 @@ Done write_above(Writer& writer, const TreeNode& node, std::vector<Done> below,
         done.box.extend(child.box);
         children.push_back(std::move(child.json));
     }
-    done.json = {{"boundingVolume", box_of(done.box)},
+    done.json = {{"boundingVolume", bounding_volume(done.box)},
                  {"geometricError", side_at(writer, node.level) / kErrorsPerSide}};
     write_content(writer, node.name, points, done.box, done.json);
     done.json["children"] = std::move(children);
@@ -92,21 +92,22 @@ Done write_whole(Writer& writer, const std::string& name, const TilePoints& poin
     Done done;
     for (const Eigen::Vector3d& position : points.positions) done.box.extend(position);
     done.box = {done.box.min() - half, done.box.max() + half};
-    done.json = {{"boundingVolume", box_of(done.box)}, {"geometricError", 0}};
+    done.json = {{"boundingVolume", bounding_volume(done.box)}, {"geometricError", 0}};
     write_content(writer, name, points, done.box, done.json);
     done.above = thinned(points, spacing_above);
     return done;
 }
 
 /// A square of the quadtree, and the voxels in it.
-struct Square {
+struct TreeSquare {
     std::int64_t x = 0, y = 0;
     TilePoints points;
 };
 
 /// By the squares of this side. `parent`: the square that all lie in; voxels on its border count as
 /// within, so that no file has the name of another tile's.
-std::vector<Square> squares_of(const TilePoints& points, double side, const Square* parent) {
+std::vector<TreeSquare> squares_of(const TilePoints& points, double side,
+                                   const TreeSquare* parent) {
     std::map<std::pair<std::int64_t, std::int64_t>, TilePoints> squares;
     for (std::size_t i = 0; i < points.size(); ++i) {
         std::int64_t x = std::llround(std::floor(points.positions[i].x() / side));
@@ -119,19 +120,19 @@ std::vector<Square> squares_of(const TilePoints& points, double side, const Squa
         square.words = points.words;
         square.append(points, i);
     }
-    std::vector<Square> result;
+    std::vector<TreeSquare> result;
     for (auto& [at, square] : squares) result.push_back({at.second, at.first, std::move(square)});
     return result;
 }
 
 /// A tile, or a part of one that has more voxels than a viewer takes at once.
-Done write_square(Writer& writer, int level, const Square& square, double spacing_above) {
+Done write_square(Writer& writer, int level, const TreeSquare& square, double spacing_above) {
     const std::string name = tile_name(level, square.x, square.y);
     if (level == 0 || square.points.size() <= kMostTogether)
         return write_whole(writer, name, square.points, spacing_above);
     std::vector<Done> parts;
     const double half = side_at(writer, level - 1);
-    for (const Square& quarter : squares_of(square.points, half, &square))
+    for (const TreeSquare& quarter : squares_of(square.points, half, &square))
         parts.push_back(write_square(writer, level - 1, quarter, spacing_of(writer, level)));
     if (parts.size() == 1) {
         parts.front().above = thinned(parts.front().above, spacing_above);
@@ -147,7 +148,7 @@ Done write_everything(Writer& writer, const MapTile& tile, const TreeNode& node)
     int level = 0;
     while (side_at(writer, level) < extent) ++level;
     std::vector<Done> parts;
-    for (const Square& square : squares_of(points, side_at(writer, level), nullptr))
+    for (const TreeSquare& square : squares_of(points, side_at(writer, level), nullptr))
         parts.push_back(write_square(writer, level, square, spacing_of(writer, level + 1)));
     if (parts.size() == 1) return std::move(parts.front());
     return write_above(writer, {node.name, level + 1, nullptr, {}}, std::move(parts),

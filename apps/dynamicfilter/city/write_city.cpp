@@ -261,7 +261,7 @@ Json metrics_of_all(const City& city, const CitySummary& summary) {
     return {{"drives", drives}};
 }
 
-int code_of(const City& city, const CitySummary& summary) {
+int exit_code_of(const City& city, const CitySummary& summary) {
     bool all = true;
     for (std::size_t d = 0; d < city.drives.size(); ++d) {
         for (const std::string& line : summary.drives[d].rejected) {
@@ -338,7 +338,7 @@ int conclude(const City& city, const TileFolders& folders, bool owns, const RunO
     if (!o.output && !link_latest(output.name())) {
         fmt::print(stderr, "note: no link results/latest\n");
     }
-    return code_of(city, summary);
+    return exit_code_of(city, summary);
 }
 
 }  // namespace dynamic_filter::app

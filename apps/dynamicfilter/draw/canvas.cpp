@@ -10,7 +10,7 @@ namespace dynamic_filter::app {
 namespace {
 
 constexpr int kFine = 2;
-constexpr float kFar = std::numeric_limits<float>::infinity();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 }  // namespace
 
@@ -69,7 +69,7 @@ Canvas::Canvas(int width, int height, const Camera& camera)
     : width_(kFine * width),
       height_(kFine * height),
       camera_(camera),
-      depth_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), kFar),
+      depth_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), kInfinity),
       colors_(depth_.size()) {}
 
 void Canvas::draw(const Points& points, float size,
@@ -129,7 +129,7 @@ io::Image Canvas::picture(const io::Color& background) const {
                 const int u = x + k % kFine, v = y + k / kFine;
                 const auto at = static_cast<std::size_t>(v) * static_cast<std::size_t>(width_) +
                                 static_cast<std::size_t>(u);
-                const bool empty = depth_[at] == kFar;
+                const bool empty = depth_[at] == kInfinity;
                 const float light = empty ? 1.0F : shade(u, v);
                 const io::Color& color = empty ? background : colors_[at];
                 for (std::size_t c = 0; c < 3; ++c) sum[c] += light * color[c];

@@ -17,7 +17,7 @@ namespace dynamic_filter::app {
 
 namespace {
 
-constexpr io::Color kPaper{250, 250, 250}, kDim{222, 226, 230}, kKept{105, 115, 125};
+constexpr io::Color kPaper{250, 250, 250}, kDim{222, 226, 230}, kKeptColor{105, 115, 125};
 
 /// A scan thinned at random, and where its points are in the picture's frame.
 struct Sample {
@@ -93,7 +93,7 @@ io::Image draw_scan(const Stage& stage, const Sample& sample, const Labels& labe
     };
     draw(Label::dynamic, 2.0F * stage.size, kRemovedColor);
     draw(Label::unknown, stage.size, kUnknownColor);
-    draw(Label::static_, stage.size, kKept);
+    draw(Label::static_, stage.size, kKeptColor);
     for (const Points& points : kept) {
         canvas.draw(points, stage.size, [&](std::size_t) { return kDim; });
     }

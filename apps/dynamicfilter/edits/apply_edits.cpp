@@ -20,7 +20,7 @@ namespace dynamic_filter::app {
 
 namespace {
 
-constexpr const char *kStatic = "static_map.pcd", *kDynamic = "dynamic_points.pcd";
+constexpr const char *kStaticFile = "static_map.pcd", *kDynamicFile = "dynamic_points.pcd";
 constexpr const char *kKept = "unedited", *kKeeping = ".unedited";
 
 Config config_of(const fs::path& run) {
@@ -45,7 +45,7 @@ void keep_unedited(const fs::path& run) {
             if (entry.path().extension() != ".label") continue;
             link_or_copy(entry.path(), run / kKeeping / entry.path().filename());
         }
-        for (const char* map : {kStatic, kDynamic}) {
+        for (const char* map : {kStaticFile, kDynamicFile}) {
             link_or_copy(run / map, run / kKeeping / map);
         }
         io::sync_folder(run / kKeeping);
@@ -120,11 +120,11 @@ void append(std::vector<std::byte>& to, std::span<const std::byte> record) {
 }
 
 Applied rewrite(const fs::path& run, const EditLookup& lookup, bool keep_unknown) {
-    MapRecords still(run, kStatic), dynamic(run, kDynamic);
+    MapRecords still(run, kStaticFile), dynamic(run, kDynamicFile);
     const std::vector<Gaps> gaps = read_gaps(run);
     const io::Cloud& layout = still.cloud();
-    io::PcdWriter new_still(run / kStatic, layout.fields, layout.point_bytes),
-        new_dynamic(run / kDynamic, layout.fields, layout.point_bytes);
+    io::PcdWriter new_still(run / kStaticFile, layout.fields, layout.point_bytes),
+        new_dynamic(run / kDynamicFile, layout.fields, layout.point_bytes);
     Applied applied;
     std::vector<Labels> edited;
     std::vector<std::byte> records_still, records_dynamic;
@@ -171,7 +171,7 @@ void refuse_unless_editable(const fs::path& run) {
                          "is not the output folder of a run; make one with `dynamicfilter run DATA "
                          "-o DIR`");
     }
-    if (!fs::exists(run / kStatic) || !fs::exists(run / kDynamic)) {
+    if (!fs::exists(run / kStaticFile) || !fs::exists(run / kDynamicFile)) {
         throw InputError(run, "",
                          "holds no static_map.pcd or no dynamic_points.pcd, which edits change; "
                          "run again with --overwrite and without --no-maps");

@@ -13,7 +13,6 @@ namespace dynamic_filter::app {
 
 namespace {
 
-using nlohmann::json;
 using nlohmann::ordered_json;
 
 constexpr const char* kFormat = "dynamicfilter edits";
@@ -24,7 +23,7 @@ constexpr std::array<const char*, 3> kNames = {"unknown", "static", "dynamic"};
 constexpr std::array<Label, 3> kLabels = {Label::unknown, Label::static_, Label::dynamic};
 
 /// What the parser knows of where it is.
-struct Place {
+struct EditsPlace {
     const std::filesystem::path& file;
     std::string where;
     [[noreturn]] void fail(const std::string& what) const {
@@ -35,14 +34,15 @@ struct Place {
     }
 };
 
-std::size_t code_of(const json& name, const Place& place) {
+std::size_t code_of(const nlohmann::json& name, const EditsPlace& place) {
     for (std::size_t code = 0; code < kNames.size(); ++code) {
         if (name == kNames[code]) return code;
     }
     place.fail("expected static, dynamic or unknown, not " + name.dump());
 }
 
-std::int64_t whole(const json& value, std::int64_t least, std::int64_t most, const Place& place) {
+std::int64_t whole(const nlohmann::json& value, std::int64_t least, std::int64_t most,
+                   const EditsPlace& place) {
     const bool fits = value.is_number_integer() &&
                       (!value.is_number_unsigned() ||
                        value.get<std::uint64_t>() <= static_cast<std::uint64_t>(INT64_MAX)) &&
@@ -54,7 +54,8 @@ std::int64_t whole(const json& value, std::int64_t least, std::int64_t most, con
     return value.get<std::int64_t>();
 }
 
-std::vector<CellRun> runs_of(const json& numbers, std::uint64_t& total, const Place& place) {
+std::vector<CellRun> runs_of(const nlohmann::json& numbers, std::uint64_t& total,
+                             const EditsPlace& place) {
     if (!numbers.is_array() || numbers.size() % 4 != 0) {
         place.fail("expected an array of x, y, z, count, x, y, z, count, ...");
     }
@@ -74,7 +75,7 @@ std::vector<CellRun> runs_of(const json& numbers, std::uint64_t& total, const Pl
     return runs;
 }
 
-Edit edit_of(const json& entry, std::uint64_t& total, const Place& place) {
+Edit edit_of(const nlohmann::json& entry, std::uint64_t& total, const EditsPlace& place) {
     if (!entry.is_object() || !entry.contains("label") || !entry.contains("cells") ||
         !entry["cells"].is_object()) {
         place.fail("expected an object with `label` and `cells`");
@@ -85,7 +86,7 @@ Edit edit_of(const json& entry, std::uint64_t& total, const Place& place) {
         edit.cells[code_of(from, place)] = runs_of(numbers, total, place);
     }
     if (entry.contains("scans")) {
-        const json& scans = entry["scans"];
+        const nlohmann::json& scans = entry["scans"];
         if (!scans.is_array() || scans.size() != 2) {
             place.fail("expected `scans` as [first, last]");
         }
@@ -102,25 +103,25 @@ Edit edit_of(const json& entry, std::uint64_t& total, const Place& place) {
 }  // namespace
 
 Edits parse_edits(const std::string& text, const std::filesystem::path& file) {
-    const Place top{file, ""};
-    const json all = json::parse(text, nullptr, false);
-    if (!all.is_object() || all.value("format", json()) != kFormat) {
+    const EditsPlace top{file, ""};
+    const nlohmann::json all = nlohmann::json::parse(text, nullptr, false);
+    if (!all.is_object() || all.value("format", nlohmann::json()) != kFormat) {
         top.fail(
             fmt::format("is damaged or no file of edits; expected JSON with \"format\": "
                         "\"{}\"",
                         kFormat));
     }
-    if (all.value("version", json()) != kVersion) {
+    if (all.value("version", nlohmann::json()) != kVersion) {
         throw InputError(file, "",
                          fmt::format("is of version {}, and this command reads version {}; use the "
                                      "dynamicfilter that wrote it (`dynamicfilter --version`)",
-                                     all.value("version", json()).dump(), kVersion));
+                                     all.value("version", nlohmann::json()).dump(), kVersion));
     }
-    const json size = all.value("cell_size", json());
+    const nlohmann::json size = all.value("cell_size", nlohmann::json());
     if (!size.is_number() || !(size.get<double>() >= 0.01 && size.get<double>() <= 100.0)) {
         top.fail("expected `cell_size` from 0.01 to 100 m");
     }
-    const json& list = all.contains("edits") ? all["edits"] : json();
+    const nlohmann::json& list = all.contains("edits") ? all["edits"] : nlohmann::json();
     if (!list.is_array()) top.fail("expected an array `edits`");
     Edits edits{size.get<double>(), {}};
     std::uint64_t total = 0;

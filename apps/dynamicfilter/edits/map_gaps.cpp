@@ -7,16 +7,9 @@
 
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/io/file.hpp"
+#include "little_endian.hpp"
 
 namespace dynamic_filter::app {
-
-namespace {
-
-void put(std::string& bytes, std::uint32_t value) {
-    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
-
-}  // namespace
 
 Gaps gaps_of(const Points& points) {
     Gaps gaps;

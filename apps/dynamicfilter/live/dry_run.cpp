@@ -38,7 +38,7 @@ double now_of_this_machine() {
         .count();
 }
 
-Seen listen(Bus& bus, const LiveConfig& config, double look) {
+Seen listen_to(Bus& bus, const LiveConfig& config, double look) {
     Seen seen;
     Intake intake(config);
     Subscriptions subscriptions(bus, config, intake);
@@ -169,7 +169,7 @@ std::vector<std::string> notes_of(const Seen& seen) {
 int dry_run(Bus& bus, const LiveConfig& config, double look) {
     app::catch_interrupts();
     fmt::print("bus      {}\n", bus.description());
-    const Seen seen = listen(bus, config, look);
+    const Seen seen = listen_to(bus, config, look);
     print_topics(seen.topics);
     print_scans(seen);
     for (const std::string& note : notes_of(seen)) fmt::print("note     {}\n", note);

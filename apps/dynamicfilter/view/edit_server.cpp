@@ -40,7 +40,7 @@ HttpAnswer text(int status, std::string words) {
             std::make_shared<const std::string>(std::move(words))};
 }
 
-HttpAnswer json(std::string words) {
+HttpAnswer json_answer(std::string words) {
     return {200, "application/json", std::make_shared<const std::string>(std::move(words))};
 }
 
@@ -78,14 +78,14 @@ HttpAnswer EditServer::answer(const HttpRequest& request) const {
     try {
         if (request.path == "/apply" && posts) {
             const Applied applied = apply_locked(run_);
-            return json(fmt::format("{{\"points\": {}, \"changed\": {}}}", applied.points,
-                                    applied.changed));
+            return json_answer(fmt::format("{{\"points\": {}, \"changed\": {}}}", applied.points,
+                                           applied.changed));
         }
         if (request.path != "/edits") return text(405, "expected POST");
         if (!posts) {
             const Edits edits = edits_of(run_);
-            return json(fmt::format("{{\"applied\": {}, \"document\": {}}}",
-                                    is_applied(run_, edits), text_of(edits)));
+            return json_answer(fmt::format("{{\"applied\": {}, \"document\": {}}}",
+                                           is_applied(run_, edits), text_of(edits)));
         }
     } catch (const std::exception& error) {
         return text(409, error.what());
@@ -93,7 +93,7 @@ HttpAnswer EditServer::answer(const HttpRequest& request) const {
     try {
         const Edits edits = parse_edits(request.body, "the page's edits");
         io::write_file(run_ / kEditsFile, text_of(edits));
-        return json("{}");
+        return json_answer("{}");
     } catch (const std::exception& error) {
         return text(400, error.what());
     }

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <utility>
 
+#include "little_endian.hpp"
 #include "sampling.hpp"
 #include "verdict_code.hpp"
 
@@ -12,20 +13,13 @@ namespace dynamic_filter::app {
 
 namespace {
 
-constexpr std::size_t kMostBytes = std::size_t{64} << 20U, kMostAtOnce = std::size_t{1} << 20U;
-constexpr double kPoints = 5000.0;                              // of a scan
+constexpr std::size_t kMostKept = std::size_t{64} << 20U, kMostAtOnce = std::size_t{1} << 20U;
+constexpr double kPointsOfScan = 5000.0;                        // of a scan
 constexpr unsigned kNoTruth = 3U << 2U, kNoInstant = 3U << 4U;  // viewer/README.md
 enum Kind : std::uint32_t { scan = 1, correction = 2 };
 
-template <class T>
-void put(std::string& bytes, const T& value) {
-    std::array<char, sizeof(T)> raw;
-    std::memcpy(raw.data(), &value, sizeof(T));
-    bytes.append(raw.data(), raw.size());
-}
-
 std::vector<std::uint32_t> chosen_of(const Points& points, std::size_t index) {
-    const double share = kPoints / static_cast<double>(points.size());
+    const double share = kPointsOfScan / static_cast<double>(points.size());
     std::vector<std::uint32_t> chosen;
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (is_sampled(index, i, share) && is_measured(points[i])) {
@@ -107,7 +101,7 @@ void LiveFeed::add(std::uint32_t kind, std::string body) {
     record += body;
     bytes_ += record.size();
     records_.push_back(std::move(record));
-    while (bytes_ > kMostBytes) {
+    while (bytes_ > kMostKept) {
         bytes_ -= records_.front().size();
         records_.pop_front();
     }

@@ -6,10 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <random>
 
 #include "dynamic_filter/geometry/pose.hpp"
 #include "frames.hpp"
+#include "json_vector.hpp"
+#include "sampling.hpp"
 #include "shown.hpp"
 
 namespace dynamic_filter::app {
@@ -55,13 +56,6 @@ auto column(const std::vector<ShownPoint>& cloud, const Get& get) {
     values.reserve(cloud.size());
     for (const ShownPoint& p : cloud) values.push_back(get(p));
     return values;
-}
-
-/// So that every beginning of the cloud is a fair sample of it.
-std::vector<ShownPoint> shuffled(std::vector<ShownPoint> cloud) {
-    std::mt19937 random(1);
-    for (std::size_t i = cloud.size(); i > 1; --i) std::swap(cloud[i - 1], cloud[random() % i]);
-    return cloud;
 }
 
 std::vector<std::uint8_t> scaled_intensity(const std::vector<ShownPoint>& cloud) {
@@ -162,8 +156,6 @@ void add_path(const ViewInput& in, const Shown& shown, const Origin& origin, Pag
     run.arrays.push_back(page_array("path-counts", 4, counts));
     if (in.sequence.has_truth()) run.arrays.push_back(page_array("path-scores", 8, scores));
 }
-
-ordered_json array_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 void add_geometry(const Steps& steps, const Origin& origin, PageRun& run) {
     run.info["origin"] = array_of(origin);

@@ -3,6 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <random>
+#include <utility>
+#include <vector>
 
 namespace dynamic_filter::app {
 
@@ -12,6 +15,14 @@ inline bool is_sampled(std::size_t scan, std::size_t point, double share) {
     x = (x ^ (x >> 30U)) * 0xBF58476D1CE4E5B9ULL;
     x = (x ^ (x >> 27U)) * 0x94D049BB133111EBULL;
     return static_cast<double>(x >> 32U) < share * 4294967296.0;
+}
+
+/// So that every beginning of a cloud is a fair sample of it.
+template <class T>
+std::vector<T> shuffled(std::vector<T> items) {
+    std::mt19937 random(1);
+    for (std::size_t i = items.size(); i > 1; --i) std::swap(items[i - 1], items[random() % i]);
+    return items;
 }
 
 }  // namespace dynamic_filter::app

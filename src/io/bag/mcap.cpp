@@ -2,31 +2,27 @@
 // Format: https://mcap.dev/spec. The index at the end is not needed, so files that were never
 // closed can be read. If there is an index, it helps where a chunk is damaged.
 #include <fmt/format.h>
-#include <zlib.h>
 
-#include <array>
 #include <map>
 #include <set>
 
 #include "dynamic_filter/error.hpp"
 #include "io/bag/chunked_file.hpp"
 #include "io/bag/decompress.hpp"
+#include "io/bag/mcap_format.hpp"
 #include "io/byte_reader.hpp"
 
 namespace dynamic_filter::io {
 namespace {
 
-enum Opcode : std::uint8_t { kFooter = 0x02, kSchema, kChannel, kMessage, kChunk };
-
-constexpr std::array<unsigned char, 8> kMagic = {0x89, 'M', 'C', 'A', 'P', '0', '\r', '\n'};
 constexpr std::size_t kRecordHead = 9;  // opcode and length
 
-struct Record {
-    std::uint8_t opcode = 0;
+struct McapRecord {
+    McapOpcode opcode{};
     std::span<const std::byte> content;
 };
-Record take_record(ByteReader& in) {
-    const auto opcode = in.number<std::uint8_t>();
+McapRecord take_mcap_record(ByteReader& in) {
+    const auto opcode = static_cast<McapOpcode>(in.number<std::uint8_t>());
     return {opcode, in.take(in.number<std::uint64_t>())};
 }
 
@@ -49,16 +45,17 @@ ChunkRecord parse_chunk(std::span<const std::byte> content) {
 }
 
 /// Collects the schemas and channels, and the messages on usable channels.
-class Reader {
+class McapReader {
 public:
-    Reader(const UseMessage& use, std::vector<Defect>& defects) : use_(use), defects_(defects) {}
+    McapReader(const UseMessage& use, std::vector<Defect>& defects)
+        : use_(use), defects_(defects) {}
 
-    void take(const Record& record, std::uint64_t chunk, std::uint64_t offset) {
+    void take(const McapRecord& record, std::uint64_t chunk, std::uint64_t offset) {
         try {
             ByteReader in(record.content);
-            if (record.opcode == kSchema) take_schema(in);
-            if (record.opcode == kChannel) take_channel(in);
-            if (record.opcode == kMessage) take_message(in, chunk, offset);
+            if (record.opcode == McapOpcode::schema) take_schema(in);
+            if (record.opcode == McapOpcode::channel) take_channel(in);
+            if (record.opcode == McapOpcode::message) take_message(in, chunk, offset);
         } catch (const Malformed& error) {
             defects_.push_back({fmt::format("a record at byte {}: {}", offset, error.what())});
         }
@@ -110,18 +107,18 @@ private:
 class Mcap final : public ChunkedFile {
 public:
     explicit Mcap(const std::filesystem::path& path) : ChunkedFile(path) {
-        const auto head = file().size() < kMagic.size() ? std::vector<std::byte>{}
-                                                        : file().read(0, kMagic.size());
-        if (head.empty() || std::memcmp(head.data(), kMagic.data(), kMagic.size()) != 0) {
+        const auto head = file().size() < kMcapMagic.size() ? std::vector<std::byte>{}
+                                                            : file().read(0, kMcapMagic.size());
+        if (as_text(head) != kMcapMagic) {
             throw InputError(path, "byte 0", "is no MCAP file: its first eight bytes differ");
         }
     }
 
     std::vector<Defect> for_each(const UseMessage& use) const override {
         std::vector<Defect> defects;
-        Reader reader(use, defects);
+        McapReader reader(use, defects);
         take_summary(reader);
-        std::uint64_t at = kMagic.size();
+        std::uint64_t at = kMcapMagic.size();
         while (true) {
             if (file().size() - at < kRecordHead) {
                 const bool cut_off = at != file().size();
@@ -130,17 +127,17 @@ public:
                 break;
             }
             const auto head = file().read(at, kRecordHead);
-            const auto opcode = std::to_integer<std::uint8_t>(head[0]);
+            const auto opcode = static_cast<McapOpcode>(head[0]);
             const auto length = little_endian<std::uint64_t>(head.data() + 1);
             const std::uint64_t there = file().size() - at - kRecordHead;
-            if (opcode == kFooter) break;
-            const bool wanted = opcode >= kSchema && opcode <= kChunk;
+            if (opcode == McapOpcode::footer) break;
+            const bool wanted = opcode >= McapOpcode::schema && opcode <= McapOpcode::chunk;
             if (length > there)
                 defects.push_back({fmt::format("the record at byte {} is cut off", at)});
-            if (length > there && opcode != kChunk) break;
+            if (length > there && opcode != McapOpcode::chunk) break;
             if (wanted) {
                 const auto content = file().read(at + kRecordHead, std::min(length, there));
-                if (opcode == kChunk) {
+                if (opcode == McapOpcode::chunk) {
                     take_chunk(content, at, reader, defects);
                 } else {
                     reader.take({opcode, content}, kNoChunk, at);
@@ -158,7 +155,7 @@ private:
                                       std::uint64_t offset) const override {
         constexpr std::size_t kBeforeData = 22;
         ByteReader record(bytes, static_cast<std::size_t>(offset));
-        ByteReader in(take_record(record).content);
+        ByteReader in(take_mcap_record(record).content);
         in.take(kBeforeData);
         const auto data = in.take(in.left());
         return {data.begin(), data.end()};
@@ -178,32 +175,33 @@ private:
 
     /// Reads schemas and channels from the summary, which repeats them; so those of damaged chunks
     /// are known, too.
-    void take_summary(Reader& reader) const {
+    void take_summary(McapReader& reader) const {
         constexpr std::uint64_t kFooterBytes = kRecordHead + 20, kCrcBytes = 4;
-        constexpr std::uint64_t kEnd = kFooterBytes + kMagic.size();
+        constexpr std::uint64_t kEnd = kFooterBytes + kMcapMagic.size();
         // Limit, because the summary is optional.
         constexpr std::uint64_t kMost = std::uint64_t{64} << 20U;
-        if (file().size() < kMagic.size() + kEnd) return;
+        if (file().size() < kMcapMagic.size() + kEnd) return;
         const std::uint64_t end = file().size() - kEnd;
         const auto footer = file().read(end, kFooterBytes);
         const auto start = little_endian<std::uint64_t>(footer.data() + kRecordHead);
         const auto crc = little_endian<std::uint32_t>(footer.data() + kFooterBytes - kCrcBytes);
-        if (std::to_integer<std::uint8_t>(footer[0]) != kFooter) return;
+        if (static_cast<McapOpcode>(footer[0]) != McapOpcode::footer) return;
         if (start == 0 || start >= end || end - start > kMost) return;
         const auto bytes = file().read(start, end + kFooterBytes - kCrcBytes - start);
-        if (crc != 0 && crc_of(bytes) != crc) return;
+        if (crc != 0 && mcap_crc(bytes) != crc) return;
         try {
             ByteReader in({bytes.data(), end - start});
             while (in.left() > 0) {
-                const Record record = take_record(in);
-                const bool wanted = record.opcode == kSchema || record.opcode == kChannel;
+                const McapRecord record = take_mcap_record(in);
+                const bool wanted =
+                    record.opcode == McapOpcode::schema || record.opcode == McapOpcode::channel;
                 if (wanted) reader.take(record, kNoChunk, start);
             }
         } catch (const Malformed&) {
         }
     }
 
-    static void take_chunk(std::span<const std::byte> content, std::uint64_t at, Reader& reader,
+    static void take_chunk(std::span<const std::byte> content, std::uint64_t at, McapReader& reader,
                            std::vector<Defect>& defects) {
         const auto note = [&](const std::string& what) {
             defects.push_back({fmt::format("the chunk at byte {} {}", at, what)});
@@ -214,14 +212,14 @@ private:
             if (!inner.complete) {
                 note(fmt::format("should hold {} bytes, but gave only {}", chunk.size,
                                  inner.bytes.size()));
-            } else if (chunk.crc != 0 && crc_of(inner.bytes) != chunk.crc) {
+            } else if (chunk.crc != 0 && mcap_crc(inner.bytes) != chunk.crc) {
                 return note("is damaged (its checksum differs) and was left out");
             }
             ByteReader in(inner.bytes);
             while (in.left() > 0) {
                 const std::size_t offset = in.at();
-                const Record record = take_record(in);
-                if (record.opcode == kChunk) {
+                const McapRecord record = take_mcap_record(in);
+                if (record.opcode == McapOpcode::chunk) {
                     note("holds another chunk, which is left out: chunks do not nest");
                 } else {
                     reader.take(record, at, offset);
@@ -230,11 +228,6 @@ private:
         } catch (const Malformed& error) {
             note(error.what());
         }
-    }
-
-    static std::uint32_t crc_of(std::span<const std::byte> bytes) {
-        return static_cast<std::uint32_t>(
-            crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
     }
 };
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Format: https://mcap.dev/spec, with the entries that the player of ROS 2 needs.
 #include <fmt/format.h>
-#include <zlib.h>
 #include <zstd.h>
 
 #include <algorithm>
@@ -10,35 +9,16 @@
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/io/file.hpp"
 #include "io/bag/bag_writers.hpp"
+#include "io/bag/mcap_format.hpp"
 #include "io/byte_writer.hpp"
 #include "io/ros/definitions.hpp"
 
 namespace dynamic_filter::io {
 namespace {
 
-enum Opcode : std::uint8_t {
-    kHeader = 0x01,
-    kFooter,
-    kSchema,
-    kChannel,
-    kMessage,
-    kChunk,
-    kMessageIndex,
-    kChunkIndex,
-    kStatistics = 0x0B,
-    kSummaryOffset = 0x0E,
-    kDataEnd
-};
-
-constexpr std::string_view kMagic{"\x89MCAP0\r\n", 8};
 constexpr std::string_view kCompression = "zstd";
 
-std::uint32_t crc_of(std::span<const std::byte> bytes, std::uint32_t before = 0) {
-    return static_cast<std::uint32_t>(
-        crc32_z(before, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
-}
-
-void put_record(ByteWriter& out, Opcode opcode, std::span<const std::byte> content) {
+void put_record(ByteWriter& out, McapOpcode opcode, std::span<const std::byte> content) {
     out.number(static_cast<std::uint8_t>(opcode));
     out.number(static_cast<std::uint64_t>(content.size()));
     out.raw(content);
@@ -78,13 +58,13 @@ struct Times {
     }
 };
 
-struct IndexEntry {
+struct McapIndexEntry {
     std::uint64_t time = 0, offset = 0;
 };
-struct OpenChunk {
+struct OpenMcapChunk {
     ByteWriter records;
     Times times;
-    std::map<std::uint16_t, std::vector<IndexEntry>> index;  // per channel
+    std::map<std::uint16_t, std::vector<McapIndexEntry>> index;  // per channel
 };
 
 /// File offset of the index of each channel of a chunk.
@@ -99,8 +79,8 @@ public:
         ByteWriter header;
         header.text("ros2");
         header.text("dynamic_filter");
-        put(as_byte_span(kMagic));
-        put_record(kHeader, header.bytes);
+        put(as_byte_span(kMcapMagic));
+        put_record(McapOpcode::header, header.bytes);
     }
 
     [[nodiscard]] MessageEncoding encoding() const override { return MessageEncoding::cdr; }
@@ -115,7 +95,7 @@ public:
         chunk_.index[channel].push_back({time, out.bytes.size()});
         chunk_.times.add(time);
         constexpr std::size_t kBeforeData = 22;
-        out.number(static_cast<std::uint8_t>(kMessage));
+        out.number(static_cast<std::uint8_t>(McapOpcode::message));
         out.number(static_cast<std::uint64_t>(kBeforeData + data.size()));
         out.number(channel);
         out.number(static_cast<std::uint32_t>(counts_[channel]++));
@@ -130,9 +110,9 @@ public:
         ByteWriter end;
         // No checksum of the whole file, because each chunk has its own.
         end.number(std::uint32_t{0});
-        put_record(kDataEnd, end.bytes);
+        put_record(McapOpcode::data_end, end.bytes);
         put_summary();
-        put(as_byte_span(kMagic));
+        put(as_byte_span(kMcapMagic));
         file_.commit();
     }
 
@@ -149,12 +129,12 @@ private:
         if (channel == UINT16_MAX) throw OutputError(path_, "has too many topics for MCAP");
         const Topic& topic = topics_.all()[channel];
         const std::uint16_t schema = schema_of(channel);
-        if (schema == channel + 1) add(kSchema, schema_record(schema, topic.type));
-        add(kChannel, channel_record(channel, schema, topic));
+        if (schema == channel + 1) add(McapOpcode::schema, schema_record(schema, topic.type));
+        add(McapOpcode::channel, channel_record(channel, schema, topic));
     }
-    void add(Opcode opcode, const std::vector<std::byte>& content) {
+    void add(McapOpcode opcode, const std::vector<std::byte>& content) {
         io::put_record(chunk_.records, opcode, content);
-        io::put_record(opcode == kSchema ? schemas_ : channels_, opcode, content);
+        io::put_record(opcode == McapOpcode::schema ? schemas_ : channels_, opcode, content);
     }
 
     void put_chunk() {
@@ -164,10 +144,10 @@ private:
         ByteWriter head;
         chunk_.times.put(head);
         head.number(static_cast<std::uint64_t>(plain.size()));
-        head.number(crc_of(plain));
+        head.number(mcap_crc(plain));
         head.text(kCompression);
         head.number(static_cast<std::uint64_t>(packed.size()));
-        put_record_head(kChunk, head.bytes.size() + packed.size());
+        put_record_head(McapOpcode::chunk, head.bytes.size() + packed.size());
         put(head.bytes);
         put(packed);
         const std::uint64_t end = at_;
@@ -183,13 +163,13 @@ private:
         for (const auto& [channel, entries] : chunk_.index) {
             offsets[channel] = at_;
             ByteWriter list, record;
-            for (const IndexEntry& entry : entries) {
+            for (const McapIndexEntry& entry : entries) {
                 list.number(entry.time);
                 list.number(entry.offset);
             }
             record.number(channel);
             record.block(list.bytes);
-            put_record(kMessageIndex, record.bytes);
+            put_record(McapOpcode::message_index, record.bytes);
         }
         return offsets;
     }
@@ -210,7 +190,7 @@ private:
         record.text(kCompression);
         record.number(static_cast<std::uint64_t>(packed_bytes));
         record.number(static_cast<std::uint64_t>(chunk_.records.bytes.size()));
-        io::put_record(chunk_indices_, kChunkIndex, record.bytes);
+        io::put_record(chunk_indices_, McapOpcode::chunk_index, record.bytes);
         ++chunks_;
     }
 
@@ -230,7 +210,7 @@ private:
         record.number(chunks_);
         times_.put(record);
         record.block(counts.bytes);
-        io::put_record(out, kStatistics, record.bytes);
+        io::put_record(out, McapOpcode::statistics, record.bytes);
         return out;
     }
     [[nodiscard]] std::uint16_t schema_count() const {
@@ -244,27 +224,27 @@ private:
     void put_summary() {
         const std::uint64_t start = at_;
         ByteWriter offsets, summary;
-        const auto add_group = [&](Opcode opcode, const ByteWriter& records) {
+        const auto add_group = [&](McapOpcode opcode, const ByteWriter& records) {
             if (records.bytes.empty()) return;
             ByteWriter offset;
             offset.number(static_cast<std::uint8_t>(opcode));
             offset.number(start + summary.bytes.size());
             offset.number(static_cast<std::uint64_t>(records.bytes.size()));
-            io::put_record(offsets, kSummaryOffset, offset.bytes);
+            io::put_record(offsets, McapOpcode::summary_offset, offset.bytes);
             summary.raw(records.bytes);
         };
-        add_group(kSchema, schemas_);
-        add_group(kChannel, channels_);
-        add_group(kStatistics, statistics());
-        add_group(kChunkIndex, chunk_indices_);
+        add_group(McapOpcode::schema, schemas_);
+        add_group(McapOpcode::channel, channels_);
+        add_group(McapOpcode::statistics, statistics());
+        add_group(McapOpcode::chunk_index, chunk_indices_);
         const std::uint64_t offsets_start = start + summary.bytes.size();
         summary.raw(offsets.bytes);
         constexpr std::uint64_t kFooterBytes = 20;
-        summary.number(static_cast<std::uint8_t>(kFooter));
+        summary.number(static_cast<std::uint8_t>(McapOpcode::footer));
         summary.number(kFooterBytes);
         summary.number(start);
         summary.number(offsets_start);
-        summary.number(crc_of(summary.bytes));
+        summary.number(mcap_crc(summary.bytes));
         put(summary.bytes);
     }
 
@@ -284,13 +264,13 @@ private:
         file_.write(bytes);
         at_ += bytes.size();
     }
-    void put_record_head(Opcode opcode, std::uint64_t length) {
+    void put_record_head(McapOpcode opcode, std::uint64_t length) {
         ByteWriter head;
         head.number(static_cast<std::uint8_t>(opcode));
         head.number(length);
         put(head.bytes);
     }
-    void put_record(Opcode opcode, std::span<const std::byte> content) {
+    void put_record(McapOpcode opcode, std::span<const std::byte> content) {
         put_record_head(opcode, content.size());
         put(content);
     }
@@ -299,7 +279,7 @@ private:
     AtomicFile file_;
     std::uint64_t at_ = 0;
     TopicTable topics_;
-    OpenChunk chunk_;
+    OpenMcapChunk chunk_;
     std::map<std::uint16_t, std::uint64_t> counts_;  // numbers of messages per channel
     ByteWriter schemas_, channels_, chunk_indices_;  // records for the summary
     std::uint32_t chunks_ = 0;

@@ -8,14 +8,12 @@
 #include "dynamic_filter/error.hpp"
 #include "io/bag/chunked_file.hpp"
 #include "io/bag/decompress.hpp"
+#include "io/bag/rosbag1_format.hpp"
 #include "io/byte_reader.hpp"
+#include "io/time_units.hpp"
 
 namespace dynamic_filter::io {
 namespace {
-
-enum Opcode : std::uint8_t { kMessage = 0x02, kBagHeader, kChunk = 0x05, kConnection = 0x07 };
-
-constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
 
 /// Header of a record: name=value fields, each with its length before it.
 class Header {
@@ -48,28 +46,32 @@ private:
     std::map<std::string_view, std::string_view> fields_;
 };
 
-struct Record {
+struct Rosbag1Record {
     Header header;
     std::span<const std::byte> data;  // the bytes of the record that the file contains
     bool whole;
+    [[nodiscard]] Rosbag1Opcode opcode() const {
+        return static_cast<Rosbag1Opcode>(header.number<std::uint8_t>("op"));
+    }
 };
-Record take_record(ByteReader& in) {
+Rosbag1Record take_rosbag1_record(ByteReader& in) {
     const auto head = in.block();
     const auto length = in.number<std::uint32_t>();
     const bool whole = length <= in.left();
     return {Header(head), in.take(whole ? length : in.left()), whole};
 }
 
-class Reader {
+class Rosbag1Reader {
 public:
-    explicit Reader(const UseMessage& use) : use_(use) {}
+    explicit Rosbag1Reader(const UseMessage& use) : use_(use) {}
 
-    void take(const Record& record, std::uint64_t chunk, std::uint64_t offset) {
+    void take(const Rosbag1Record& record, std::uint64_t chunk, std::uint64_t offset) {
         if (!record.whole) throw Malformed("is cut off");
-        const auto opcode = record.header.number<std::uint8_t>("op");
-        if (opcode == kBagHeader) index_at_ = record.header.number<std::uint64_t>("index_pos");
-        if (opcode == kConnection) take_connection(record);
-        if (opcode == kMessage) take_message(record, chunk, offset);
+        const Rosbag1Opcode opcode = record.opcode();
+        if (opcode == Rosbag1Opcode::bag_header)
+            index_at_ = record.header.number<std::uint64_t>("index_pos");
+        if (opcode == Rosbag1Opcode::connection) take_connection(record);
+        if (opcode == Rosbag1Opcode::message) take_message(record, chunk, offset);
     }
 
     /// Adds the defects that show only at the end of the file; `size` is its size.
@@ -89,20 +91,19 @@ public:
     }
 
 private:
-    void take_connection(const Record& record) {
+    void take_connection(const Rosbag1Record& record) {
         const Header connection(record.data);
         topics_.try_emplace(record.header.number<std::uint32_t>("conn"),
                             Topic{std::string(record.header.text("topic")),
                                   std::string(connection.text("type")), MessageEncoding::ros1});
     }
-    void take_message(const Record& record, std::uint64_t chunk, std::uint64_t offset) {
+    void take_message(const Rosbag1Record& record, std::uint64_t chunk, std::uint64_t offset) {
         const auto topic = topics_.find(record.header.number<std::uint32_t>("conn"));
         if (topic == topics_.end()) {
             ++unannounced_;
             return;
         }
         const auto time = record.header.number<std::uint64_t>("time");
-        constexpr std::int64_t kSecond = 1'000'000'000;
         const auto seconds = static_cast<std::int64_t>(time & 0xFFFFFFFFU);
         const auto nanoseconds = static_cast<std::int64_t>(time >> 32U);
         use_({topic->second, seconds * kSecond + nanoseconds, chunk, offset, record.data});
@@ -117,8 +118,9 @@ private:
 class Rosbag1 final : public ChunkedFile {
 public:
     explicit Rosbag1(const std::filesystem::path& path) : ChunkedFile(path) {
-        const auto head = file().read(0, std::min<std::uint64_t>(file().size(), kMagic.size()));
-        if (as_text(head) == kMagic) return;
+        const auto head =
+            file().read(0, std::min<std::uint64_t>(file().size(), kRosbag1Magic.size()));
+        if (as_text(head) == kRosbag1Magic) return;
         const bool other = as_text(head).starts_with("#ROSBAG V1");
         throw InputError(path, "byte 0",
                          other ? "is a ROS bag of version 1; convert it with `rosbag fix`"
@@ -127,14 +129,14 @@ public:
 
     std::vector<Defect> for_each(const UseMessage& use) const override {
         std::vector<Defect> defects;
-        Reader reader(use);
+        Rosbag1Reader reader(use);
         take_index(reader);
-        for (std::uint64_t at = kMagic.size(); at < file().size();) {
+        for (std::uint64_t at = kRosbag1Magic.size(); at < file().size();) {
             try {
                 const auto bytes = record_at(at);
                 ByteReader in(bytes);
-                const Record record = take_record(in);
-                if (record.header.number<std::uint8_t>("op") == kChunk) {
+                const Rosbag1Record record = take_rosbag1_record(in);
+                if (record.opcode() == Rosbag1Opcode::chunk) {
                     take_chunk(record, at, reader, defects);
                 } else {
                     reader.take(record, kNoChunk, at);
@@ -153,7 +155,7 @@ private:
     std::vector<std::byte> message_in(std::span<const std::byte> bytes,
                                       std::uint64_t offset) const override {
         ByteReader in(bytes, static_cast<std::size_t>(offset));
-        const auto data = take_record(in).data;
+        const auto data = take_rosbag1_record(in).data;
         return {data.begin(), data.end()};
     }
 
@@ -170,17 +172,17 @@ private:
 
     /// Reads the connections from the index, which repeats them; so those of damaged chunks are
     /// known, too.
-    void take_index(Reader& reader) const {
+    void take_index(Rosbag1Reader& reader) const {
         try {
-            const auto head = record_at(kMagic.size());
+            const auto head = record_at(kRosbag1Magic.size());
             ByteReader first(head);
-            const Record header = take_record(first);
+            const Rosbag1Record header = take_rosbag1_record(first);
             for (auto at = header.header.number<std::uint64_t>("index_pos");
                  at > 0 && at < file().size();) {
                 const auto bytes = record_at(at);
                 ByteReader in(bytes);
-                const Record record = take_record(in);
-                if (record.header.number<std::uint8_t>("op") != kConnection) return;
+                const Rosbag1Record record = take_rosbag1_record(in);
+                if (record.opcode() != Rosbag1Opcode::connection) return;
                 reader.take(record, kNoChunk, at);
                 at += bytes.size();
             }
@@ -188,7 +190,7 @@ private:
         }
     }
 
-    static Decompressed content_of(const Record& chunk) {
+    static Decompressed content_of(const Rosbag1Record& chunk) {
         return decompress(chunk.header.text("compression"), chunk.data,
                           chunk.header.number<std::uint32_t>("size"));
     }
@@ -196,10 +198,10 @@ private:
     std::vector<std::byte> read_chunk(std::uint64_t at) const override {
         const auto bytes = record_at(at);
         ByteReader in(bytes);
-        return content_of(take_record(in)).bytes;
+        return content_of(take_rosbag1_record(in)).bytes;
     }
 
-    static void take_chunk(const Record& chunk, std::uint64_t at, Reader& reader,
+    static void take_chunk(const Rosbag1Record& chunk, std::uint64_t at, Rosbag1Reader& reader,
                            std::vector<Defect>& defects) {
         const auto note = [&](const std::string& what) {
             defects.push_back({fmt::format("the chunk at byte {} {}", at, what)});
@@ -210,7 +212,7 @@ private:
             ByteReader in(content.bytes);
             while (in.left() > 0) {
                 const std::size_t offset = in.at();
-                reader.take(take_record(in), at, offset);
+                reader.take(take_rosbag1_record(in), at, offset);
             }
         } catch (const Malformed& error) {
             note(error.what());

@@ -10,17 +10,15 @@
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/io/file.hpp"
 #include "io/bag/bag_writers.hpp"
+#include "io/bag/rosbag1_format.hpp"
 #include "io/byte_writer.hpp"
 #include "io/ros/definitions.hpp"
+#include "io/time_units.hpp"
 
 namespace dynamic_filter::io {
 namespace {
 
-enum Opcode : std::uint8_t { kMessage = 0x02, kBagHeader, kIndex, kChunk, kChunkInfo, kConnection };
-
-constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
 constexpr std::size_t kBagHeaderBytes = 4096;
-constexpr std::int64_t kSecond = 1'000'000'000;
 
 /// Header of a record: name=value fields, each with its length before it.
 struct Fields {
@@ -38,7 +36,7 @@ struct Fields {
         return text(name, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     }
 };
-Fields fields(Opcode opcode) {
+Fields fields(Rosbag1Opcode opcode) {
     Fields head;
     head.number("op", static_cast<std::uint8_t>(opcode));
     return head;
@@ -55,14 +53,14 @@ std::uint64_t wire_time(std::int64_t time_ns) {
            static_cast<std::uint64_t>(time_ns % kSecond) << 32U;
 }
 
-struct IndexEntry {
+struct Rosbag1IndexEntry {
     std::int64_t time = 0;
     std::uint32_t offset = 0;
 };
-struct OpenChunk {
+struct OpenRosbag1Chunk {
     ByteWriter records;
     std::int64_t first = std::numeric_limits<std::int64_t>::max(), last = 0;
-    std::map<std::uint32_t, std::vector<IndexEntry>> index;  // per connection
+    std::map<std::uint32_t, std::vector<Rosbag1IndexEntry>> index;  // per connection
 };
 
 void put_connection(ByteWriter& out, std::uint32_t number, const Topic& topic) {
@@ -72,7 +70,8 @@ void put_connection(ByteWriter& out, std::uint32_t number, const Topic& topic) {
         .text("md5sum", find_definition(topic.type)->md5)
         .text("message_definition", full_definition(topic.type, MessageEncoding::ros1));
     if (is_latched(topic)) connection.text("latching", "1");
-    put_record(out, fields(kConnection).number("conn", number).text("topic", topic.name),
+    put_record(out,
+               fields(Rosbag1Opcode::connection).number("conn", number).text("topic", topic.name),
                connection.out.bytes);
 }
 
@@ -96,7 +95,7 @@ class Rosbag1Writer final : public BagWriter {
 public:
     explicit Rosbag1Writer(const std::filesystem::path& path)
         : path_(path), file_(path), topics_(path, MessageEncoding::ros1) {
-        put(as_byte_span(kMagic));
+        put(as_byte_span(kRosbag1Magic));
         put(bag_header(0).bytes);
     }
 
@@ -112,7 +111,9 @@ public:
         chunk_.first = std::min(chunk_.first, time_ns);
         chunk_.last = std::max(chunk_.last, time_ns);
         put_record(chunk_.records,
-                   fields(kMessage).number("conn", connection).number("time", wire_time(time_ns)),
+                   fields(Rosbag1Opcode::message)
+                       .number("conn", connection)
+                       .number("time", wire_time(time_ns)),
                    data);
         if (chunk_.records.bytes.size() >= kChunkBytes) put_chunk();
     }
@@ -127,7 +128,7 @@ public:
         put(connections.bytes);
         put(chunk_infos_.bytes);
         const ByteWriter header = bag_header(index_at);
-        file_.rewrite(kMagic.size(),
+        file_.rewrite(kRosbag1Magic.size(),
                       {reinterpret_cast<const char*>(header.bytes.data()), header.bytes.size()});
         file_.commit();
     }
@@ -149,7 +150,7 @@ private:
 
     [[nodiscard]] ByteWriter bag_header(std::uint64_t index_at) const {
         const Fields head =
-            fields(kBagHeader)
+            fields(Rosbag1Opcode::bag_header)
                 .number("index_pos", index_at)
                 .number("conn_count", static_cast<std::uint32_t>(topics_.all().size()))
                 .number("chunk_count", chunks_);
@@ -165,7 +166,7 @@ private:
         const std::vector<std::byte> packed = lz4_frame(plain, path_);
         const std::uint64_t begin = at_;
         ByteWriter out;
-        out.block(fields(kChunk)
+        out.block(fields(Rosbag1Opcode::chunk)
                       .text("compression", "lz4")
                       .number("size", static_cast<std::uint32_t>(plain.size()))
                       .out.bytes);
@@ -181,12 +182,12 @@ private:
         ByteWriter out;
         for (const auto& [connection, entries] : chunk_.index) {
             ByteWriter list;
-            for (const IndexEntry& entry : entries) {
+            for (const Rosbag1IndexEntry& entry : entries) {
                 list.number(wire_time(entry.time));
                 list.number(entry.offset);
             }
             put_record(out,
-                       fields(kIndex)
+                       fields(Rosbag1Opcode::index)
                            .number("ver", std::uint32_t{1})
                            .number("conn", connection)
                            .number("count", static_cast<std::uint32_t>(entries.size())),
@@ -202,7 +203,7 @@ private:
             counts.number(static_cast<std::uint32_t>(entries.size()));
         }
         put_record(chunk_infos_,
-                   fields(kChunkInfo)
+                   fields(Rosbag1Opcode::chunk_info)
                        .number("ver", std::uint32_t{1})
                        .number("chunk_pos", chunk_at)
                        .number("start_time", wire_time(chunk_.first))
@@ -221,7 +222,7 @@ private:
     AtomicFile file_;
     std::uint64_t at_ = 0;
     TopicTable topics_;
-    OpenChunk chunk_;
+    OpenRosbag1Chunk chunk_;
     ByteWriter chunk_infos_;  // records for the end of the file
     std::uint32_t chunks_ = 0;
 };

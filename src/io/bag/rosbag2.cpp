@@ -14,7 +14,7 @@
 namespace dynamic_filter::io {
 namespace {
 
-constexpr std::string_view kMagic{"SQLite format 3\0", 16};
+constexpr std::string_view kSqliteMagic{"SQLite format 3\0", 16};
 
 using Database = std::unique_ptr<sqlite3, decltype(&sqlite3_close)>;
 
@@ -177,7 +177,7 @@ private:
 
 std::unique_ptr<BagFile> open_rosbag2(const std::filesystem::path& file) {
     // Checked here, because SQLite takes an empty file for a database.
-    if (read_head(file, kMagic.size()) != kMagic) {
+    if (read_head(file, kSqliteMagic.size()) != kSqliteMagic) {
         throw InputError(file, "byte 0", "is no ROS 2 bag: it does not begin as SQLite files do");
     }
     return std::make_unique<Rosbag2>(file);

@@ -10,8 +10,8 @@ namespace {
 
 // [m] The shift that is one standard deviation if a place is known as well as it can be.
 constexpr double kDeviation = 0.03;
-constexpr double kAgree = 0.1;  // [m]
-constexpr double kMost = 0.7;   // share of the places that counts as most of them
+constexpr double kAgree = 0.1;     // [m]
+constexpr double kMajority = 0.7;  // share of the places that counts as most of them
 constexpr double kWidest = 10.0, kNarrowest = 0.15, kShrink = 0.7;  // [m] scale of the kernel
 constexpr int kIterations = 20;
 
@@ -73,7 +73,7 @@ std::size_t CommonOffset::agreeing() const {
 }
 
 bool CommonOffset::is_agreed() const {
-    return static_cast<double>(agreeing()) >= kMost * static_cast<double>(differences.size());
+    return static_cast<double>(agreeing()) >= kMajority * static_cast<double>(differences.size());
 }
 
 CommonOffset no_offset(std::span<const PlaceOffset> places) {

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "common_offset.hpp"
 #include "dynamic_filter/parallel.hpp"
+#include "io/degree.hpp"
 #include "meeting_places.hpp"
 #include "place_offset.hpp"
 
@@ -22,7 +22,6 @@ constexpr std::size_t kFewestUnlike = 2;
 // Number of drives before it with which a drive is compared, so that the time does not grow with
 // the number of pairs. Others agree if these do.
 constexpr std::size_t kMostCompared = 3;
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// A drive of which the poses are known.
 struct Drive {

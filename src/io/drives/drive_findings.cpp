@@ -4,19 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <string>
 #include <utility>
 
 #include "dynamic_filter/io/compare_drives.hpp"
+#include "io/degree.hpp"
 
 namespace dynamic_filter::io {
 namespace {
 
 using Drives = std::span<const Sequence* const>;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kNoTurn = 0.2;         // [deg] smaller turns are not mentioned
 constexpr double kOneWorld = 20'000.0;  // [m] drives of one map are not farther apart
 constexpr double kUnrelated = 2.0;      // [m] drift is smaller than this spread

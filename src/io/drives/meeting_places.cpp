@@ -18,9 +18,9 @@ namespace dynamic_filter::io {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kStep = 2.0;        // [m] of the way between the positions that are looked at
-constexpr std::size_t kFew = 1000;   // positions of which all distances are computed
-constexpr double kMostCells = 1e15;  // cells of the hash along one axis, so that they fit 64 bits
+constexpr double kPositionStep = 2.0;  // [m] of the way between the positions that are looked at
+constexpr std::size_t kFew = 1000;     // positions of which all distances are computed
+constexpr double kMostCells = 1e15;    // cells of the hash along one axis, so that they fit 64 bits
 
 /// The position in the VIEWPOINT of a scan file.
 Eigen::Vector3d viewpoint_of(const std::filesystem::path& scan, PoseFix fix) {
@@ -146,7 +146,8 @@ Positions positions_of(const Sequence& sequence) {
 
 Meeting find_meeting(std::span<const Eigen::Vector3d> a, std::span<const Eigen::Vector3d> b,
                      std::size_t most) {
-    const std::vector<std::size_t> of_a = thinned(a, 0.25 * kStep), of_b = thinned(b, kStep);
+    const std::vector<std::size_t> of_a = thinned(a, 0.25 * kPositionStep),
+                                   of_b = thinned(b, kPositionStep);
     const NearPositions near(a, of_a);
     Meeting meeting;
     meeting.gap = std::numeric_limits<double>::infinity();

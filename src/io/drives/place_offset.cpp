@@ -18,23 +18,23 @@
 namespace dynamic_filter::io {
 namespace {
 
-constexpr double kDegree = 3.14159265358979 / 180.0;
-constexpr SearchWindow kWindow{6.0, 6.0 * kDegree};
+constexpr double kRoundedDegree = 3.14159265358979 / 180.0;  // [rad] from 15 digits of pi
+constexpr SearchWindow kWindow{6.0, 6.0 * kRoundedDegree};
 constexpr std::size_t kCandidates = 6;  // of the search seen from above
 constexpr double kReach = 1.0;          // [m] initial reach of the registration
 constexpr double kNearly = 0.95;        // share of the fit that counts as equally good
 constexpr double kFits = 0.5;           // smallest share of points on surfaces that is believed
-constexpr float kColumn = 0.6F;         // [m]
-constexpr float kTall = 0.5F;           // [m] height of a column of points that counts as upright
+constexpr float kColumnSize = 0.6F;     // [m]
+constexpr float kUprightHeight = 0.5F;  // [m] height of a column of points that counts as upright
 constexpr std::size_t kMostUpright = 2500, kMostOther = 1000;  // points that are registered
-constexpr std::size_t kFewest = 100;                           // upright points
+constexpr std::size_t kFewestUpright = 100;                    // upright points
 // Errors that the registration does not know of, such as noise of the poses around the place.
-constexpr double kShiftFloor = 0.03, kYawFloor = 0.06 * kDegree;  // [m], [rad]
+constexpr double kShiftFloor = 0.03, kYawFloor = 0.06 * kRoundedDegree;  // [m], [rad]
 
 /// Lowest and highest point of each column.
-class Columns {
+class PointColumns {
 public:
-    Columns(const Points& points, float size) : per_metre_(1.0F / size) {
+    PointColumns(const Points& points, float size) : per_metre_(1.0F / size) {
         for (const Point& p : points) {
             const auto column = key(p);
             if (!column) continue;
@@ -45,11 +45,11 @@ public:
     [[nodiscard]] bool is_upright(const Point& p) const {
         const auto column = key(p);
         const auto found = column ? extents_.find(*column) : extents_.end();
-        return found != extents_.end() && found->second.high - found->second.low > kTall;
+        return found != extents_.end() && found->second.high - found->second.low > kUprightHeight;
     }
     /// How much lower the columns of `other` begin, in the median of common columns near the place;
     /// 0 if there are few of them.
-    [[nodiscard]] double depth_of(const Columns& other) const {
+    [[nodiscard]] double depth_of(const PointColumns& other) const {
         constexpr float kNear = 25.0F;       // [m]
         constexpr std::size_t kEnough = 30;  // columns
         std::vector<float> depths;
@@ -92,12 +92,12 @@ Points chosen_for_registration(const Points& cloud) {
     ScanSample whole{std::vector<std::uint32_t>(cloud.size()), cloud, {}};
     std::iota(whole.chosen.begin(), whole.chosen.end(), 0U);
     const ScanSample sample = sample_for_registration(whole, config);
-    const Columns columns(cloud, kColumn);
+    const PointColumns columns(cloud, kColumnSize);
     Points upright, other;
     for (const Point& p : sample.points) {
         (columns.is_upright(p) ? upright : other).push_back(p);
     }
-    if (upright.size() < kFewest) return {};
+    if (upright.size() < kFewestUpright) return {};
     thin(upright, kMostUpright);
     thin(other, kMostOther);
     upright.insert(upright.end(), other.begin(), other.end());
@@ -107,7 +107,7 @@ Points chosen_for_registration(const Points& cloud) {
 /// Keeps the result near the start in directions that the points do not show. The drives agree
 /// about the vertical, so the result may hardly tilt.
 PosePrior weak_prior(const Pose& start) {
-    constexpr double kShift = 5.0, kTilt = 0.5 * kDegree, kTurn = 5.0 * kDegree;
+    constexpr double kShift = 5.0, kTilt = 0.5 * kRoundedDegree, kTurn = 5.0 * kRoundedDegree;
     PosePrior prior{start, Information::Zero()};
     prior.information.diagonal() << Eigen::Vector3d::Constant(1.0 / (kShift * kShift)),
         Eigen::Vector2d::Constant(1.0 / (kTilt * kTilt)), 1.0 / (kTurn * kTurn);
@@ -123,7 +123,7 @@ Pose raised(double height) {
 /// Starts of the registration: as given, raised to the same ground, and what looks alike from
 /// above.
 std::vector<Pose> starts_of(const Points& a, const Points& b) {
-    const double height = Columns(a, 1.0F).depth_of(Columns(b, 1.0F));
+    const double height = PointColumns(a, 1.0F).depth_of(PointColumns(b, 1.0F));
     std::vector<Pose> starts = {Pose::Identity(), raised(height)};
     for (const Pose& pose : search_displacements(a, b, kWindow, kCandidates)) {
         starts.push_back(raised(height) * pose);
@@ -185,7 +185,7 @@ Points cloud_around(const Sequence& sequence, const std::vector<std::size_t>& sc
 std::optional<PlaceOffset> register_clouds(const Points& a, const Points& b,
                                            const Eigen::Vector3d& place) {
     const Points points = chosen_for_registration(b);
-    if (points.empty() || a.size() < kFewest) return std::nullopt;
+    if (points.empty() || a.size() < kFewestUpright) return std::nullopt;
     SurfaceMap map(OdometryConfig{}.voxel);
     map.insert(a);
     const Registration found = best_registration(map, points, starts_of(a, b));

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t columns = 9;
+constexpr std::size_t kColumns = 9;
 
 struct Row {
     double stamp = 0.0;
@@ -26,16 +26,14 @@ struct Row {
 };
 using Rows = std::map<std::size_t, Row>;
 
-bool is_comment(std::string_view line) { return line.empty() || line.front() == '#'; }
-
 /// Decides by the first row: it has nine columns, and the first one is a whole number.
 bool has_nine_columns(const fs::path& file) {
     const std::string head = read_head(file, 4096);
     Lines lines(head, file);
     while (lines.next()) {
-        if (is_comment(trim(lines.line()))) continue;
+        if (is_blank_or_comment(trim(lines.line()))) continue;
         const auto tokens = split_tokens(lines.line());
-        return tokens.size() == columns && parse_count(tokens[0]);
+        return tokens.size() == kColumns && parse_count(tokens[0]);
     }
     return false;
 }
@@ -46,14 +44,14 @@ Rows read_rows(const fs::path& file) {
     Rows rows;
     while (lines.next()) {
         std::string_view rest = lines.line();
-        if (is_comment(trim(rest))) continue;
+        if (is_blank_or_comment(trim(rest))) continue;
         const std::string_view token = take_token(rest);
         const auto index = parse_count(token);
         if (!index) lines.fail(quote(token) + " is no number of a scan");
         const std::vector<double> v = read_numbers(rest, lines);
-        if (v.size() != columns - 1) {
+        if (v.size() != kColumns - 1) {
             lines.fail(fmt::format("{} columns; expected {}: index stamp x y z qx qy qz qw",
-                                   v.size() + 1, columns));
+                                   v.size() + 1, kColumns));
         }
         if (!std::isfinite(v[0])) lines.fail("the stamp is not finite");
         const Pose pose =
@@ -65,7 +63,7 @@ Rows read_rows(const fs::path& file) {
     return rows;
 }
 
-std::optional<fs::path> scan_folder_of(const fs::path& data) {
+std::optional<fs::path> apollo_scan_folder(const fs::path& data) {
     std::error_code ignored;
     for (const char* name : {"pcds", "pcd"}) {
         if (!list_files(data / name, {".pcd"}, ignored).empty()) return data / name;
@@ -98,7 +96,7 @@ void add_stamps(Layout& layout, const Rows& rows) {
 }  // namespace
 
 std::optional<Layout> find_apollo(const fs::path& data, const OpenOptions& options) {
-    const auto folder = scan_folder_of(data);
+    const auto folder = apollo_scan_folder(data);
     const auto file = folder ? pose_file_of(data, options) : std::nullopt;
     if (!file) return std::nullopt;
     Layout layout;

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/io/file.hpp"
+#include "io/degree.hpp"
 #include "io/folders.hpp"
 #include "io/layouts/drive.hpp"
 #include "io/layouts/layouts.hpp"
@@ -40,16 +40,14 @@ Oxts read_oxts(const fs::path& file) {
     return {row[0], row[1], row[2], row[3], row[4], row[5]};
 }
 
-constexpr double degree = std::numbers::pi / 180.0;
-
 /// Mercator projection, scaled to be correct at the latitude whose cosine is `scale`. x points
 /// east, y north, z up, as in the development kit of the data set.
 Pose T_world_imu(const Oxts& at, double scale) {
     constexpr double earth = 6378137.0;  // [m] radius at the equator
     Pose pose = Pose::Identity();
     pose.translation() =
-        Eigen::Vector3d(scale * earth * at.longitude * degree,
-                        scale * earth * std::asinh(std::tan(at.latitude * degree)), at.altitude);
+        Eigen::Vector3d(scale * earth * at.longitude * kDegree,
+                        scale * earth * std::asinh(std::tan(at.latitude * kDegree)), at.altitude);
     pose.linear() = (Eigen::AngleAxisd(at.yaw, Eigen::Vector3d::UnitZ()) *
                      Eigen::AngleAxisd(at.pitch, Eigen::Vector3d::UnitY()) *
                      Eigen::AngleAxisd(at.roll, Eigen::Vector3d::UnitX()))
@@ -116,7 +114,7 @@ std::vector<Pose> poses_of(const Layout& layout, const fs::path& folder, const P
         poses.push_back(lost_pose());
         if (!present(file)) continue;
         const Oxts at = read_oxts(file);
-        if (!scale) scale = std::cos(at.latitude * degree);
+        if (!scale) scale = std::cos(at.latitude * kDegree);
         poses.back() = T_world_imu(at, *scale) * T_imu_velo;
     }
     if (!scale) {

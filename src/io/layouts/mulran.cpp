@@ -2,11 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/io/poses.hpp"
 #include "dynamic_filter/io/trajectory.hpp"
+#include "io/degree.hpp"
 #include "io/folders.hpp"
 #include "io/layouts/layouts.hpp"
 #include "io/rigid.hpp"
@@ -19,17 +19,16 @@ namespace fs = std::filesystem;
 
 /// Pose of the sensor on the vehicle, from the calibration of the data set.
 Pose T_vehicle_sensor() {
-    constexpr double degree = std::numbers::pi / 180.0;
     Pose pose = Pose::Identity();
-    pose.linear() = (Eigen::AngleAxisd(179.6654 * degree, Eigen::Vector3d::UnitZ()) *
-                     Eigen::AngleAxisd(0.0003 * degree, Eigen::Vector3d::UnitY()) *
-                     Eigen::AngleAxisd(0.0001 * degree, Eigen::Vector3d::UnitX()))
+    pose.linear() = (Eigen::AngleAxisd(179.6654 * kDegree, Eigen::Vector3d::UnitZ()) *
+                     Eigen::AngleAxisd(0.0003 * kDegree, Eigen::Vector3d::UnitY()) *
+                     Eigen::AngleAxisd(0.0001 * kDegree, Eigen::Vector3d::UnitX()))
                         .toRotationMatrix();
     pose.translation() = Eigen::Vector3d(1.7042, -0.021, 1.8047);
     return pose;
 }
 
-std::optional<fs::path> scan_folder_of(const fs::path& data) {
+std::optional<fs::path> mulran_scan_folder(const fs::path& data) {
     for (const fs::path& folder : {data / "Ouster", data / "sensor_data" / "Ouster"}) {
         if (is_folder(folder)) return folder;
     }
@@ -37,7 +36,7 @@ std::optional<fs::path> scan_folder_of(const fs::path& data) {
 }
 
 /// The folder of the recording, if `data` is its folder Ouster.
-fs::path root_of(const fs::path& data) {
+fs::path mulran_root(const fs::path& data) {
     const fs::path whole = whole_path(data);
     if (whole.filename() != "Ouster") return data;
     const fs::path above = whole.parent_path();
@@ -55,8 +54,8 @@ double stamp_of(const fs::path& scan) {
 }  // namespace
 
 std::optional<Layout> find_mulran(const fs::path& data, const OpenOptions& options) {
-    const fs::path root = root_of(data), poses = root / "global_pose.csv";
-    const auto folder = scan_folder_of(root);
+    const fs::path root = mulran_root(data), poses = root / "global_pose.csv";
+    const auto folder = mulran_scan_folder(root);
     if (!folder || !present(poses)) return std::nullopt;
     std::error_code ignored;
     if (options.poses && !fs::equivalent(*options.poses, poses, ignored)) return std::nullopt;

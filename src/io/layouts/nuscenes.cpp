@@ -41,7 +41,7 @@ Pose pose_of(const Json& entry, const fs::path& file) {
 }
 
 /// The folder of the data set, if `data` is one of the folders in it that hold tables or scans.
-fs::path root_of(const fs::path& data) {
+fs::path nuscenes_root(const fs::path& data) {
     const fs::path whole = whole_path(data);
     const std::string name = whole.filename().string();
     if (name == "LIDAR_TOP") return whole.parent_path().parent_path();
@@ -84,19 +84,19 @@ std::string scene_token(const fs::path& tables, const std::string& wanted) {
     return token;
 }
 
-struct Sweep {
+struct SweepEntry {
     double stamp = 0.0;
     fs::path file;
     std::string ego, sensor;  ///< tokens
 };
 
-std::vector<Sweep> sweeps_of(const fs::path& data, const fs::path& tables,
-                             const std::string& scene) {
+std::vector<SweepEntry> sweeps_of(const fs::path& data, const fs::path& tables,
+                                  const std::string& scene) {
     std::map<std::string, bool> in_scene;
     each_entry(tables / "sample.json", [&](const Json& sample) {
         in_scene[text_of(sample, "token")] = text_of(sample, "scene_token") == scene;
     });
-    std::vector<Sweep> sweeps;
+    std::vector<SweepEntry> sweeps;
     each_entry(tables / "sample_data.json", [&](const Json& entry) {
         const std::string file = text_of(entry, "filename");
         if (file.find("/LIDAR_TOP/") == std::string::npos) return;
@@ -109,15 +109,15 @@ std::vector<Sweep> sweeps_of(const fs::path& data, const fs::path& tables,
                           text_of(entry, "calibrated_sensor_token")});
     });
     std::sort(sweeps.begin(), sweeps.end(),
-              [](const Sweep& a, const Sweep& b) { return a.stamp < b.stamp; });
+              [](const SweepEntry& a, const SweepEntry& b) { return a.stamp < b.stamp; });
     return sweeps;
 }
 
 /// Reads only the required poses, because the table of the whole data set has millions.
-std::map<std::string, Pose> poses_of(const fs::path& file, const std::vector<Sweep>& sweeps,
-                                     std::string Sweep::*token) {
+std::map<std::string, Pose> poses_of(const fs::path& file, const std::vector<SweepEntry>& sweeps,
+                                     std::string SweepEntry::*token) {
     std::map<std::string, Pose> poses;
-    for (const Sweep& sweep : sweeps) poses.emplace(sweep.*token, lost_pose());
+    for (const SweepEntry& sweep : sweeps) poses.emplace(sweep.*token, lost_pose());
     std::size_t found = 0;
     each_entry(file, [&](const Json& entry) {
         const auto pose = poses.find(text_of(entry, "token"));
@@ -137,18 +137,18 @@ std::map<std::string, Pose> poses_of(const fs::path& file, const std::vector<Swe
 
 std::optional<Layout> find_nuscenes(const fs::path& data) {
     const bool names_scene = !present(data);
-    const fs::path root = names_scene ? data.parent_path() : root_of(data);
+    const fs::path root = names_scene ? data.parent_path() : nuscenes_root(data);
     const auto tables = tables_of(root);
     if (!tables) return std::nullopt;
     const std::string scene =
         scene_token(*tables, names_scene ? data.filename().string() : std::string());
-    const std::vector<Sweep> sweeps = sweeps_of(root, *tables, scene);
+    const std::vector<SweepEntry> sweeps = sweeps_of(root, *tables, scene);
     if (sweeps.empty()) throw InputError(*tables, "", "the scene has no scan of LIDAR_TOP");
-    const auto ego = poses_of(*tables / "ego_pose.json", sweeps, &Sweep::ego);
-    const auto sensor = poses_of(*tables / "calibrated_sensor.json", sweeps, &Sweep::sensor);
+    const auto ego = poses_of(*tables / "ego_pose.json", sweeps, &SweepEntry::ego);
+    const auto sensor = poses_of(*tables / "calibrated_sensor.json", sweeps, &SweepEntry::sensor);
     Layout layout;
     layout.scan_folder = root;
-    for (const Sweep& sweep : sweeps) {
+    for (const SweepEntry& sweep : sweeps) {
         layout.scans.push_back(sweep.file);
         layout.stamps.push_back(sweep.stamp);
         layout.T_world_sensor.push_back(ego.at(sweep.ego) * sensor.at(sweep.sensor));

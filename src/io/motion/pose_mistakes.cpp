@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include "dynamic_filter/odometry/motion.hpp"
+#include "io/degree.hpp"
 
 namespace dynamic_filter::io {
 namespace {
@@ -17,7 +17,6 @@ namespace {
 constexpr double kRange = 10.0;  // [m] range at which a rotation error is converted to a distance
 // Separation of the scans whose motions are used to fit mistakes.
 constexpr std::size_t kFitApart = 10;
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// Pose of the sensor at scan i under the assumption of a mistake with these parameters.
 using Model = std::function<Pose(const TwoTracks&, std::size_t, const Eigen::VectorXd&)>;

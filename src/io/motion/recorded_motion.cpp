@@ -10,6 +10,7 @@
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/odometry/overlay_blur.hpp"
 #include "dynamic_filter/parallel.hpp"
+#include "io/median.hpp"
 #include "pose_mistakes.hpp"
 
 namespace dynamic_filter::io {
@@ -17,7 +18,7 @@ namespace {
 
 // Number of places, and of consecutive scans at each.
 constexpr std::size_t kPlaces = 3, kInARow = 21;
-constexpr std::array<std::size_t, 4> kApart = {1, 5, 10, 20};
+constexpr std::array<std::size_t, 4> kErrorsApart = {1, 5, 10, 20};
 
 /// Consecutive scans as input of the odometry.
 using Piece = std::vector<Scan>;
@@ -56,13 +57,6 @@ std::vector<Tracked> track(const Piece& piece, const OdometryConfig& config) {
         odometry.learn({});
     }
     return tracked;
-}
-
-double median(std::vector<double> values) {
-    if (values.empty()) return 0.0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 std::vector<Pose> poses_of(const std::vector<Tracked>& tracked) {
@@ -171,7 +165,7 @@ std::optional<PoseError> typical_error(const std::vector<Compared>& pieces, std:
 /// See MotionQuality::nearly_right.
 bool nearly_right(const std::vector<Compared>& pieces) {
     constexpr double kShift = 1.0, kShare = 0.3, kTurn = 0.1;  // [m], share of the distance, [rad]
-    const std::vector<PoseError> errors = errors_of(pieces, kApart.back());
+    const std::vector<PoseError> errors = errors_of(pieces, kErrorsApart.back());
     const auto is_small = [&](const PoseError& error) {
         return error.shift <= std::max(kShift, kShare * error.way) && error.turn <= kTurn;
     };
@@ -209,7 +203,7 @@ MotionQuality quality_of(const std::vector<Compared>& compared, bool has_poses) 
         }
     }
     quality.nearly_right = has_poses && nearly_right(compared);
-    for (const std::size_t apart : kApart) {
+    for (const std::size_t apart : kErrorsApart) {
         if (!has_poses) break;
         if (const auto error = typical_error(compared, apart)) quality.errors.push_back(*error);
     }

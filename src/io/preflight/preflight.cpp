@@ -11,6 +11,7 @@
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/io/pose_fix.hpp"
 #include "dynamic_filter/io/recorded_motion.hpp"
+#include "io/median.hpp"
 #include "overlay.hpp"
 #include "samples.hpp"
 
@@ -91,12 +92,6 @@ bool stands_still(const Samples& samples, const std::vector<Pair>& pairs) {
     for (const Pair& pair : pairs) (pair.apart == kApart.front() ? near : far).push_back(pair);
     return share_of(compare(samples, far), kInWorld) >
            0.8 * share_of(compare(samples, near), kInWorld);
-}
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 /// A finding if displacements of the scans improve their overlay, which is impossible with correct

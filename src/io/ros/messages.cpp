@@ -9,6 +9,7 @@
 
 #include "io/records.hpp"
 #include "io/ros/message_reader.hpp"
+#include "io/time_units.hpp"
 
 namespace dynamic_filter::io {
 namespace {
@@ -21,7 +22,6 @@ MessageHeader take_header(MessageReader& in, MessageEncoding encoding) {
     const auto nanoseconds = in.number<std::uint32_t>();
     std::string frame = in.text();
     if (frame.starts_with('/')) frame.erase(0, 1);  // names before tf2 begin with a slash
-    constexpr std::int64_t kSecond = 1'000'000'000;
     return {static_cast<double>(seconds) + 1e-9 * nanoseconds, std::move(frame),
             seconds * kSecond + nanoseconds};
 }

@@ -8,11 +8,10 @@
 
 #include "dynamic_filter/error.hpp"
 #include "io/ros/message_writer.hpp"
+#include "io/time_units.hpp"
 
 namespace dynamic_filter::io {
 namespace {
-
-constexpr std::int64_t kSecond = 1'000'000'000;
 
 void put_header(MessageWriter& out, double stamp, const std::string& frame) {
     const std::int64_t time = to_nanoseconds(stamp);

@@ -11,7 +11,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace dynamic_filter::app {
-namespace {
+namespace autoware_tiles_test {
 
 using Row = std::array<double, 6>;
 
@@ -63,5 +63,5 @@ TEST(AutowareTiles, CornersAreRoundedDown) {
     EXPECT_EQ(autoware_name({-20, 40}), "-20_40.pcd");
 }
 
-}  // namespace
+}  // namespace autoware_tiles_test
 }  // namespace dynamic_filter::app

@@ -8,7 +8,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace dynamic_filter::app {
-namespace {
+namespace checked_file_test {
 
 std::vector<std::byte> some_bytes(std::size_t count) {
     test::Random random(7);
@@ -60,5 +60,5 @@ TEST(CheckedFile, AnyByteThatDiffersIsNoticed) {
     EXPECT_THROW(read_checked(folder / "file", "magic-1", "run"), InputError);
 }
 
-}  // namespace
+}  // namespace checked_file_test
 }  // namespace dynamic_filter::app

@@ -11,7 +11,7 @@
 #include "view/page.hpp"
 
 namespace dynamic_filter::app {
-namespace {
+namespace city_report_test {
 
 namespace fs = std::filesystem;
 
@@ -91,5 +91,5 @@ TEST_F(CityReport, AMapWithoutTilesHasAnOverview) {
     EXPECT_EQ(report_of(folder_.path()).size(), 3U);
 }
 
-}  // namespace
+}  // namespace city_report_test
 }  // namespace dynamic_filter::app

@@ -7,7 +7,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace dynamic_filter::app {
-namespace {
+namespace drives_test {
 
 namespace fs = std::filesystem;
 
@@ -86,5 +86,5 @@ TEST(Drives, AGivenPoseFileGoesBeforeThatOfAList) {
     for (const DataOptions& one : each) EXPECT_EQ(one.open.poses, "none");
 }
 
-}  // namespace
+}  // namespace drives_test
 }  // namespace dynamic_filter::app

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace dynamic_filter::app {
-namespace {
+namespace heights_test {
 
 MapIndex index_of(std::size_t tiles, double low, double high) {
     MapIndex index;
@@ -38,5 +38,5 @@ TEST(Heights, TilesWithoutVoxelsDoNotCount) {
     EXPECT_EQ(usual_heights(index).low, 5.0);
 }
 
-}  // namespace
+}  // namespace heights_test
 }  // namespace dynamic_filter::app

@@ -10,7 +10,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace dynamic_filter::app {
-namespace {
+namespace las_tiles_test {
 
 TEST(LasTiles, HoldAllFieldsOfEachTile) {
     const test::TemporaryFolder folder;
@@ -41,5 +41,5 @@ TEST(LasTiles, TheIndexNamesTheFiles) {
     EXPECT_THROW(write_las_tiles({}, folder / "map", folder / "none"), InputError);
 }
 
-}  // namespace
+}  // namespace las_tiles_test
 }  // namespace dynamic_filter::app

@@ -6,7 +6,7 @@
 #include "support/random.hpp"
 
 namespace dynamic_filter::app {
-namespace {
+namespace city_layout_test {
 
 std::map<PlaneCell, std::size_t> street(int length, std::size_t each) {
     std::map<PlaneCell, std::size_t> voxels;
@@ -61,5 +61,5 @@ TEST(Layout, ARegionIsTheTileAndItsHalo) {
     EXPECT_NEAR(region.bounds.max().y(), side + 3.2, 1e-9);
 }
 
-}  // namespace
+}  // namespace city_layout_test
 }  // namespace dynamic_filter::app

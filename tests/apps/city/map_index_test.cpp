@@ -9,7 +9,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace dynamic_filter::app {
-namespace {
+namespace map_index_test {
 
 MapTile tile(int level, std::int64_t x, std::int64_t y) {
     const std::string name = tile_name(level, x, y);
@@ -134,5 +134,5 @@ TEST(MapIndex, IsFoundFromEachOfItsFolders) {
     EXPECT_FALSE(is_city_map(folder / "nothing"));
 }
 
-}  // namespace
+}  // namespace map_index_test
 }  // namespace dynamic_filter::app

@@ -7,7 +7,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace dynamic_filter::app {
-namespace {
+namespace part_file_test {
 
 TEST(PartFile, NumbersAreCountedFromOne) {
     EXPECT_EQ(part_number_of("2/8").part, 2U);
@@ -56,5 +56,5 @@ TEST(PartFile, AFolderWithoutAPartIsNamed) {
     EXPECT_THROW(read_part(folder.path()), InputError);
 }
 
-}  // namespace
+}  // namespace part_file_test
 }  // namespace dynamic_filter::app

@@ -8,7 +8,7 @@
 #include "support/random.hpp"
 
 namespace dynamic_filter::app {
-namespace {
+namespace piece_test {
 
 constexpr double kEdge = 12.8;
 
@@ -67,5 +67,5 @@ TEST(Piece, OutsideOfTheTileNothingIsScored) {
     }
 }
 
-}  // namespace
+}  // namespace piece_test
 }  // namespace dynamic_filter::app

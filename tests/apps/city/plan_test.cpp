@@ -10,7 +10,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace dynamic_filter::app {
-namespace {
+namespace plan_test {
 
 namespace fs = std::filesystem;
 
@@ -148,5 +148,5 @@ TEST(Plan, IsTheSameWhenReadBack) {
     EXPECT_THROW(read_plan(p.folder / "plan", "another run", p.config), ConfigError);
 }
 
-}  // namespace
+}  // namespace plan_test
 }  // namespace dynamic_filter::app

@@ -10,7 +10,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace dynamic_filter::app {
-namespace {
+namespace tile_file_test {
 
 PointVerdicts some_verdicts(std::size_t count, std::uint64_t seed) {
     test::Random random(seed);
@@ -144,5 +144,5 @@ TEST(TileFile, OfAnotherRunIsRefused) {
     EXPECT_THROW(TileReader(folder / "a.tile", "another"), ConfigError);
 }
 
-}  // namespace
+}  // namespace tile_file_test
 }  // namespace dynamic_filter::app

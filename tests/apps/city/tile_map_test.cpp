@@ -6,7 +6,7 @@
 #include "dynamic_filter/geometry/voxel.hpp"
 
 namespace dynamic_filter::app {
-namespace {
+namespace tile_map_test {
 
 TEST(TileMap, ScansAndDrivesAreCountedOncePerVoxel) {
     Sightings sightings(40);
@@ -38,5 +38,5 @@ TEST(TileMap, TheRecordHoldsAllOfIt) {
     EXPECT_EQ(io::values(map, *map.find("sessions")).front(), 4.0);
 }
 
-}  // namespace
+}  // namespace tile_map_test
 }  // namespace dynamic_filter::app

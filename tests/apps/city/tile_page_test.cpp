@@ -10,7 +10,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace dynamic_filter::app {
-namespace {
+namespace tile_page_test {
 
 template <class T>
 std::vector<T> values(const PageRun& run, const std::string& name) {
@@ -103,5 +103,5 @@ TEST_F(TilePage, CountsTheVoxelsOfEachDrive) {
     EXPECT_EQ(run.info["tile"]["drives"][0]["voxels"], voxels[0]);
 }
 
-}  // namespace
+}  // namespace tile_page_test
 }  // namespace dynamic_filter::app

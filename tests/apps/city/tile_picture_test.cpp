@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace dynamic_filter::app {
-namespace {
+namespace tile_picture_test {
 
 TilePoints points_at(const std::vector<Eigen::Vector3d>& positions) {
     TilePoints points;
@@ -38,5 +38,5 @@ TEST(TilePicture, PixelsAreNoFinerThanVoxels) {
     EXPECT_EQ(picture_edge(TileSquare{0, 0, 25.6}, 0.2, 34), 34);
 }
 
-}  // namespace
+}  // namespace tile_picture_test
 }  // namespace dynamic_filter::app

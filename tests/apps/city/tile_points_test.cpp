@@ -11,7 +11,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace dynamic_filter::app {
-namespace {
+namespace tile_points_test {
 
 TEST(TilePoints, AreThoseOfTheFile) {
     const test::TemporaryFolder folder;
@@ -87,5 +87,5 @@ TEST(TilePoints, ThinningKeepsOnePerCube) {
     EXPECT_EQ(few.sessions.size(), few.size());
 }
 
-}  // namespace
+}  // namespace tile_points_test
 }  // namespace dynamic_filter::app

@@ -10,7 +10,7 @@
 #include "dynamic_filter/error.hpp"
 
 namespace dynamic_filter::app {
-namespace {
+namespace tile_tree_test {
 
 MapIndex index_of(const std::vector<MapTile>& tiles) { return {kMapVersion, 0.2, {}, tiles}; }
 
@@ -78,5 +78,5 @@ TEST(TileTree, AMapWithoutTilesIsRefused) {
     EXPECT_THROW(tree_of(MapIndex{}, "out/map"), InputError);
 }
 
-}  // namespace
+}  // namespace tile_tree_test
 }  // namespace dynamic_filter::app

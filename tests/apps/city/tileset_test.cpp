@@ -14,7 +14,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace dynamic_filter::app {
-namespace {
+namespace tileset_test {
 
 using nlohmann::json;
 
@@ -234,5 +234,5 @@ TEST(GeoOrigin, LiesWhereTheEarthIs) {
     EXPECT_NEAR(axes.determinant(), 1.0, 1e-12);
 }
 
-}  // namespace
+}  // namespace tileset_test
 }  // namespace dynamic_filter::app

@@ -14,7 +14,7 @@
 #include "dynamic_filter/error.hpp"
 
 namespace dynamic_filter::app {
-namespace {
+namespace workers_test {
 
 TEST(Alone, ThreadsShareEveryTaskOnce) {
     const auto workers = alone();
@@ -86,5 +86,5 @@ TEST_F(Plugin, AFileThatCannotBeLoadedIsNamed) {
     EXPECT_NE(said.find("openmpi-bin"), std::string::npos) << said;
 }
 
-}  // namespace
+}  // namespace workers_test
 }  // namespace dynamic_filter::app

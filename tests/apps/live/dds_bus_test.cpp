@@ -13,7 +13,7 @@
 #include "dynamic_filter/io/messages.hpp"
 
 namespace dynamic_filter::live {
-namespace {
+namespace dds_bus_test {
 
 Bytes bytes_of(std::size_t size, unsigned seed) {
     auto bytes = std::make_shared<std::vector<std::byte>>(size);
@@ -190,5 +190,5 @@ TEST_F(TwoBuses, MembersMayBeCalledFromManyThreads) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
 }
 
-}  // namespace
+}  // namespace dds_bus_test
 }  // namespace dynamic_filter::live

@@ -12,7 +12,7 @@
 #include "live/dds_bus.hpp"
 
 namespace dynamic_filter::live {
-namespace {
+namespace dds_cdr_test {
 
 /// The fields as the peer prints them; a char stands for a byte.
 class Fields {
@@ -141,5 +141,5 @@ TEST_F(DdsCdr, Diagnostics) {
             .text());
 }
 
-}  // namespace
+}  // namespace dds_cdr_test
 }  // namespace dynamic_filter::live

@@ -20,7 +20,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace dynamic_filter::live {
-namespace {
+namespace dds_fuzz_test {
 
 using Message = std::vector<std::byte>;
 constexpr auto kCdr = io::MessageEncoding::cdr;
@@ -302,5 +302,5 @@ TEST(DdsPackets, FaultyPacketsDoNotStopReception) {
     }));
 }
 
-}  // namespace
+}  // namespace dds_fuzz_test
 }  // namespace dynamic_filter::live

@@ -12,7 +12,7 @@
 #include "live/dds_configuration.hpp"
 
 namespace dynamic_filter::live {
-namespace {
+namespace dds_peer_test {
 
 const std::string kType = "sensor_msgs::msg::dds_::PointCloud2_";
 
@@ -309,5 +309,5 @@ TEST_F(LossyDdsPeer, OneOwnPacketOfTenMayBeLost) {
     publish_and_expect_exact(*peer, 20, {1000000});
 }
 
-}  // namespace
+}  // namespace dds_peer_test
 }  // namespace dynamic_filter::live

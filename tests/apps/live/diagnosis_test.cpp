@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace dynamic_filter::live {
-namespace {
+namespace diagnosis_test {
 
 Figures healthy() {
     Figures figures;
@@ -63,5 +63,5 @@ TEST(Diagnosis, TheClosingTableAddsUp) {
     EXPECT_NE(text.find("80 judged, 7 dropped, 1 rejected, 2 waiting"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace diagnosis_test
 }  // namespace dynamic_filter::live

@@ -8,7 +8,7 @@
 #include "websocket_client.hpp"
 
 namespace dynamic_filter::live {
-namespace {
+namespace foxglove_handshake_test {
 
 std::string with(const std::string& from, const std::string& to) {
     std::string request = WebSocketClient::handshake("Origin: http://localhost:8080\r\n");
@@ -103,5 +103,5 @@ TEST(FoxgloveHandshake, AnyBytesAreTaken) {
     }
 }
 
-}  // namespace
+}  // namespace foxglove_handshake_test
 }  // namespace dynamic_filter::live

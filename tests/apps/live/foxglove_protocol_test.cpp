@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 namespace dynamic_filter::live {
-namespace {
+namespace foxglove_protocol_test {
 
 using nlohmann::json;
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
@@ -90,5 +90,5 @@ TEST(FoxgloveProtocol, WrongRequestsAreExplained) {
     EXPECT_EQ(parse_request(deep + "}").unsupported, "x");
 }
 
-}  // namespace
+}  // namespace foxglove_protocol_test
 }  // namespace dynamic_filter::live

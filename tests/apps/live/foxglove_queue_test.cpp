@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace dynamic_filter::live {
-namespace {
+namespace foxglove_queue_test {
 
 Outgoing message(std::uint32_t subscription, std::size_t size, const std::string& name = "") {
     return {name, std::make_shared<const std::vector<std::byte>>(size), subscription};
@@ -68,5 +68,5 @@ TEST(FoxgloveQueue, WhatIsNotWantedIsForgotten) {
     EXPECT_EQ(all(queue), "");
 }
 
-}  // namespace
+}  // namespace foxglove_queue_test
 }  // namespace dynamic_filter::live

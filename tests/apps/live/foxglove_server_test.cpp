@@ -16,7 +16,7 @@
 #include "websocket_client.hpp"
 
 namespace dynamic_filter::live {
-namespace {
+namespace foxglove_server_test {
 
 using nlohmann::json;
 using Clock = std::chrono::steady_clock;
@@ -478,5 +478,5 @@ TEST_F(Server, RandomFramesDoNoHarm) {
     expect_alive();
 }
 
-}  // namespace
+}  // namespace foxglove_server_test
 }  // namespace dynamic_filter::live

@@ -6,7 +6,7 @@
 #include "dynamic_filter/io/messages.hpp"
 
 namespace dynamic_filter::live {
-namespace {
+namespace intake_test {
 
 constexpr auto kCdr = io::MessageEncoding::cdr;
 const io::Topic kPoints{"/points", "sensor_msgs/PointCloud2", kCdr};
@@ -248,5 +248,5 @@ TEST(Intake, MotionIsUndoneByThePosesDuringTheScan) {
     EXPECT_GE(scan->trajectory.stamps.size(), 2U);
 }
 
-}  // namespace
+}  // namespace intake_test
 }  // namespace dynamic_filter::live

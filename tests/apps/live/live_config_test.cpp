@@ -9,7 +9,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace dynamic_filter::live {
-namespace {
+namespace live_config_test {
 
 using test::spill;
 using test::TemporaryFolder;
@@ -110,5 +110,5 @@ TEST(LiveConfig, OnlySomeSettingsChangeWhileRunning) {
     EXPECT_EQ(config.output.map_rate, 5.0) << "a wrong value leaves the old one";
 }
 
-}  // namespace
+}  // namespace live_config_test
 }  // namespace dynamic_filter::live

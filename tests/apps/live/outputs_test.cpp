@@ -7,7 +7,7 @@
 #include "io/ros/messages.hpp"
 
 namespace dynamic_filter::live {
-namespace {
+namespace outputs_test {
 
 using test::FakeBus;
 constexpr std::int64_t kStamp = 1'700'000'000'123'456'789;
@@ -189,5 +189,5 @@ TEST(Outputs, BoxesSurroundDynamicPointsThatAreNear) {
     EXPECT_NEAR(boxes[1].center.x(), 150.35, 1e-3);
 }
 
-}  // namespace
+}  // namespace outputs_test
 }  // namespace dynamic_filter::live

@@ -23,7 +23,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace dynamic_filter::live {
-namespace {
+namespace ros1_bus_test {
 
 using test::ChildProcess;
 using test::slurp;
@@ -378,5 +378,5 @@ TEST_F(Ros1, AShutdownByRosIsASignal) {
     EXPECT_TRUE(bus->publish("/filter/cloud", 0.0, cloud_with_labels())) << "it may still publish";
 }
 
-}  // namespace
+}  // namespace ros1_bus_test
 }  // namespace dynamic_filter::live

@@ -12,7 +12,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace dynamic_filter::live {
-namespace {
+namespace session_test {
 
 using dynamic_filter::test::TemporaryFolder;
 using test::FakeBus;
@@ -152,5 +152,5 @@ TEST(Session, AReceiverThatTakesNothingHoldsNobodyUp) {
     EXPECT_GE(running.outputs->not_taken(), 18U);
 }
 
-}  // namespace
+}  // namespace session_test
 }  // namespace dynamic_filter::live

@@ -9,7 +9,7 @@
 #include "dynamic_filter/error.hpp"
 
 namespace dynamic_filter::live {
-namespace {
+namespace subscriptions_test {
 
 const Quality kReliable{.reliable = true, .latched = false, .depth = 1};
 const Quality kBestEffort{.reliable = false, .latched = false, .depth = 1};
@@ -129,5 +129,5 @@ TEST(Subscriptions, TheEndStopsTheBus) {
     EXPECT_TRUE(robot.bus.stopped);
 }
 
-}  // namespace
+}  // namespace subscriptions_test
 }  // namespace dynamic_filter::live

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace mpi_workers_test {
 
 struct Ended {
     int code = 0;
@@ -125,4 +125,4 @@ TEST(MpiWorkers, WithoutMpirunTheErrorSaysHowToStart) {
     EXPECT_NE(ended.said.find("mpirun -n 8 dynamicfilter run"), std::string::npos) << ended.said;
 }
 
-}  // namespace
+}  // namespace mpi_workers_test

@@ -6,7 +6,7 @@
 #include <random>
 
 namespace dynamic_filter::app {
-namespace {
+namespace http_request_test {
 
 constexpr std::uint16_t kPort = 8080;
 
@@ -76,5 +76,5 @@ TEST(HttpRequest, AnyBytesAreTaken) {
     }
 }
 
-}  // namespace
+}  // namespace http_request_test
 }  // namespace dynamic_filter::app

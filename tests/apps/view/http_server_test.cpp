@@ -16,7 +16,7 @@
 #include "dynamic_filter/error.hpp"
 
 namespace dynamic_filter::app {
-namespace {
+namespace http_server_test {
 
 class Client {
 public:
@@ -148,5 +148,5 @@ TEST_F(Server, APortInUseIsAClearError) {
     }
 }
 
-}  // namespace
+}  // namespace http_server_test
 }  // namespace dynamic_filter::app

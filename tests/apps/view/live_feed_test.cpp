@@ -6,7 +6,7 @@
 #include <cstring>
 
 namespace dynamic_filter::app {
-namespace {
+namespace live_feed_test {
 
 template <class T>
 T at(const std::string& bytes, std::size_t offset) {
@@ -117,5 +117,5 @@ TEST(LiveFeed, MemoryIsBoundedAndAnswersAreSmall) {
     EXPECT_LE(bytes, std::size_t{64} << 20U);
 }
 
-}  // namespace
+}  // namespace live_feed_test
 }  // namespace dynamic_filter::app

@@ -7,7 +7,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace dynamic_filter::app {
-namespace {
+namespace page_test {
 
 PageRun small_run(const std::string& name) {
     PageRun run;
@@ -81,5 +81,5 @@ TEST(Page, RefersToNothingOutside) {
     }
 }
 
-}  // namespace
+}  // namespace page_test
 }  // namespace dynamic_filter::app

@@ -10,7 +10,7 @@
 #include "support/temporary_folder.hpp"
 
 namespace dynamic_filter::app {
-namespace {
+namespace run_view_test {
 
 constexpr Label kStill = Label::static_, kDynamic = Label::dynamic, kUnknown = Label::unknown;
 
@@ -189,5 +189,5 @@ TEST(CloudView, IsStaticAndWithoutARun) {
     }
 }
 
-}  // namespace
+}  // namespace run_view_test
 }  // namespace dynamic_filter::app

@@ -9,7 +9,7 @@
 #include <tuple>
 
 namespace dynamic_filter::app {
-namespace {
+namespace thinned_cloud_test {
 
 std::vector<ShownPoint> random_points(std::size_t count) {
     std::mt19937 random(1);
@@ -69,5 +69,5 @@ TEST(ThinnedCloud, IsTheSameEveryTime) {
     }
 }
 
-}  // namespace
+}  // namespace thinned_cloud_test
 }  // namespace dynamic_filter::app

@@ -11,7 +11,7 @@
 #include "io/tiny_bags.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace bag_test {
 
 const std::string odometry = "nav_msgs/Odometry";
 
@@ -26,12 +26,12 @@ protected:
     TemporaryFolder folder_;
 };
 
-std::string data_of(const Written& message) {
+std::string data_of(const WrittenMessage& message) {
     return {reinterpret_cast<const char*>(message.data.data()), message.data.size()};
 }
 std::vector<std::string> all_data(const ReadBack& back) {
     std::vector<std::string> data;
-    for (const Written& message : back.messages) data.push_back(data_of(message));
+    for (const WrittenMessage& message : back.messages) data.push_back(data_of(message));
     return data;
 }
 using Data = std::vector<std::string>;
@@ -90,7 +90,7 @@ void expect_survives_truncation(const TemporaryFolder& folder, const std::string
         }
         const ReadBack back = read_all(path);
         std::size_t next = 0;
-        for (const Written& message : back.messages) {
+        for (const WrittenMessage& message : back.messages) {
             while (next < whole.messages.size() && !(whole.messages[next] == message)) ++next;
             ASSERT_LT(next++, whole.messages.size()) << name << " cut at " << n;
         }
@@ -152,9 +152,9 @@ TEST_F(Bags, AChangedByteGivesNoOtherMessageUnnoticed) {
         const auto written = some_messages(encoding_of(path.extension().string()), 2, 3);
         write_bag(path, written);
         const std::string bytes = slurp(path);
-        const auto is_written = [&](const Written& message) {
+        const auto is_written = [&](const WrittenMessage& message) {
             return std::any_of(written.begin(), written.end(),
-                               [&](const Written& w) { return w.data == message.data; });
+                               [&](const WrittenMessage& w) { return w.data == message.data; });
         };
         std::size_t noted = 0;
         constexpr std::size_t kStep = 3;  // a prime, so that it meets all parts of the records
@@ -324,7 +324,7 @@ TEST_F(Bags, Folders) {
 }
 
 /// 20 bytes that say they hold 4 GiB, and zeros that really are that many when unpacked.
-TEST(Decompress, BombsEndAtOnce) {
+TEST(BagDecompress, BombsEndAtOnce) {
     using Clock = std::chrono::steady_clock;
     struct rusage before {};
     ::getrusage(RUSAGE_SELF, &before);
@@ -345,7 +345,7 @@ TEST(Decompress, BombsEndAtOnce) {
     EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 64 * 1024);  // [KiB]
 }
 
-TEST(Decompress, RealBombsStopAtTheLimit) {
+TEST(BagDecompress, RealBombsStopAtTheLimit) {
     std::string zeros(200U << 20U, '\0');
     const std::string bytes = packed("zstd", zeros);
     zeros = {};
@@ -355,7 +355,7 @@ TEST(Decompress, RealBombsStopAtTheLimit) {
     EXPECT_LE(out.bytes.size(), (64U << 20U) + 1000 * bytes.size());
 }
 
-TEST(Decompress, SizesThatAreWrong) {
+TEST(BagDecompress, SizesThatAreWrong) {
     for (const char* kind : {"none", "zstd", "lz4", "lz4 block", "bz2"}) {
         const std::string bytes = packed(kind, data('a'));
         const auto out = [&](std::uint64_t size) {
@@ -376,5 +376,5 @@ TEST_F(Bags, BombsInChunks) {
     EXPECT_HAS(read("a.bag", b).notes.at(0), "damaged");
 }
 
-}  // namespace
+}  // namespace bag_test
 }  // namespace dynamic_filter::io

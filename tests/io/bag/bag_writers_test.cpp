@@ -4,12 +4,13 @@
 #include "io/bag_support.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace bag_writers_test {
 
 class Kinds : public testing::TestWithParam<std::string> {
 protected:
     [[nodiscard]] std::filesystem::path path() const { return folder_ / ("a" + GetParam()); }
-    [[nodiscard]] std::vector<Written> messages(std::size_t rounds, std::size_t points) const {
+    [[nodiscard]] std::vector<WrittenMessage> messages(std::size_t rounds,
+                                                       std::size_t points) const {
         return some_messages(encoding_of(GetParam()), rounds, points);
     }
     [[nodiscard]] bool is_empty() const { return std::filesystem::is_empty(folder_.path()); }
@@ -41,7 +42,7 @@ TEST_P(Kinds, MayHoldNothing) {
 }
 
 TEST_P(Kinds, MayHoldAMessageWithoutBytes) {
-    const std::vector<Written> written = {
+    const std::vector<WrittenMessage> written = {
         {{"/tf", "tf2_msgs/TFMessage", encoding_of(GetParam())}, 0, {}}};
     write_bag(path(), written);
     EXPECT_TRUE(read_all(path()).messages == written);
@@ -50,7 +51,8 @@ TEST_P(Kinds, MayHoldAMessageWithoutBytes) {
 TEST_P(Kinds, LeaveNothingWithoutCommit) {
     {
         const auto writer = BagWriter::create(path());
-        for (const Written& m : messages(3, 20000)) writer->write(m.topic, m.time_ns, m.data);
+        for (const WrittenMessage& m : messages(3, 20000))
+            writer->write(m.topic, m.time_ns, m.data);
     }
     EXPECT_TRUE(is_empty());
 }
@@ -84,5 +86,5 @@ TEST(BagWriter, KnowsItsExtensions) {
     EXPECT_HAS(error_of<ConfigError>([] { (void)BagWriter::create("a.pcd"); }), ".mcap");
 }
 
-}  // namespace
+}  // namespace bag_writers_test
 }  // namespace dynamic_filter::io

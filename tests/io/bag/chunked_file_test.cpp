@@ -5,7 +5,7 @@
 #include "io/support.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace chunked_file_test {
 
 std::vector<std::byte> bytes(const std::string& text) {
     const auto raw = std::as_bytes(std::span(text));
@@ -72,5 +72,5 @@ TEST_F(ChunkedFileTest, AFileThatIsNotThereIsNamed) {
     EXPECT_HAS(error_of([&] { Told{folder_ / "none.mcap"}; }), "none.mcap");
 }
 
-}  // namespace
+}  // namespace chunked_file_test
 }  // namespace dynamic_filter::io

@@ -15,7 +15,7 @@
 #include "support/random.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace decompress_test {
 
 std::string as_text(const std::vector<std::byte>& bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -97,5 +97,5 @@ TEST(Decompress, RefusesOtherCompressions) {
     EXPECT_THROW(decompressed("snappy", "x", 1), Malformed);
 }
 
-}  // namespace
+}  // namespace decompress_test
 }  // namespace dynamic_filter::io

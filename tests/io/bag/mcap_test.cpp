@@ -5,7 +5,7 @@
 #include "io/tiny_bags.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace mcap_test {
 
 const std::string announced = mcap::schema(1, "nav_msgs/msg/Odometry") + mcap::channel(0, 1, "/a");
 
@@ -15,7 +15,7 @@ protected:
     [[nodiscard]] std::string notes(const std::string& records) const {
         const ReadBack back = read_all(folder_.put("a.mcap", mcap::file(records)));
         EXPECT_EQ(back.messages.size(), 1U);
-        for (const Written& m : back.messages) EXPECT_EQ(as_text(m.data), "good");
+        for (const WrittenMessage& m : back.messages) EXPECT_EQ(as_text(m.data), "good");
         std::string all;
         for (const std::string& note : back.notes) all += note + "\n";
         return all;
@@ -76,5 +76,5 @@ TEST_F(Mcap, MessagesThatAreNotThereCannotBeRead) {
     EXPECT_HAS(error_of([&] { (void)bag.read({0, none, 8}); }), "(byte 8): ends at byte");
 }
 
-}  // namespace
+}  // namespace mcap_test
 }  // namespace dynamic_filter::io

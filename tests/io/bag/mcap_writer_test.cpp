@@ -11,7 +11,7 @@
 #include "io/tiny_bags.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace mcap_writer_test {
 
 constexpr int kHeader = 1, kFooter = 2, kSchema = 3, kChannel = 4, kMessage = 5, kChunk = 6,
               kMessageIndex = 7, kChunkIndex = 8, kStatistics = 0x0B, kSummaryOffset = 0x0E,
@@ -86,7 +86,7 @@ protected:
                {odom, 70, small},
                {odom, 60, small}});
     }
-    void write(const std::vector<Written>& messages) {
+    void write(const std::vector<WrittenMessage>& messages) {
         write_bag(folder_ / "a.mcap", messages);
         bytes_ = slurp(folder_ / "a.mcap");
         const std::size_t magic = mcap::magic.size();
@@ -291,5 +291,5 @@ TEST_F(McapWriterTest, WithoutMessagesThereAreOnlyStatistics) {
     EXPECT_EQ(all(kStatistics)[0].content, std::string(46, '\0'));
 }
 
-}  // namespace
+}  // namespace mcap_writer_test
 }  // namespace dynamic_filter::io

@@ -3,7 +3,7 @@
 #include "io/tiny_bags.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace rosbag1_test {
 
 const std::string good =
     rosbag1::connection(0, "/a", "nav_msgs/Odometry") + rosbag1::message(0, 1, "good");
@@ -49,5 +49,5 @@ TEST_F(Rosbag1, ADamagedChunkGivesNothingWrong) {
     EXPECT_HAS(note(bytes), "is damaged or cut off");
 }
 
-}  // namespace
+}  // namespace rosbag1_test
 }  // namespace dynamic_filter::io

@@ -11,7 +11,7 @@
 #include "io/tiny_bags.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace rosbag1_writer_test {
 
 constexpr int kMessage = 2, kBagHeader = 3, kIndex = 4, kChunk = 5, kChunkInfo = 6, kConnection = 7;
 constexpr std::int64_t kSecond = 1'000'000'000;
@@ -73,7 +73,7 @@ protected:
                {odom, 6 * kSecond + 999'999'999, small},
                {odom, 6 * kSecond, small}});
     }
-    void write(const std::vector<Written>& messages) {
+    void write(const std::vector<WrittenMessage>& messages) {
         write_bag(folder_ / "a.bag", messages);
         const std::string bytes = slurp(folder_ / "a.bag");
         ASSERT_EQ(bytes.substr(0, rosbag1::magic.size()), rosbag1::magic);
@@ -216,5 +216,5 @@ TEST_F(Rosbag1WriterTest, ThereAreNoTimesAfter2106) {
     EXPECT_EQ(read_all(folder_ / "b.bag").messages.at(0).time_ns, last);
 }
 
-}  // namespace
+}  // namespace rosbag1_writer_test
 }  // namespace dynamic_filter::io

@@ -8,7 +8,7 @@
 #include "io/tiny_bags.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace rosbag2_test {
 
 class Rosbag2 : public testing::Test {
 protected:
@@ -40,7 +40,7 @@ protected:
     }
     [[nodiscard]] std::vector<std::string> data() const {
         std::vector<std::string> all;
-        for (const Written& m : read_all(path()).messages) {
+        for (const WrittenMessage& m : read_all(path()).messages) {
             all.emplace_back(reinterpret_cast<const char*>(m.data.data()), m.data.size());
         }
         return all;
@@ -182,5 +182,5 @@ TEST_F(Rosbag2, TruncatedFiles) {
     }
 }
 
-}  // namespace
+}  // namespace rosbag2_test
 }  // namespace dynamic_filter::io

@@ -6,7 +6,7 @@
 #include "io/ros/definitions.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace rosbag2_writer_test {
 
 const Topic odom{"/odom", "nav_msgs/Odometry", MessageEncoding::cdr};
 const Topic slam{"/slam", "nav_msgs/Odometry", MessageEncoding::cdr};
@@ -94,5 +94,5 @@ TEST_F(Rosbag2WriterTest, TheFileAppearsWithCommit) {
     EXPECT_EQ(rows("SELECT COUNT(*) FROM messages"), (Rows{{"1"}}));
 }
 
-}  // namespace
+}  // namespace rosbag2_writer_test
 }  // namespace dynamic_filter::io

@@ -8,7 +8,7 @@
 #include "support/random.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace common_offset_test {
 
 constexpr double kDegree = 3.14159265358979 / 180.0;
 
@@ -88,5 +88,5 @@ TEST(CommonOffset, OfOnePlaceIsItsOwn) {
     EXPECT_NEAR(common.shift.z(), 0.4, 1e-6);
 }
 
-}  // namespace
+}  // namespace common_offset_test
 }  // namespace dynamic_filter::io

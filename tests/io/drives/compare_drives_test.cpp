@@ -12,7 +12,7 @@
 #include "write_simulation.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace compare_drives_test {
 
 constexpr double kDegree = 3.14159265358979 / 180.0;
 
@@ -192,5 +192,5 @@ TEST(CompareDrives, TheResultDoesNotDependOnTheNumberOfThreads) {
     EXPECT_EQ(offsets[0].yaw_deg, offsets[1].yaw_deg);
 }
 
-}  // namespace
+}  // namespace compare_drives_test
 }  // namespace dynamic_filter::io

@@ -4,7 +4,7 @@
 #include "dynamic_filter/io/compare_drives.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace drive_findings_test {
 
 class DriveFindings : public testing::Test {
 protected:
@@ -157,5 +157,5 @@ TEST_F(DriveFindings, DrivesWithoutPosesAreNamed) {
         << findings[0].what;
 }
 
-}  // namespace
+}  // namespace drive_findings_test
 }  // namespace dynamic_filter::io

@@ -7,7 +7,7 @@
 #include <limits>
 
 namespace dynamic_filter::io {
-namespace {
+namespace meeting_places_test {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
@@ -105,5 +105,5 @@ TEST(MeetingPlaces, PositionsOfADriveAreThoseOfItsPoses) {
     EXPECT_FALSE(positions_of(sequence)[0].allFinite());
 }
 
-}  // namespace
+}  // namespace meeting_places_test
 }  // namespace dynamic_filter::io

@@ -9,7 +9,7 @@
 #include "odometry/planes.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace place_offset_test {
 
 constexpr double kDegree = 3.14159265358979 / 180.0;
 
@@ -109,5 +109,5 @@ TEST(PlaceOffset, ACloudOfScansThatCannotBeReadIsEmpty) {
     EXPECT_TRUE(cloud_around(sequence, {0, 1, 2}, Eigen::Vector3d::Zero()).empty());
 }
 
-}  // namespace
+}  // namespace place_offset_test
 }  // namespace dynamic_filter::io

@@ -3,7 +3,7 @@
 #include "io/recording.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace apollo_test {
 
 /// Scans 1 to 11, in the order 1, 10, 11, 2... of the alphabet; a row for each, in another order.
 class Apollo : public Recording {
@@ -72,5 +72,5 @@ TEST_F(Apollo, FaultsAreNamedWithFileAndLine) {
     EXPECT_HAS(open_error(), "no row of any scan");
 }
 
-}  // namespace
+}  // namespace apollo_test
 }  // namespace dynamic_filter::io

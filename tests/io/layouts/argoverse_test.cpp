@@ -3,7 +3,7 @@
 #include "io/recording.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace argoverse_test {
 
 using Argoverse = Recording;
 
@@ -25,5 +25,5 @@ TEST_F(Argoverse, LogsAreRefusedWithWhatToDo) {
     EXPECT_HAS(error_of([&] { (void)read_cloud(file); }), "Argoverse 2");
 }
 
-}  // namespace
+}  // namespace argoverse_test
 }  // namespace dynamic_filter::io

@@ -3,7 +3,7 @@
 #include "io/recording.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace below_test {
 
 using Below = Recording;
 
@@ -93,5 +93,5 @@ TEST_F(Below, WithoutPosesNamesThatAreTimesAreStamps) {
     EXPECT_FALSE(open().measured_stamps);
 }
 
-}  // namespace
+}  // namespace below_test
 }  // namespace dynamic_filter::io

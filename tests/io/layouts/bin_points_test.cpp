@@ -3,7 +3,7 @@
 #include "io/recording.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace bin_points_test {
 
 /// Files with 5, 6, 7... points of so many floats each.
 class BinPoints : public Recording {
@@ -48,5 +48,5 @@ TEST_F(BinPoints, SizesOfVeryFewFilesProveNothing) {
     EXPECT_EQ(open().size(), 3U);
 }
 
-}  // namespace
+}  // namespace bin_points_test
 }  // namespace dynamic_filter::io

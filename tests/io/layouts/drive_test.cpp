@@ -5,7 +5,7 @@
 #include "io/recording.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace drive_test {
 
 class Drive : public Recording {
 protected:
@@ -63,5 +63,5 @@ TEST_F(Drive, PosesOfTheUserComeFirst) {
     EXPECT_EQ(layout.poses, "p.txt");
 }
 
-}  // namespace
+}  // namespace drive_test
 }  // namespace dynamic_filter::io

@@ -3,7 +3,7 @@
 #include "io/recording.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace glim_test {
 
 using Glim = Recording;
 
@@ -38,5 +38,5 @@ TEST_F(Glim, SubmapsAreScans) {
     EXPECT_HAS(open_error(), "no stamp");
 }
 
-}  // namespace
+}  // namespace glim_test
 }  // namespace dynamic_filter::io

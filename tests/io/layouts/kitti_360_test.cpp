@@ -3,7 +3,7 @@
 #include "io/recording.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace kitti_360_test {
 
 /// Scans 0 to 39 at 10 Hz; the vehicle goes 1 m a scan along x. Poses of scans 2, 6, 16 and 30.
 class Kitti360 : public Recording {
@@ -107,5 +107,5 @@ TEST_F(Kitti360, FaultsAreNamedWithFileAndLine) {
     EXPECT_HAS(drive_error(), "odd.bin: its name is no number");
 }
 
-}  // namespace
+}  // namespace kitti_360_test
 }  // namespace dynamic_filter::io

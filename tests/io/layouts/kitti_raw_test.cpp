@@ -6,7 +6,7 @@
 #include "io/recording.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace kitti_raw_test {
 
 constexpr double degree = std::numbers::pi / 180.0;
 
@@ -170,5 +170,5 @@ TEST_F(KittiRaw, SeveralDrivesAreNamed) {
     EXPECT_HAS(error, "drive (3 files), later (1 files)");
 }
 
-}  // namespace
+}  // namespace kitti_raw_test
 }  // namespace dynamic_filter::io

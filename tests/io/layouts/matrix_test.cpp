@@ -4,7 +4,7 @@
 #include "io/support.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace matrix_test {
 
 TEST(Matrix, ReadsFourRowsAndLeavesTheRest) {
     const std::string text = "\n1 0 0 5\n0 0 -1 6\n\n0 1 0 7\n0 0 0 1\nnext\n";
@@ -36,5 +36,5 @@ TEST(Matrix, FaultsAreNamedWithFileAndLine) {
     EXPECT_HAS(error("1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 1 1\n"), "the last row is not 0 0 0 1");
 }
 
-}  // namespace
+}  // namespace matrix_test
 }  // namespace dynamic_filter::io

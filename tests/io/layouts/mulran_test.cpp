@@ -3,7 +3,7 @@
 #include "io/recording.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace mulran_test {
 
 using Mulran = Recording;
 
@@ -59,5 +59,5 @@ TEST_F(Mulran, FaultsAreNamed) {
     EXPECT_HAS(open_error(), "no stamps");
 }
 
-}  // namespace
+}  // namespace mulran_test
 }  // namespace dynamic_filter::io

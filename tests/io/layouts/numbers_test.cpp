@@ -4,7 +4,7 @@
 #include "io/support.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace numbers_test {
 
 TEST(Numbers, IndicesMayHaveZerosBeforeThem) {
     EXPECT_EQ(index_of("a/0000000012.bin"), 12U);
@@ -28,5 +28,5 @@ TEST(Numbers, APoseIsTwelveNumbersRowByRow) {
     EXPECT_HAS(error_of([&] { (void)read_numbers("1 two", where); }), "p.txt (line 1)");
 }
 
-}  // namespace
+}  // namespace numbers_test
 }  // namespace dynamic_filter::io

@@ -3,7 +3,7 @@
 #include "io/recording.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace nuscenes_test {
 
 std::string entry(const std::string& token, const std::string& rest) {
     return R"({"token": ")" + token + "\", " + rest + "}";
@@ -84,5 +84,5 @@ TEST_F(Nuscenes, Faults) {
     EXPECT_HAS(scene_error(), "v1.0-test");
 }
 
-}  // namespace
+}  // namespace nuscenes_test
 }  // namespace dynamic_filter::io

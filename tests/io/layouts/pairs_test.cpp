@@ -3,7 +3,7 @@
 #include "io/recording.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace pairs_test {
 
 using Pairs = Recording;
 
@@ -52,5 +52,5 @@ TEST_F(Pairs, FaultsAreNamed) {
     EXPECT_EQ(open().T_world_sensor.size(), 2U);
 }
 
-}  // namespace
+}  // namespace pairs_test
 }  // namespace dynamic_filter::io

@@ -5,7 +5,7 @@
 #include "io/rigid.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace pose_notes_test {
 
 using PoseNotes = Recording;
 
@@ -42,5 +42,5 @@ TEST_F(PoseNotes, LostPosesAreCounted) {
     EXPECT_EQ(layout.notes.size(), 1U);
 }
 
-}  // namespace
+}  // namespace pose_notes_test
 }  // namespace dynamic_filter::io

@@ -3,7 +3,7 @@
 #include "io/recording.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace several_test {
 
 using Several = Recording;
 
@@ -18,5 +18,5 @@ TEST_F(Several, HelimosAsksForTheSensor) {
     EXPECT_TRUE(sequence.T_world_sensor[1].isApprox(Pose(Eigen::Translation3d(1, 0, 0)), 1e-12));
 }
 
-}  // namespace
+}  // namespace several_test
 }  // namespace dynamic_filter::io

@@ -9,7 +9,7 @@
 #include "support/random.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace pose_mistakes_test {
 
 /// A way with bends and changes of speed, which cannot look like another mistake.
 Pose pose_at(double t) {
@@ -91,5 +91,5 @@ TEST(PoseMistakes, WhatMayBeTheOdometrysErrorIsNotNamedWhereScansDoNotBlur) {
               "");
 }
 
-}  // namespace
+}  // namespace pose_mistakes_test
 }  // namespace dynamic_filter::io

@@ -10,7 +10,7 @@
 #include "support/random.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace recorded_motion_test {
 
 constexpr std::size_t kScans = 30;
 
@@ -180,5 +180,5 @@ TEST(Blur, IsDistortedWhereItIsLessWithTheMotionUndone) {
     EXPECT_EQ(Blur{}.least(), 0.0);
 }
 
-}  // namespace
+}  // namespace recorded_motion_test
 }  // namespace dynamic_filter::io

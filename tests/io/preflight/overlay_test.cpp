@@ -6,7 +6,7 @@
 #include "support/random.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace overlay_test {
 
 /// What a sensor sees from each pose of the same scattered things.
 Samples seen_from(const std::vector<Pose>& poses) {
@@ -81,5 +81,5 @@ TEST(Search, FindsHowFarAPoseIsOff) {
     EXPECT_NEAR(search.offset, 2.5, 1e-9);
 }
 
-}  // namespace
+}  // namespace overlay_test
 }  // namespace dynamic_filter::io

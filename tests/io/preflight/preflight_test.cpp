@@ -9,7 +9,7 @@
 #include "write_simulation.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace preflight_test {
 
 class Check : public testing::Test {
 protected:
@@ -387,5 +387,5 @@ TEST_F(Check, ListsTheScansThatARunRejects) {
     EXPECT_TRUE(result.findings.empty());
 }
 
-}  // namespace
+}  // namespace preflight_test
 }  // namespace dynamic_filter::io

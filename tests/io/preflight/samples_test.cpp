@@ -6,7 +6,7 @@
 #include "io/recording.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace samples_test {
 
 class SamplesTest : public Recording {
 protected:
@@ -99,5 +99,5 @@ TEST_F(SamplesTest, UnusableScansAreNamed) {
     EXPECT_HAS(unusable.at(1), "000001.bin");
 }
 
-}  // namespace
+}  // namespace samples_test
 }  // namespace dynamic_filter::io

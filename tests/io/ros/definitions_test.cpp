@@ -4,7 +4,7 @@
 #include "io/support.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace definitions_test {
 
 TEST(Definitions, HoldAllTypesOfTheMessage) {
     const std::string ros1 = full_definition("nav_msgs/Odometry", MessageEncoding::ros1);
@@ -17,5 +17,5 @@ TEST(Definitions, HoldAllTypesOfTheMessage) {
     EXPECT_EQ(ros2_type("nav_msgs/Odometry"), "nav_msgs/msg/Odometry");
 }
 
-}  // namespace
+}  // namespace definitions_test
 }  // namespace dynamic_filter::io

@@ -5,7 +5,7 @@
 #include "support/random.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace frame_tree_test {
 
 Pose along(double x) { return Pose(Eigen::Translation3d(x, 0, 0)); }
 
@@ -89,5 +89,5 @@ TEST(FrameTree, TurningLinksCompose) {
     EXPECT_TRUE(frames.pose("b", "c", 0.0)->isApprox(c.inverse() * a * b, 1e-12));
 }
 
-}  // namespace
+}  // namespace frame_tree_test
 }  // namespace dynamic_filter::io

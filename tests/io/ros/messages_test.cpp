@@ -8,7 +8,7 @@
 #include "io/ros/messages.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace messages_test {
 
 constexpr std::array kEncodings = {MessageEncoding::ros1, MessageEncoding::cdr};
 
@@ -302,7 +302,7 @@ TEST(Transforms, SeveralInOneMessage) {
     }
 }
 
-TEST(Poses, QuaternionsThatAreNoneAreRefused) {
+TEST(PoseMessages, QuaternionsThatAreNoneAreRefused) {
     auto data = pose_message("map", Pose::Identity(), 0.0, MessageEncoding::ros1);
     const double half = 0.5;
     std::memcpy(data.data() + data.size() - sizeof half, &half, sizeof half);
@@ -315,5 +315,5 @@ TEST(Poses, QuaternionsThatAreNoneAreRefused) {
     EXPECT_FALSE(read().T_parent_child.matrix().allFinite());  // lost, not wrong
 }
 
-}  // namespace
+}  // namespace messages_test
 }  // namespace dynamic_filter::io

@@ -5,7 +5,7 @@
 #include "io/tiny_bags.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace packets_test {
 
 TEST(Packets, TypesOfBothGenerations) {
     EXPECT_EQ(driver_of("velodyne_msgs/VelodyneScan"), "velodyne_pointcloud");
@@ -35,5 +35,5 @@ TEST(Packets, AreNamedWithTheirDriver) {
     EXPECT_HAS(error_of<ConfigError>([&] { (void)open_sequence(file, options); }), "raw packets");
 }
 
-}  // namespace
+}  // namespace packets_test
 }  // namespace dynamic_filter::io

@@ -8,7 +8,7 @@
 #include "io/ros/messages.hpp"
 
 namespace dynamic_filter::io {
-namespace {
+namespace write_messages_test {
 
 constexpr std::array kEncodings = {MessageEncoding::ros1, MessageEncoding::cdr};
 
@@ -107,5 +107,5 @@ TEST(WriteMessages, StampsAreRounded) {
     }
 }
 
-}  // namespace
+}  // namespace write_messages_test
 }  // namespace dynamic_filter::io

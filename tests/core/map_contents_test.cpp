@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace dynamic_filter {
-namespace {
+namespace map_contents_test {
 
 TEST(MapContents, AddsUpCountsAndKeepsTheNewestBeamPattern) {
     MapContents all, first, second;
@@ -27,5 +27,5 @@ TEST(MapContents, AddsUpCountsAndKeepsTheNewestBeamPattern) {
     EXPECT_EQ(all.throughput[1].count, 7U);
 }
 
-}  // namespace
+}  // namespace map_contents_test
 }  // namespace dynamic_filter

@@ -10,7 +10,7 @@
 #include <thread>
 
 namespace dynamic_filter {
-namespace {
+namespace parallel_test {
 
 /// The most bodies that ran at the same time, each lingering a little.
 int most_at_once() {
@@ -107,5 +107,5 @@ TEST(WithThreads, RunsTheWorkOnceAndRethrows) {
 
 TEST(AvailableThreads, IsAtLeastOne) { EXPECT_GE(available_threads(), 1); }
 
-}  // namespace
+}  // namespace parallel_test
 }  // namespace dynamic_filter

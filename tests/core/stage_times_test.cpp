@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace dynamic_filter {
-namespace {
+namespace stage_times_test {
 
 TEST(Durations, AllCallsCountTheNewestRank) {
     Durations calls;
@@ -36,5 +36,5 @@ TEST(Timed, NotesTheCallEvenIfItThrows) {
     EXPECT_EQ(times.at("work").count(), 2U);
 }
 
-}  // namespace
+}  // namespace stage_times_test
 }  // namespace dynamic_filter

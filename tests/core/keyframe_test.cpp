@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace dynamic_filter {
-namespace {
+namespace keyframe_test {
 
 Scan scan_at(double stamp, double x) {
     Scan scan;
@@ -23,5 +23,5 @@ TEST(Keyframe, IsWhatComesLateOrFarEnoughAfterTheLastBothInclusive) {
     EXPECT_TRUE(is_keyframe(last, scan_at(10.0, -1.0), config));
 }
 
-}  // namespace
+}  // namespace keyframe_test
 }  // namespace dynamic_filter

@@ -13,7 +13,7 @@
 #include "support/random.hpp"
 
 namespace dynamic_filter {
-namespace {
+namespace config_test {
 
 template <class T>
 constexpr bool is_number = std::is_same_v<T, int> || std::is_same_v<T, double>;
@@ -291,5 +291,5 @@ TEST(Config, EverySettingBelongsToAMethodAndIsRefusedInTheOthers) {
     }
 }
 
-}  // namespace
+}  // namespace config_test
 }  // namespace dynamic_filter

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace dynamic_filter {
-namespace {
+namespace edit_distance_test {
 
 /// The definition, without a table.
 std::size_t by_recursion(std::string_view a, std::string_view b) {
@@ -32,5 +32,5 @@ TEST(NearestWord, IsTheOneThatWasMeant) {
     EXPECT_EQ(nearest_word("run", {}), "");
 }
 
-}  // namespace
+}  // namespace edit_distance_test
 }  // namespace dynamic_filter

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <numbers>
+
+namespace dynamic_filter::sim {
+
+constexpr double degree = std::numbers::pi / 180.0;  ///< [rad]
+
+}  // namespace dynamic_filter::sim
