@@ -12,12 +12,12 @@
 #include <numbers>
 #include <random>
 
-#include "dynamic_filter/geometry/map_points.hpp"
-#include "dynamic_filter/geometry/range_image.hpp"
 #include "dynamic_filter/parallel.hpp"
-#include "dynamic_filter/scans_observe/evidence_map.hpp"
-#include "dynamic_filter/scans_observe/line_of_sight.hpp"
-#include "dynamic_filter/scans_observe/vote.hpp"
+#include "dynamic_filter/range_image.hpp"
+#include "filter/evidence_map.hpp"
+#include "filter/line_of_sight.hpp"
+#include "filter/vote.hpp"
+#include "geometry/map_points.hpp"
 
 namespace {
 

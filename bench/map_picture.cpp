@@ -11,13 +11,13 @@
 #include <string_view>
 #include <vector>
 
-#include "dynamic_filter/config.hpp"
+#include "draw/png.hpp"
 #include "dynamic_filter/error.hpp"
-#include "dynamic_filter/geometry/pose.hpp"
-#include "dynamic_filter/geometry/voxel.hpp"
-#include "dynamic_filter/io/png.hpp"
-#include "dynamic_filter/submaps_observe/window.hpp"
-#include "frames.hpp"
+#include "dynamic_filter/settings.hpp"
+#include "geometry/pose.hpp"
+#include "geometry/voxel.hpp"
+#include "paper/window.hpp"
+#include "recording/frames.hpp"
 
 namespace {
 

@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "dynamic_filter/io/poses.hpp"
-#include "dynamic_filter/io/preflight.hpp"
-#include "dynamic_filter/io/writers.hpp"
-#include "dynamic_filter/odometry/motion.hpp"
+#include "dynamic_filter/check.hpp"
+#include "dynamic_filter/motion.hpp"
+#include "dynamic_filter/poses.hpp"
+#include "dynamic_filter/writers.hpp"
 #include "support/temporary_folder.hpp"
 
 using namespace dynamic_filter;

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "dynamic_filter/error.hpp"
-#include "frames.hpp"
-#include "report.hpp"
+#include "recording/frames.hpp"
+#include "score/report.hpp"
 
 namespace {
 

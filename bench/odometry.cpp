@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 /// Measures the error of the odometry against the poses of recordings.
 ///   odometry RECORDING...
-#include "dynamic_filter/odometry/odometry.hpp"
+#include "dynamic_filter/tracking.hpp"
 
 #include <fmt/format.h>
 
 #include <ctime>
 #include <vector>
 
-#include "dynamic_filter/io/sequence.hpp"
-#include "path_error.hpp"
+#include "bench/path_error.hpp"
+#include "dynamic_filter/recording.hpp"
 
 using namespace dynamic_filter;
 

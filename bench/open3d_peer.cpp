@@ -8,8 +8,8 @@
 #include <deque>
 #include <vector>
 
-#include "dynamic_filter/io/sequence.hpp"
-#include "path_error.hpp"
+#include "bench/path_error.hpp"
+#include "dynamic_filter/recording.hpp"
 
 using namespace dynamic_filter;
 

@@ -26,7 +26,7 @@
 #include <vector>
 
 #include "dynamic_filter/error.hpp"
-#include "dynamic_filter/io/sequence.hpp"
+#include "dynamic_filter/recording.hpp"
 
 using namespace dynamic_filter;
 namespace fs = std::filesystem;

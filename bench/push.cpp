@@ -8,7 +8,7 @@
 #include <deque>
 
 #include "dynamic_filter/dynamic_filter.hpp"
-#include "dynamic_filter/io/sequence.hpp"
+#include "dynamic_filter/recording.hpp"
 
 using namespace dynamic_filter;
 

@@ -16,8 +16,8 @@
 #include <thread>
 
 #include "dynamic_filter/dynamic_filter.hpp"
-#include "frames.hpp"
-#include "report.hpp"
+#include "recording/frames.hpp"
+#include "score/report.hpp"
 
 namespace {
 

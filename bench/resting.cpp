@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "dynamic_filter/geometry/voxel.hpp"
-#include "dynamic_filter/pipeline/dynamic_filter.hpp"
+#include "dynamic_filter/filter.hpp"
+#include "geometry/voxel.hpp"
 #include "sim/bodies.hpp"
 #include "sim/lidar.hpp"
 #include "sim/prototypes.hpp"

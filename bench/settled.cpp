@@ -10,12 +10,12 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/parse_number.hpp"
 #include "dynamic_filter/error.hpp"
-#include "dynamic_filter/eval/point_scores.hpp"
-#include "dynamic_filter/geometry/voxel_index.hpp"
-#include "dynamic_filter/pipeline/dynamic_filter.hpp"
-#include "dynamic_filter/sim/simulation.hpp"
-#include "parse_number.hpp"
+#include "dynamic_filter/filter.hpp"
+#include "dynamic_filter/scores.hpp"
+#include "dynamic_filter/simulation.hpp"
+#include "geometry/voxel_index.hpp"
 
 namespace {
 

@@ -5,20 +5,7 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(DF_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/DynamicFilter)
 
-# The headers of the core for users, and the headers that these include. The other headers of the
-# core are private.
-set(DF_CORE_HEADERS
-  config.hpp dynamic_filter.hpp error.hpp keyframe.hpp map_contents.hpp parallel.hpp setting.hpp stage_times.hpp types.hpp
-  verdict.hpp geometry/range_image.hpp odometry/config.hpp odometry/motion.hpp odometry/odometry.hpp
-  odometry/sweep_times.hpp pipeline/dynamic_filter.hpp pipeline/online_filter.hpp
-  scans_observe/config.hpp submaps_observe/config.hpp)
-foreach(header ${DF_CORE_HEADERS})
-  cmake_path(GET header PARENT_PATH folder)
-  install(FILES include/dynamic_filter/${header} COMPONENT dev
-          DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/dynamic_filter/${folder})
-endforeach()
-install(DIRECTORY include/dynamic_filter/io include/dynamic_filter/eval include/dynamic_filter/sim COMPONENT dev
-        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/dynamic_filter)
+install(DIRECTORY include/dynamic_filter COMPONENT dev DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 
 foreach(part io eval sim)
   set_target_properties(dynamic_filter_${part} PROPERTIES EXPORT_NAME ${part})

@@ -69,8 +69,7 @@ set(CPACK_DEBIAN_PACKAGE_SOURCE dynamicfilter)
 # dpkg-shlibdeps finds the dependencies on other packages. The own library is required in exactly
 # the same version, because the command and the module use more of it than the public headers.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/src ${PROJECT_BINARY_DIR}/src/io
-    ${PROJECT_BINARY_DIR}/src/eval ${PROJECT_BINARY_DIR}/src/sim)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/src)
 set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS ON)
 set(CPACK_COMPONENT_DEV_DEPENDS library)
 set(CPACK_COMPONENT_COMMAND_DEPENDS library)

@@ -25,7 +25,7 @@ removes more), `scans.max_keyframes` (memory), `keyframe.interval` and `keyframe
 local maps), `map.keep_unknown` and `map.time` (what is in the static map: what never moved, or what was there when its place was last seen). All others of `scans.*` are the constants of the method. They are settings so that an ablation can change them (`script/ablate`) and a run
 can tell what was in force; there is no need to tune them.
 
-*Paper*: symbol, section or table there. The code: [`Config`](../include/dynamic_filter/config.hpp).
+*Paper*: symbol, section or table there. The code: [`Config`](../include/dynamic_filter/settings.hpp).
 """
 
 PARTS = {

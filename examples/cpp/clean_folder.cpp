@@ -3,8 +3,8 @@
 /// moves.
 #include <cstdio>
 #include <dynamic_filter/dynamic_filter.hpp>
-#include <dynamic_filter/io/sequence.hpp>
-#include <dynamic_filter/io/writers.hpp>
+#include <dynamic_filter/recording.hpp>
+#include <dynamic_filter/writers.hpp>
 #include <exception>
 
 namespace df = dynamic_filter;

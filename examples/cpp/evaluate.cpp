@@ -2,8 +2,8 @@
 /// evaluate RECORDING: how good the verdicts are, where the recording has ground truth.
 #include <cstdio>
 #include <dynamic_filter/dynamic_filter.hpp>
-#include <dynamic_filter/eval/scores.hpp>
-#include <dynamic_filter/io/sequence.hpp>
+#include <dynamic_filter/recording.hpp>
+#include <dynamic_filter/scores.hpp>
 #include <exception>
 
 namespace df = dynamic_filter;
@@ -17,7 +17,7 @@ df::Scan scan_of(const df::io::Frame& frame, std::size_t index) {
 void evaluate(const df::io::Sequence& sequence) {
     if (!sequence.has_truth()) throw df::Error("this recording has no ground truth");
     df::Config config;
-    config.map.voxel_size = 0.2;  // [m], as any setting: see config.hpp
+    config.map.voxel_size = 0.2;  // [m], as any setting: see settings.hpp
     df::DynamicFilter filter(config);
     for (std::size_t i = 0; i < sequence.size(); ++i) {
         filter.push(scan_of(df::io::read_frame(sequence, i), i));

@@ -3,7 +3,7 @@
 /// and again, corrected, when later scans have said more.
 #include <cstdio>
 #include <dynamic_filter/dynamic_filter.hpp>
-#include <dynamic_filter/io/sequence.hpp>
+#include <dynamic_filter/recording.hpp>
 #include <exception>
 #include <map>
 #include <mutex>

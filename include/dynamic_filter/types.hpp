@@ -28,7 +28,7 @@ using Labels = std::vector<Label>;  ///< N labels, parallel to the points
 /// One sweep of the sensor. Points may be non-finite or at the origin; such points are not used as
 /// evidence and get the label `Label::unknown`. Pose and stamp must be finite, and the pose must be
 /// rigid: OnlineFilter and the readers refuse other scans, DynamicFilter does not check. If scans
-/// have no pose, the filter estimates it (odometry/odometry.hpp); then stamps must be in seconds.
+/// have no pose, the filter estimates it (tracking.hpp); then stamps must be in seconds.
 struct Scan {
     Points points;                           ///< [m] in the sensor frame, in any order
     Pose T_world_sensor = Pose::Identity();  ///< pose of the sensor at `stamp`

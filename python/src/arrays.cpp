@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "arrays.hpp"
+#include "python/src/arrays.hpp"
 
 #include <fmt/format.h>
 

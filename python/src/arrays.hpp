@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "dynamic_filter/io/cloud.hpp"
+#include "dynamic_filter/cloud.hpp"
 #include "dynamic_filter/types.hpp"
 
 namespace dynamic_filter::python {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 
-#include "arrays.hpp"
-#include "config_file.hpp"
-#include "kept_filter.hpp"
-#include "module.hpp"
+#include "python/src/arrays.hpp"
+#include "python/src/kept_filter.hpp"
+#include "python/src/module.hpp"
+#include "settings/config_file.hpp"
 
 namespace dynamic_filter::python {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "kept_filter.hpp"
+#include "python/src/kept_filter.hpp"
 
 #include <algorithm>
 #include <stdexcept>

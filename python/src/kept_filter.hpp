@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "dynamic_filter/pipeline/online_filter.hpp"
+#include "dynamic_filter/online.hpp"
 
 namespace dynamic_filter::python {
 

@@ -3,7 +3,7 @@
 #include <regex>
 #include <string>
 
-#include "module.hpp"
+#include "python/src/module.hpp"
 
 namespace dynamic_filter::python {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "module.hpp"
+#include "python/src/module.hpp"
 
 #include "dynamic_filter/error.hpp"
 

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <pybind11/pybind11.h>
 
-#include "commands.hpp"
+#include "run/commands.hpp"
 
 namespace dynamic_filter::python {
 

@@ -5,7 +5,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "dynamic_filter/error.hpp"
-#include "module.hpp"
+#include "python/src/module.hpp"
 
 namespace dynamic_filter::python {
 

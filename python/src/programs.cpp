@@ -8,14 +8,14 @@
 #include <csignal>
 #include <nlohmann/json.hpp>
 
-#include "dynamic_filter/io/file.hpp"
-#include "dynamic_filter/io/preflight.hpp"
-#include "frames.hpp"
-#include "module.hpp"
-#include "output_folder.hpp"
-#include "progress.hpp"
-#include "report.hpp"
-#include "write_simulation.hpp"
+#include "base/output_folder.hpp"
+#include "base/progress.hpp"
+#include "commands/write_simulation.hpp"
+#include "dynamic_filter/check.hpp"
+#include "dynamic_filter/file.hpp"
+#include "python/src/module.hpp"
+#include "recording/frames.hpp"
+#include "score/report.hpp"
 
 namespace dynamic_filter::python {
 

@@ -7,11 +7,11 @@
 #include <string>
 #include <tuple>
 
-#include "arrays.hpp"
-#include "dynamic_filter/io/cloud.hpp"
-#include "dynamic_filter/io/writers.hpp"
-#include "frames.hpp"
-#include "module.hpp"
+#include "dynamic_filter/cloud.hpp"
+#include "dynamic_filter/writers.hpp"
+#include "python/src/arrays.hpp"
+#include "python/src/module.hpp"
+#include "recording/frames.hpp"
 
 namespace dynamic_filter::python {
 

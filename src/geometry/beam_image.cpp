@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "dynamic_filter/geometry/beam_image.hpp"
+#include "geometry/beam_image.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "best_kernel.hpp"
-#include "project_kernel.hpp"
+#include "base/best_kernel.hpp"
+#include "geometry/project_kernel.hpp"
 
 namespace dynamic_filter {
 

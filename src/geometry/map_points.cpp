@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "dynamic_filter/geometry/map_points.hpp"
+#include "geometry/map_points.hpp"
 
-#include "best_kernel.hpp"
-#include "voxel_kernel.hpp"
+#include "base/best_kernel.hpp"
+#include "geometry/voxel_kernel.hpp"
 
 namespace dynamic_filter {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "dynamic_filter/geometry/pose.hpp"
+#include "geometry/pose.hpp"
 
 #include <Eigen/SVD>
 

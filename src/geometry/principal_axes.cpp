@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "dynamic_filter/geometry/principal_axes.hpp"
+#include "geometry/principal_axes.hpp"
 
 #include <Eigen/Eigenvalues>
 

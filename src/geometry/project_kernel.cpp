@@ -2,7 +2,7 @@
 // This file is compiled several times, each time with its own DYNAMIC_FILTER_LEVEL and instruction
 // set. It uses only builtins and raw pointers: an inline library function compiled for AVX could be
 // linked into code that runs on older machines.
-#include "project_kernel.hpp"
+#include "geometry/project_kernel.hpp"
 
 #include <numbers>
 

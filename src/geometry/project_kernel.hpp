@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "best_kernel.hpp"
+#include "base/best_kernel.hpp"
 
 namespace dynamic_filter::kernel {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "dynamic_filter/geometry/range_image.hpp"
+#include "dynamic_filter/range_image.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-#include "best_kernel.hpp"
-#include "project_kernel.hpp"
+#include "base/best_kernel.hpp"
+#include "geometry/project_kernel.hpp"
 
 namespace dynamic_filter {
 

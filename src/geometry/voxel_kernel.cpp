@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // This file is compiled several times, like project_kernel.cpp.
-#include "voxel_kernel.hpp"
+#include "geometry/voxel_kernel.hpp"
 
 namespace dynamic_filter::kernel::DYNAMIC_FILTER_LEVEL {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "dynamic_filter/geometry/voxel_neighbors.hpp"
+#include "geometry/voxel_neighbors.hpp"
 
 namespace dynamic_filter {
 

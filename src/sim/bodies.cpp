@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "bodies.hpp"
+#include "sim/bodies.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "portable.hpp"
-#include "prototypes.hpp"
-#include "random.hpp"
+#include "sim/portable.hpp"
+#include "sim/prototypes.hpp"
+#include "sim/random.hpp"
 
 namespace dynamic_filter::sim {
 namespace {

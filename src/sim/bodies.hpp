@@ -5,9 +5,9 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "caster.hpp"
-#include "crowd.hpp"
-#include "path.hpp"
+#include "sim/caster.hpp"
+#include "sim/crowd.hpp"
+#include "sim/path.hpp"
 
 namespace dynamic_filter::sim {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "caster.hpp"
+#include "sim/caster.hpp"
 
 #include <cmath>
 #include <cstring>

@@ -8,7 +8,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "mesh.hpp"
+#include "sim/mesh.hpp"
 
 namespace dynamic_filter::sim {
 

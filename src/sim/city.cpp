@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "city.hpp"
+#include "sim/city.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -8,11 +8,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "bodies.hpp"
-#include "mesh.hpp"
-#include "prototypes.hpp"
-#include "random.hpp"
-#include "scene.hpp"
+#include "sim/bodies.hpp"
+#include "sim/mesh.hpp"
+#include "sim/prototypes.hpp"
+#include "sim/random.hpp"
+#include "sim/scene.hpp"
 
 namespace dynamic_filter::sim::city {
 

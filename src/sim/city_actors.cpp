@@ -7,9 +7,9 @@
 #include <numbers>
 #include <optional>
 
-#include "city.hpp"
-#include "people.hpp"
-#include "portable.hpp"
+#include "sim/city.hpp"
+#include "sim/people.hpp"
+#include "sim/portable.hpp"
 
 namespace dynamic_filter::sim::city {
 namespace {

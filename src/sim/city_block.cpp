@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <numbers>
 
-#include "city.hpp"
-#include "portable.hpp"
-#include "props.hpp"
+#include "sim/city.hpp"
+#include "sim/portable.hpp"
+#include "sim/props.hpp"
 
 namespace dynamic_filter::sim::city {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "city.hpp"
-#include "props.hpp"
+#include "sim/city.hpp"
+#include "sim/props.hpp"
 
 namespace dynamic_filter::sim::city {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "city.hpp"
-#include "props.hpp"
+#include "sim/city.hpp"
+#include "sim/props.hpp"
 
 namespace dynamic_filter::sim::city {
 namespace {

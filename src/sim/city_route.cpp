@@ -5,8 +5,8 @@
 #include <map>
 #include <numbers>
 
-#include "city.hpp"
-#include "portable.hpp"
+#include "sim/city.hpp"
+#include "sim/portable.hpp"
 
 namespace dynamic_filter::sim::city {
 namespace {

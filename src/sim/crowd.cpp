@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "crowd.hpp"
+#include "sim/crowd.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "portable.hpp"
-#include "social_force.hpp"
+#include "sim/portable.hpp"
+#include "sim/social_force.hpp"
 
 namespace dynamic_filter::sim {
 namespace {

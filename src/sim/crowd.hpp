@@ -7,8 +7,8 @@
 #include <functional>
 #include <vector>
 
-#include "obstacles.hpp"
-#include "social_force.hpp"
+#include "sim/obstacles.hpp"
+#include "sim/social_force.hpp"
 
 namespace dynamic_filter::sim {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "props.hpp"
-#include "random.hpp"
+#include "sim/props.hpp"
+#include "sim/random.hpp"
 
 namespace dynamic_filter::sim {
 namespace {

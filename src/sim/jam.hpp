@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "crowd.hpp"
-#include "obstacles.hpp"
-#include "traffic.hpp"
+#include "sim/crowd.hpp"
+#include "sim/obstacles.hpp"
+#include "sim/traffic.hpp"
 
 namespace dynamic_filter::sim::jam {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "jam.hpp"
-#include "people.hpp"
-#include "props.hpp"
-#include "random.hpp"
+#include "sim/jam.hpp"
+#include "sim/people.hpp"
+#include "sim/props.hpp"
+#include "sim/random.hpp"
 
 namespace dynamic_filter::sim::jam {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "jam.hpp"
-#include "random.hpp"
+#include "sim/jam.hpp"
+#include "sim/random.hpp"
 
 namespace dynamic_filter::sim::jam {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "lidar.hpp"
+#include "sim/lidar.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "dynamic_filter/odometry/motion.hpp"
+#include "dynamic_filter/motion.hpp"
 #include "dynamic_filter/parallel.hpp"
-#include "portable.hpp"
-#include "random.hpp"
+#include "sim/portable.hpp"
+#include "sim/random.hpp"
 
 namespace dynamic_filter::sim {
 namespace {

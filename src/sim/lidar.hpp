@@ -7,9 +7,9 @@
 #include <functional>
 #include <vector>
 
-#include "caster.hpp"
 #include "dynamic_filter/types.hpp"
-#include "sensors.hpp"
+#include "sim/caster.hpp"
+#include "sim/sensors.hpp"
 
 namespace dynamic_filter::sim {
 

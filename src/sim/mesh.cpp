@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "mesh.hpp"
+#include "sim/mesh.hpp"
 
 #include <cmath>
 #include <numbers>
 
-#include "portable.hpp"
-#include "random.hpp"
+#include "sim/portable.hpp"
+#include "sim/random.hpp"
 
 namespace dynamic_filter::sim {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "dynamic_filter/sim/kind.hpp"
+#include "dynamic_filter/simulation.hpp"
 
 namespace dynamic_filter::sim {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "obstacles.hpp"
+#include "sim/obstacles.hpp"
 
 #include <algorithm>
 #include <cmath>

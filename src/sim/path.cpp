@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "path.hpp"
+#include "sim/path.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "portable.hpp"
+#include "sim/portable.hpp"
 
 namespace dynamic_filter::sim {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "people.hpp"
+#include "sim/people.hpp"
 
 #include <algorithm>
 #include <cmath>

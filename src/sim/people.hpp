@@ -5,9 +5,9 @@
 #include <functional>
 #include <vector>
 
-#include "crowd.hpp"
-#include "obstacles.hpp"
-#include "random.hpp"
+#include "sim/crowd.hpp"
+#include "sim/obstacles.hpp"
+#include "sim/random.hpp"
 
 namespace dynamic_filter::sim {
 

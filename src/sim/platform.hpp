@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "bodies.hpp"
-#include "crowd.hpp"
-#include "prototypes.hpp"
+#include "sim/bodies.hpp"
+#include "sim/crowd.hpp"
+#include "sim/prototypes.hpp"
 
 namespace dynamic_filter::sim::platform {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "people.hpp"
-#include "platform.hpp"
-#include "random.hpp"
+#include "sim/people.hpp"
+#include "sim/platform.hpp"
+#include "sim/random.hpp"
 
 namespace dynamic_filter::sim::platform {
 namespace {

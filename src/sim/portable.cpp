@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "portable.hpp"
+#include "sim/portable.hpp"
 
 #include <algorithm>
 #include <cmath>

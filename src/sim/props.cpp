@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "props.hpp"
+#include "sim/props.hpp"
 
-#include "prototypes.hpp"
-#include "random.hpp"
+#include "sim/prototypes.hpp"
+#include "sim/random.hpp"
 
 namespace dynamic_filter::sim {
 namespace {

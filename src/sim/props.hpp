@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "scene.hpp"
+#include "sim/scene.hpp"
 
 namespace dynamic_filter::sim {
 

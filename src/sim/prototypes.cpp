@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "prototypes.hpp"
+#include "sim/prototypes.hpp"
 
 #include <numbers>
 
-#include "portable.hpp"
+#include "sim/portable.hpp"
 
 namespace dynamic_filter::sim {
 namespace {

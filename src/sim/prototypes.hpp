@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "mesh.hpp"
+#include "sim/mesh.hpp"
 
 namespace dynamic_filter::sim {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "random.hpp"
+#include "sim/random.hpp"
 
 #include <cmath>
 #include <numbers>
 
-#include "portable.hpp"
+#include "sim/portable.hpp"
 
 namespace dynamic_filter::sim {
 

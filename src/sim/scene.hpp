@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "bodies.hpp"
-#include "crowd.hpp"
-#include "mesh.hpp"
-#include "obstacles.hpp"
-#include "path.hpp"
+#include "sim/bodies.hpp"
+#include "sim/crowd.hpp"
+#include "sim/mesh.hpp"
+#include "sim/obstacles.hpp"
+#include "sim/path.hpp"
 
 namespace dynamic_filter::sim {
 

@@ -5,7 +5,7 @@
 #include <map>
 #include <memory>
 
-#include "city.hpp"
+#include "sim/city.hpp"
 
 namespace dynamic_filter::sim {
 namespace city {

@@ -3,9 +3,9 @@
 /// doors. The robot drives an elongated loop twice.
 #include <algorithm>
 
-#include "people.hpp"
-#include "props.hpp"
-#include "random.hpp"
+#include "sim/people.hpp"
+#include "sim/props.hpp"
+#include "sim/random.hpp"
 
 namespace dynamic_filter::sim {
 namespace crowd {

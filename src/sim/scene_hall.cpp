@@ -3,9 +3,9 @@
 /// them, stairs, columns and a roof. The robot drives along the nave.
 #include <cmath>
 
-#include "people.hpp"
-#include "props.hpp"
-#include "random.hpp"
+#include "sim/people.hpp"
+#include "sim/props.hpp"
+#include "sim/random.hpp"
 
 namespace dynamic_filter::sim {
 namespace hall {

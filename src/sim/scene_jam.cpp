@@ -4,9 +4,9 @@
 /// queue.
 #include <algorithm>
 
-#include "jam.hpp"
-#include "props.hpp"
-#include "random.hpp"
+#include "sim/jam.hpp"
+#include "sim/props.hpp"
+#include "sim/random.hpp"
 
 namespace dynamic_filter::sim {
 namespace jam {

@@ -4,9 +4,9 @@
 /// back.
 #include <cmath>
 
-#include "platform.hpp"
-#include "props.hpp"
-#include "random.hpp"
+#include "sim/platform.hpp"
+#include "sim/props.hpp"
+#include "sim/random.hpp"
 
 namespace dynamic_filter::sim {
 namespace platform {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "people.hpp"
-#include "portable.hpp"
-#include "props.hpp"
-#include "random.hpp"
+#include "sim/people.hpp"
+#include "sim/portable.hpp"
+#include "sim/props.hpp"
+#include "sim/random.hpp"
 
 namespace dynamic_filter::sim {
 namespace square {

@@ -3,9 +3,9 @@
 /// vehicle that drives at 5 m/s.
 #include <algorithm>
 
-#include "people.hpp"
-#include "props.hpp"
-#include "random.hpp"
+#include "sim/people.hpp"
+#include "sim/props.hpp"
+#include "sim/random.hpp"
 
 namespace dynamic_filter::sim {
 namespace street {

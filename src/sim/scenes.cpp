@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene.hpp"
+#include "sim/scene.hpp"
 
 namespace dynamic_filter::sim {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "sensors.hpp"
+#include "sim/sensors.hpp"
 
 #include <numbers>
 
-#include "degree.hpp"
-#include "portable.hpp"
-#include "random.hpp"
+#include "sim/degree.hpp"
+#include "sim/portable.hpp"
+#include "sim/random.hpp"
 
 namespace dynamic_filter::sim {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "signal.hpp"
+#include "sim/signal.hpp"
 
 #include <cmath>
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "dynamic_filter/sim/simulation.hpp"
+#include "dynamic_filter/simulation.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "degree.hpp"
 #include "dynamic_filter/error.hpp"
-#include "lidar.hpp"
-#include "portable.hpp"
-#include "prototypes.hpp"
-#include "random.hpp"
-#include "scene.hpp"
+#include "sim/degree.hpp"
+#include "sim/lidar.hpp"
+#include "sim/portable.hpp"
+#include "sim/prototypes.hpp"
+#include "sim/random.hpp"
+#include "sim/scene.hpp"
 
 namespace dynamic_filter::sim {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "social_force.hpp"
+#include "sim/social_force.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "portable.hpp"
+#include "sim/portable.hpp"
 
 namespace dynamic_filter::sim {
 namespace {

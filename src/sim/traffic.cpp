@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "traffic.hpp"
+#include "sim/traffic.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,8 +6,8 @@
 
 #include <vector>
 
-#include "bodies.hpp"
-#include "signal.hpp"
+#include "sim/bodies.hpp"
+#include "sim/signal.hpp"
 
 namespace dynamic_filter::sim {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "prototypes.hpp"
+#include "sim/prototypes.hpp"
 
 namespace dynamic_filter::sim {
 namespace {

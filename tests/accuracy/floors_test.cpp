@@ -7,9 +7,9 @@
 #include <iostream>
 #include <string>
 
-#include "dynamic_filter/eval/scores.hpp"
-#include "dynamic_filter/pipeline/dynamic_filter.hpp"
-#include "dynamic_filter/sim/simulation.hpp"
+#include "dynamic_filter/filter.hpp"
+#include "dynamic_filter/scores.hpp"
+#include "dynamic_filter/simulation.hpp"
 
 namespace dynamic_filter {
 namespace floors_test {

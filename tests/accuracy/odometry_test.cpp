@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Where the sensor is, from simulated scans alone.
-#include "dynamic_filter/odometry/odometry.hpp"
+#include "dynamic_filter/tracking.hpp"
 
 #include <gtest/gtest.h>
 
 #include <iostream>
 #include <string>
 
-#include "dynamic_filter/sim/simulation.hpp"
-#include "odometry/drive.hpp"
+#include "dynamic_filter/simulation.hpp"
+#include "support/drive.hpp"
 
 namespace dynamic_filter {
 namespace accuracy_odometry_test {

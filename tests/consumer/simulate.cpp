@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <dynamic_filter/sim/simulation.hpp>
+#include <dynamic_filter/simulation.hpp>
 
 int main() {
     dynamic_filter::sim::SimulationOptions options;

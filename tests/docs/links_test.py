@@ -26,7 +26,7 @@ for page in pages:
                 wrong.append(f"{page.name}: {target} defines no {name[1]}")
 
 explained = (root / "docs/troubleshooting.md").read_text()
-preflight = (root / "src/io/preflight/preflight.cpp").read_text()
+preflight = (root / "src/check/preflight.cpp").read_text()
 meanings = re.findall(r'\{"\w+", "([^"{}]+)"\}', preflight)
 meanings += re.findall(r'"(the po\w+[^"{}]*?)[:"]', preflight) + re.findall(r'"--[\w-]+', preflight)
 for meaning in meanings:

@@ -79,11 +79,9 @@ def text_of(page):
     return (site / page).read_text()
 
 
-keys, fields = [], []
-for name in ("config", "keyframe", "scans_observe/config", "submaps_observe/config"):
-    config = (root / f"include/dynamic_filter/{name}.hpp").read_text()
-    keys += re.findall(r'(?:Setting\{|\bfield\((?:\w+, )?)\s*"([\w.]+)"', config)
-    fields += re.findall(r"^ +[\w:]+ (\w+) = [^;]*;", config.split("/// Calls f(")[0], re.MULTILINE)
+settings = re.sub(r"struct Setting \{.*?\n\};", "", (root / "include/dynamic_filter/settings.hpp").read_text(), flags=re.DOTALL)
+keys = re.findall(r'(?:Setting\{|\bfield\((?:\w+, )?)\s*"([\w.]+)"', settings)
+fields = re.findall(r"^ +[\w:]+ (\w+) = [^;]*;", settings, re.MULTILINE)
 assert len(keys) == len(fields) >= 50, (keys, fields)
 listed = re.findall(r"<tr[^>]*><td><p><code[^>]*><span[^>]*>([\w.]+)<", text_of("parameters.html"))
 wrong += [f"parameters.html lacks {key}" for key in keys if key not in listed]

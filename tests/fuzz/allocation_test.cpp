@@ -7,15 +7,15 @@
 #include <new>
 #include <numeric>
 
+#include "dynamic_filter/bag.hpp"
+#include "dynamic_filter/cloud.hpp"
 #include "dynamic_filter/error.hpp"
-#include "dynamic_filter/io/bag.hpp"
-#include "dynamic_filter/io/cloud.hpp"
-#include "dynamic_filter/io/poses.hpp"
-#include "dynamic_filter/io/writers.hpp"
-#include "dynamic_filter/pipeline/online_filter.hpp"
-#include "frames.hpp"
+#include "dynamic_filter/online.hpp"
+#include "dynamic_filter/poses.hpp"
+#include "dynamic_filter/writers.hpp"
 #include "fuzz/failing_new.hpp"
-#include "pipeline/room.hpp"
+#include "recording/frames.hpp"
+#include "support/room.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace dynamic_filter {

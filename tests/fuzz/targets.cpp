@@ -8,15 +8,14 @@
 #include <filesystem>
 #include <string>
 
-#include "config_file.hpp"
 #include "dynamic_filter/error.hpp"
-#include "dynamic_filter/io/poses.hpp"
-#include "dynamic_filter/io/sequence.hpp"
-#include "dynamic_filter/io/trajectory.hpp"
-#include "io/bag/bag_file.hpp"
-#include "io/byte_reader.hpp"
-#include "io/ros/frame_tree.hpp"
-#include "io/ros/messages.hpp"
+#include "dynamic_filter/poses.hpp"
+#include "dynamic_filter/recording.hpp"
+#include "formats/bags/bag_file.hpp"
+#include "formats/byte_reader.hpp"
+#include "formats/messages/messages.hpp"
+#include "recording/frame_tree.hpp"
+#include "settings/config_file.hpp"
 
 namespace dynamic_filter::fuzz {
 namespace {

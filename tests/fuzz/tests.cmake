@@ -1,7 +1,6 @@
 # The readers' fuzz targets: replayed on the corpus by every build, run by script/fuzz.
 add_library(dynamic_filter_fuzz STATIC ${CMAKE_CURRENT_LIST_DIR}/targets.cpp)
-target_include_directories(dynamic_filter_fuzz PUBLIC ${CMAKE_CURRENT_LIST_DIR}/..
-  PRIVATE ${PROJECT_SOURCE_DIR}/src)
+target_include_directories(dynamic_filter_fuzz PUBLIC ${CMAKE_CURRENT_LIST_DIR}/..)
 target_link_libraries(dynamic_filter_fuzz PUBLIC dynamic_filter_app PRIVATE dynamic_filter_flags)
 
 df_room(fuzz LIBRARIES dynamic_filter_fuzz EXCEPT allocation)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "dynamic_filter/geometry/beam_image.hpp"
+#include "geometry/beam_image.hpp"
 
 #include <gtest/gtest.h>
 

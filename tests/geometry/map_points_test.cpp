@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "dynamic_filter/geometry/map_points.hpp"
+#include "geometry/map_points.hpp"
 
 #include <gtest/gtest.h>
 
-#include "dynamic_filter/submaps_observe/submap.hpp"
 #include "geometry/odd_points.hpp"
+#include "paper/submap.hpp"
 
 namespace dynamic_filter {
 namespace map_points_test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "dynamic_filter/geometry/neighbor_grid.hpp"
+#include "geometry/neighbor_grid.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <string>
 
-#include "dynamic_filter/geometry/range_image.hpp"
+#include "dynamic_filter/range_image.hpp"
 #include "support/levels.hpp"
 #include "support/random.hpp"
 

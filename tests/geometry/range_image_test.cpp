@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "dynamic_filter/geometry/range_image.hpp"
+#include "dynamic_filter/range_image.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "dynamic_filter/geometry/voxel_index.hpp"
+#include "geometry/voxel_index.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 
 #include <cstring>
 
-#include "dynamic_filter/geometry/map_points.hpp"
+#include "geometry/map_points.hpp"
 #include "geometry/odd_points.hpp"
 #include "support/levels.hpp"
 

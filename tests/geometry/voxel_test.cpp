@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "dynamic_filter/geometry/voxel.hpp"
+#include "geometry/voxel.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdr_text.hpp"
+#include "peers/cdr_text.hpp"
 
 #include <fastcdr/Cdr.h>
 #include <fastcdr/FastBuffer.h>

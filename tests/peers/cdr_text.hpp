@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "fastdds_type.hpp"
+#include "peers/fastdds_type.hpp"
 
 namespace dynamic_filter::peers {
 

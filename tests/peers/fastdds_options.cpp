@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "fastdds_options.hpp"
+#include "peers/fastdds_options.hpp"
 
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastdds/rtps/transport/test_UDPv4TransportDescriptor.h>

@@ -26,8 +26,8 @@
 #include <stdexcept>
 #include <thread>
 
-#include "cdr_text.hpp"
-#include "fastdds_options.hpp"
+#include "peers/cdr_text.hpp"
+#include "peers/fastdds_options.hpp"
 
 namespace dynamic_filter::peers {
 namespace {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "dynamic_filter/io/cloud.hpp"
+#include "dynamic_filter/cloud.hpp"
 #include "support/random.hpp"
 
 namespace dynamic_filter::io {

@@ -7,7 +7,7 @@
 
 #include <cstdio>
 
-#include "dynamic_filter/io/messages.hpp"
+#include "dynamic_filter/bag.hpp"
 #include "live/foxglove_server.hpp"
 #include "peers/sample.hpp"
 

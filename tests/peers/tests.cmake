@@ -47,6 +47,7 @@ find_package(fastcdr REQUIRED)
 find_package(fastrtps REQUIRED)
 add_executable(fastdds_peer ${CMAKE_CURRENT_LIST_DIR}/fastdds_peer.cpp
   ${CMAKE_CURRENT_LIST_DIR}/fastdds_options.cpp ${CMAKE_CURRENT_LIST_DIR}/cdr_text.cpp)
+target_include_directories(fastdds_peer PRIVATE ${PROJECT_SOURCE_DIR}/tests)
 target_link_libraries(fastdds_peer PRIVATE fastrtps fastcdr dynamic_filter_flags)
 # Fast DDS deletes objects with another size than they were made with, which sanitizers object to.
 target_compile_options(fastdds_peer PRIVATE -fno-sanitize=all)

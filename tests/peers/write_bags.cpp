@@ -5,8 +5,7 @@
 
 #include <filesystem>
 
-#include "dynamic_filter/io/bag_writer.hpp"
-#include "dynamic_filter/io/messages.hpp"
+#include "dynamic_filter/bag.hpp"
 #include "peers/sample.hpp"
 
 namespace dynamic_filter::io {

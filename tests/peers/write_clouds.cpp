@@ -6,7 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "dynamic_filter/io/writers.hpp"
+#include "dynamic_filter/writers.hpp"
 #include "peers/sample.hpp"
 
 namespace dynamic_filter::io {

@@ -8,10 +8,10 @@
 #include <cmath>
 #include <map>
 
-#include "apps/city/sample_map.hpp"
-#include "city/tile_points.hpp"
-#include "city/tileset.hpp"
+#include "export/tileset.hpp"
+#include "formats/voxel_map/tile_points.hpp"
 #include "peers/sample.hpp"
+#include "support/sample_map.hpp"
 
 namespace dynamic_filter::app {
 namespace {

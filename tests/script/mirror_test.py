@@ -1,63 +1,48 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Every source has a test of its name in the mirrored folder: src/io/las.cpp has tests/io/las_test.cpp. The few others
+"""Every source has a test of its name in the mirrored folder: src/draw/png.cpp has tests/draw/png_test.cpp. The few others
 are listed below with the test that covers them. An entry that is no longer needed is an error, too."""
 import pathlib
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-APP = "apps/dynamicfilter"
-COMMAND = "tests/apps/command_test.cpp"  # runs the command as a user does
-OTHERS = {
-    "src/io/bag_contents.cpp": "tests/io/bag_scans_test.cpp",
-    "src/io/ros/pose_source.cpp": "tests/io/bag_scans_test.cpp",
-    "src/io/las_header.cpp": "tests/io/las_test.cpp",
-    "src/io/las_writer.cpp": "tests/io/las_test.cpp",
-    **{f"src/sim/{unit}.cpp": "tests/sim/scene_city_test.cpp" for unit in ("city", "city_block", "city_library")},
-    "src/sim/jam_people.cpp": "tests/sim/scene_jam_test.cpp",
-    "src/sim/jam_traffic.cpp": "tests/sim/scene_jam_test.cpp",
-    "src/sim/platform_people.cpp": "tests/sim/scene_platform_test.cpp",
-    "src/sim/wagon.cpp": "tests/sim/scene_platform_test.cpp",
-    f"{APP}/city/convert_map.cpp": COMMAND,
-    f"{APP}/city/glb.cpp": "tests/apps/city/tileset_test.cpp",
-    f"{APP}/edits/apply_edits.cpp": "tests/apps/edits_test.cpp",
-    f"{APP}/edits/edit_lookup.cpp": "tests/apps/edits_test.cpp",
-    f"{APP}/edits/edits.cpp": "tests/apps/edits_test.cpp",
-    f"{APP}/edits/map_gaps.cpp": "tests/apps/edits_test.cpp",
-    f"{APP}/edits/run_edits.cpp": "tests/apps/edits_test.cpp",
-    **{f"{APP}/city/{unit}.cpp": "tests/apps/city/city_test.sh" for unit in (
-        "city", "filter_tile", "filter_tiles", "merge", "plan_command", "run_city", "write_city")},
-    f"{APP}/city/plan_file.cpp": "tests/apps/city/plan_test.cpp",
-    f"{APP}/live/dds_configuration.cpp": "tests/apps/live/dds_peer_test.cpp",
-    f"{APP}/live/dds_log.cpp": "tests/apps/live/dds_bus_test.cpp",
-    f"{APP}/live/dds_type.cpp": "tests/apps/live/dds_bus_test.cpp",
-    f"{APP}/live/foxglove_socket.cpp": "tests/apps/live/foxglove_server_test.cpp",
-    **{f"{APP}/live/{unit}.cpp": "tests/apps/live/live_test.sh" for unit in (
-        "dry_run", "live", "live_command")},
-    f"{APP}/live/recorder.cpp": "tests/apps/live/session_test.cpp",
-    f"{APP}/mpi/plugin.cpp": "tests/apps/mpi/mpi_workers_test.cpp",
-    f"{APP}/view/edit_server.cpp": "tests/viewer/edit_checks.mjs",
-    f"{APP}/view/live_view.cpp": "tests/viewer/live_checks.mjs",
-    f"{APP}/view/shown.cpp": "tests/viewer/report_checks.mjs",
-    f"{APP}/view/viewer_page.cpp": "tests/apps/view/page_test.cpp",
-    **{f"{APP}/{unit}.cpp": COMMAND for unit in (
-        "check", "compare", "convert", "demo", "evaluate", "frames", "info", "main", "motion", "render", "run", "run_reports",
-        "run_sequence", "run_state", "serve", "simulate", "sinks", "draw/animation", "draw/canvas", "draw/cleaning",
-        "draw/picture", "write_scans")},
+COVERED = {  # test -> the units that it covers
+    "commands/command_test.cpp": "check/motion commands/check commands/cleaning commands/compare commands/convert "
+        "commands/demo commands/evaluate commands/info commands/main commands/picture commands/render commands/serve "
+        "commands/simulate draw/animation draw/canvas export/convert_map export/sinks recording/frames run/run "
+        "run/run_reports run/run_sequence run/run_state run/write_scans",
+    "export/tileset_test.cpp": "export/glb",
+    "formats/clouds/las_test.cpp": "formats/clouds/las_header formats/clouds/las_writer",
+    "live/dds_bus_test.cpp": "live/dds_log live/dds_type",
+    "live/dds_peer_test.cpp": "live/dds_configuration",
+    "live/foxglove_server_test.cpp": "live/foxglove_socket",
+    "live/live_test.sh": "live/dry_run live/live live/live_command",
+    "live/session_test.cpp": "live/recorder",
+    "page/page_test.cpp": "page/viewer_page",
+    "recording/bag_scans_test.cpp": "recording/bag_contents recording/pose_source",
+    "run/city_test.sh": "commands/plan run/city run/filter_tile run/filter_tiles run/merge run/run_city "
+        "run/write_city",
+    "run/edits_test.cpp": "run/apply_edits run/edit_lookup run/map_gaps run/run_edits",
+    "run/mpi/mpi_workers_test.cpp": "run/mpi/plugin",
+    "run/plan_test.cpp": "run/plan_file",
+    "sim/scene_city_test.cpp": "sim/city sim/city_block sim/city_library",
+    "sim/scene_jam_test.cpp": "sim/jam_people sim/jam_traffic",
+    "sim/scene_platform_test.cpp": "sim/platform_people sim/wagon",
+    "viewer/edit_checks.mjs": "commands/edit_server",
+    "viewer/live_checks.mjs": "page/live_view",
+    "viewer/report_checks.mjs": "page/shown",
 }
+OTHERS = {f"src/{unit}.cpp": f"tests/{test}" for test, units in COVERED.items() for unit in units.split()}
 
 
 def mirrored(source):
-    folder, below = ("tests/apps", APP) if source.startswith(APP) else ("tests", "src")
-    path = pathlib.PurePosixPath(source).relative_to(below)
-    if path.parent.name == "" and below == "src":
-        folder = "tests/core"
-    return f"{folder}/{path.with_suffix('')}_test.cpp"
+    path = pathlib.PurePosixPath(source).relative_to("src")
+    return f"tests/{path.with_suffix('')}_test.cpp"
 
 
 def main():
     faults = []
-    sources = [p.relative_to(ROOT).as_posix() for top in ("src", APP) for p in sorted((ROOT / top).rglob("*.cpp"))]
+    sources = [p.relative_to(ROOT).as_posix() for p in sorted((ROOT / "src").rglob("*.cpp"))]
     for source in sources:
         has_own = (ROOT / mirrored(source)).exists()
         if has_own and source in OTHERS:

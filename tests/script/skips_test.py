@@ -23,7 +23,7 @@ class Skips(unittest.TestCase):
             return done.returncode, done.stdout
 
     def test_nothing_skipped(self):
-        self.assertEqual(self.said(section("io/pcd", "[  PASSED  ] 3 tests.")), (0, "0 skipped\n"))
+        self.assertEqual(self.said(section("formats/clouds/pcd", "[  PASSED  ] 3 tests.")), (0, "0 skipped\n"))
 
     def test_a_skipped_test_fails_and_says_why(self):
         code, text = self.said(section("viewer", "skipped: there is no chromium", True))
@@ -32,9 +32,9 @@ class Skips(unittest.TestCase):
 
     def test_a_skipped_case_of_a_test_that_passed_is_found(self):
         output = "[ RUN      ] Page.IsWhole\na.cpp:3: Skipped\nno viewer\n\n[  SKIPPED ] Page.IsWhole (0 ms)\n[  SKIPPED ] Page.IsWhole"
-        code, text = self.said(section("apps/page", output), section("io/pcd", ""))
+        code, text = self.said(section("page/page", output), section("formats/clouds/pcd", ""))
         self.assertEqual(code, 1)
-        self.assertIn("1 skipped\n  apps/page: Page.IsWhole: no viewer", text)
+        self.assertIn("1 skipped\n  page/page: Page.IsWhole: no viewer", text)
 
 
 if __name__ == "__main__":

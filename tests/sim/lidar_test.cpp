@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dynamic_filter/odometry/motion.hpp"
+#include "dynamic_filter/motion.hpp"
 
 namespace dynamic_filter::sim::lidar_test {
 

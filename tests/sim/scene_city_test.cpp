@@ -2,8 +2,8 @@
 #include <map>
 #include <set>
 
-#include "scene_checks.hpp"
 #include "sim/city.hpp"
+#include "sim/scene_checks.hpp"
 
 namespace dynamic_filter::sim {
 namespace scene_city_test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene_checks.hpp"
+#include "sim/scene_checks.hpp"
 
 namespace dynamic_filter::sim::scene_crowd_test {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "scene_checks.hpp"
 #include "sim/jam.hpp"
-#include "vehicle_checks.hpp"
+#include "sim/scene_checks.hpp"
+#include "sim/vehicle_checks.hpp"
 
 namespace dynamic_filter::sim::scene_jam_test {
 

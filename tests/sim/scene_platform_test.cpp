@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 
-#include "scene_checks.hpp"
 #include "sim/platform.hpp"
+#include "sim/scene_checks.hpp"
 
 namespace dynamic_filter::sim::scene_platform_test {
 

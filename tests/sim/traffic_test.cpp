@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "vehicle_checks.hpp"
+#include "sim/vehicle_checks.hpp"
 
 namespace dynamic_filter::sim::traffic_test {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "dynamic_filter/sim/simulation.hpp"
+#include "dynamic_filter/simulation.hpp"
 
 namespace dynamic_filter::sim {
 namespace voxel_share_test {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "dynamic_filter/geometry/voxel.hpp"
+#include "geometry/voxel.hpp"
 #include "support/random.hpp"
 
 namespace dynamic_filter::test {

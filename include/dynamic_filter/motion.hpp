@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Rigid motion at a constant rate, motion compensation (deskewing) of the points of a sweep, and
+/// when a rotating sensor measured each point. These times are computed from the directions of the
+/// points, and used where a recording has none.
+///
+/// - Units: [m], [rad], [s]. A Twist is a velocity if it is per second, otherwise a displacement.
+/// - Frames: a twist is given in the moving frame; points are in the frame of the sensor, which
+///   rotates about its z axis.
+/// - Shapes: times are parallel to points.
+/// - Ownership: values; times are borrowed for the call.
+/// - Threads: pure functions; thread-safe.
+/// - Errors: none.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "dynamic_filter/types.hpp"
+
+namespace dynamic_filter {
+
+/// Translation [m] or [m/s] first, then rotation vector [rad] or [rad/s].
+using Twist = Eigen::Matrix<double, 6, 1>;
+
+/// The displacement that results from a constant twist: the exponential map of SE(3).
+Pose exp(const Twist& twist);
+/// The inverse of exp(), for rotations of less than pi.
+Twist log(const Pose& displacement);
+
+/// Transforms points into another frame.
+Points moved(const Points& points, const Pose& T_to_from);
+
+/// Motion compensation: returns the points as if all had been measured at one moment. Each point
+/// was measured `times` [s] after this moment by a sensor that moved at `velocity` in its own
+/// frame. Points without a finite time are not moved.
+Points undo_motion(const Points& points, std::span<const float> times, const Twist& velocity);
+
+/// The rotation of a sensor, seen from above.
+struct Sweep {
+    bool clockwise = false;  ///< direction of rotation
+    double seam = 0.0;       ///< [rad] azimuth at which a scan begins and ends
+    double duration = 0.1;   ///< [s] of one rotation
+};
+
+/// Times [s] relative to the middle of the sweep, from -duration/2 to duration/2. Points that are
+/// not measured have time 0.
+std::vector<float> sweep_times(const Points& points, const Sweep& sweep);
+
+}  // namespace dynamic_filter

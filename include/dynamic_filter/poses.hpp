@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Reads pose files, corrects common mistakes in poses, and interpolates poses over time, also for
+/// motion compensation (deskewing).
+///
+/// - Units: [m], except PoseFix::millimetres; stamps [s].
+/// - Frames: T_world_sensor, if the file holds that; see each correction. Points are in the sensor
+///   frame.
+/// - Shapes: one entry per line of a file; arrays are parallel.
+/// - Ownership: values; undo_motion() changes its argument.
+/// - Threads: pure functions; thread-safe.
+/// - Errors: InputError of the functions that read. For a line that is no rigid motion, it names
+///   the line and the likely cause.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamic_filter/cloud.hpp"
+#include "dynamic_filter/types.hpp"
+
+namespace dynamic_filter::io {
+
+/// Corrections of poses: what the poses of the file really are.
+enum class PoseFix {
+    none,         ///< they are T_world_sensor [m], so nothing is corrected
+    inverse,      ///< they are T_sensor_world
+    camera,       ///< they are poses of a camera (x right, y down, z forward), not of the LiDAR
+    lidar,        ///< they are poses of the LiDAR, but were read as those of a camera
+    wxyz,         ///< quaternions are w x y z, but were read as x y z w
+    xyzw,         ///< quaternions are x y z w, but were read as w x y z
+    millimetres,  ///< translations are in millimetres
+};
+
+/// All corrections except `none`, in the order in which --pose-fix lists them.
+const std::vector<PoseFix>& pose_fixes();
+/// Name of a correction, as --pose-fix takes it.
+std::string to_string(PoseFix fix);
+
+/// Corrects a pose that was read without the correction; returns T_world_sensor.
+Pose fixed(PoseFix fix, const Pose& pose);
+
+/// Contents of a pose file.
+struct PoseFile {
+    std::vector<Pose> poses;  ///< T_world_sensor as written; rows of NaN (lost tracking) stay NaN
+    std::vector<double> stamps;  ///< [s]; empty for KITTI rows and g2o
+};
+
+/// Reads a pose file. The format is recognized by the contents:
+///
+/// - KITTI: rows of 12 numbers, a row-major 3x4 matrix.
+/// - TUM: rows of t x y z qx qy qz qw.
+/// - CSV with a header: EuRoC (ns, x y z, qw qx qy qz), or other named columns.
+/// - CSV of 13 columns without a header: MulRan (ns and a row-major 3x4 matrix).
+/// - g2o: the vertices VERTEX_SE3:QUAT id x y z qx qy qz qw, ordered by id; other lines are
+///   skipped.
+///
+/// Rotations within 1e-3 of orthogonal are made exact. Throws InputError for other rotations, for
+/// reflections, for quaternions more than 1 % from unit length, for wrong numbers of columns, and
+/// for two vertices with the same id.
+PoseFile read_poses(const std::filesystem::path& file);
+
+/// Reads a KITTI calib.txt: the 3x4 row after "Tr:" (velodyne to camera). Throws InputError.
+Pose read_calib_tr(const std::filesystem::path& file);
+
+/// Reads stamps [s], one per line. Throws InputError.
+std::vector<double> read_times(const std::filesystem::path& file);
+
+/// Poses of the sensor and their times.
+struct Trajectory {
+    std::vector<double> stamps;  ///< [s], increasing
+    std::vector<Pose> poses;     ///< T_world_sensor, parallel to `stamps`
+};
+
+/// Sorts the poses by time; of poses with equal stamps, the first one is kept.
+void put_in_order(Trajectory& trajectory);
+
+/// Interpolates between the two poses around `stamp` [s]: the translation linearly, the rotation
+/// along the shortest path. For up to `beyond` [s] before the first and after the last pose, it
+/// extrapolates the motion there. Empty farther out, and in gaps longer than `gap` [s].
+/// Thread-safe.
+std::optional<Pose> pose_at(const Trajectory& trajectory, double stamp, double gap = 1.0,
+                            double beyond = 0.0);
+
+/// Times at which the points were measured, [s] relative to the stamp [s] of the scan. They are
+/// read from the first of these fields that exists: "t", "time", "timestamp", "offset_time",
+/// "time_offset", "timeOffset", "time_stamp", "ts". The unit is recognized (seconds, milliseconds,
+/// microseconds or nanoseconds), and also whether times are absolute or relative to the stamp.
+/// Empty if there is no such field, if the times span less than 1 ms in every unit in which they
+/// span at most one second, or if they are absolute and more than 10 s from the stamp.
+std::vector<float> point_times(const Cloud& cloud, double stamp);
+
+/// Motion compensation: moves each point to where it would be if it had been measured at the stamp
+/// [s] of the scan. Points whose time lies more than 0.2 s outside the trajectory, or in one of its
+/// gaps of more than 1 s, are not moved; if the stamp itself lies there, no point is moved. Input
+/// and output are in the sensor frame.
+void undo_motion(Points& points, const std::vector<float>& times, double stamp,
+                 const Trajectory& T_world_sensor);
+
+}  // namespace dynamic_filter::io

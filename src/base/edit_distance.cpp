@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#include "base/edit_distance.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace dynamic_filter {
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i + 1;
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+        }
+    }
+    return row.back();
+}
+
+std::string nearest_word(std::string_view given, const std::vector<std::string>& known) {
+    std::string nearest;
+    std::size_t least = std::max<std::size_t>(2, given.size() / 2) + 1;
+    for (const std::string& word : known) {
+        const std::size_t distance = edit_distance(given, word);
+        if (distance >= least) continue;
+        least = distance;
+        nearest = word;
+    }
+    return nearest;
+}
+
+}  // namespace dynamic_filter

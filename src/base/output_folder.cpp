@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: MIT
+#include "base/output_folder.hpp"
+
+#include <fcntl.h>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "dynamic_filter/error.hpp"
+
+namespace fs = std::filesystem;
+
+namespace dynamic_filter::app {
+
+namespace {
+
+constexpr const char *kLock = ".lock", *kBeside = ".new";
+
+struct Names {
+    std::vector<const char*> files;
+    std::vector<std::pair<const char*, const char*>> folders;  ///< name, suffix of the files in it
+};
+
+Names written_by(Contents contents) {
+    switch (contents) {
+        case Contents::result:
+            return {
+                {"static_map.pcd", "dynamic_points.pcd", "metrics.json", "timing.json",
+                 "config.toml", "run.log", "report.html", "map_gaps.bin", "part.json", kRunState},
+                {{"labels", ".label"},
+                 {"unedited", ".label"},
+                 {"unedited", ".pcd"},
+                 {"unedited", ".json"},
+                 {"map", ".pcd"},
+                 {"map", ".html"},
+                 {"map", ".json"},
+                 {"tiles", ".pcd"},
+                 {"tiles", ".tile"},
+                 {"tiles", ""},
+                 {"report", ".html"},
+                 {"report", ".js"},
+                 {"report", ".css"}}};
+        case Contents::recording:
+            return {{"poses.txt", "times.txt"}, {{"labels", ".label"}, {"velodyne", ".bin"}}};
+        case Contents::benchmark:
+            return {{"gt_cloud.pcd"}, {{"pcd", ".pcd"}}};
+        case Contents::tiles:
+            return {{"pointcloud_map_metadata.yaml"}, {{"pointcloud_map", ".pcd"}}};
+        case Contents::tiles_3d:
+            return {{"tileset.json"}, {{"tiles", ".glb"}}};
+        case Contents::las_tiles:
+            return {{"index.json"}, {{"las", ".las"}}};
+        case Contents::demo:
+            break;  // its recording and its result are folders with contents of their own
+    }
+    return {{"before.png", "after.png"}, {}};
+}
+
+/// Left by a process that was killed while it wrote.
+bool is_stale(const fs::path& file) {
+    const std::string name = file.filename();
+    return name.front() == '.' && name.find(".tmp.") != std::string::npos;
+}
+
+void remove_files(const fs::path& folder, const std::function<bool(const fs::path&)>& which) {
+    std::vector<fs::path> doomed;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        if (which(entry.path())) doomed.push_back(entry.path());
+    }
+    for (const fs::path& file : doomed) fs::remove(file);
+}
+
+void remove_earlier_output(const fs::path& path, Contents contents) {
+    const Names names = written_by(contents);
+    for (const char* name : names.files) fs::remove(path / name);
+    for (const auto& [name, suffix] : names.folders) {
+        if (!fs::is_directory(path / name)) continue;
+        remove_files(path / name,
+                     [&, s = suffix](const fs::path& file) { return file.extension() == s; });
+        if (fs::is_empty(path / name)) fs::remove(path / name);
+    }
+    const fs::path drives = path / "drives";  // each with what a run leaves
+    if (contents != Contents::result || !fs::is_directory(drives)) return;
+    for (const auto& drive : fs::directory_iterator(drives)) {
+        if (!drive.is_directory()) continue;
+        remove_earlier_output(drive.path(), contents);
+        if (fs::is_empty(drive.path())) fs::remove(drive.path());
+    }
+    if (fs::is_empty(drives)) fs::remove(drives);
+}
+
+/// Folders at the new place may hold files of the user, which stay.
+void move_into(const fs::path& from, const fs::path& to) {
+    if (!fs::is_directory(from)) {
+        fs::rename(from, to);
+        return;
+    }
+    fs::create_directories(to);
+    for (const auto& entry : fs::directory_iterator(from)) {
+        move_into(entry.path(), to / entry.path().filename());
+    }
+}
+
+/// What a process that was killed left half-written.
+void remove_stale(const fs::path& path, Contents contents) {
+    remove_files(path, is_stale);
+    for (const auto& [name, suffix] : written_by(contents).folders) {
+        if (fs::is_directory(path / name)) remove_files(path / name, is_stale);
+    }
+    const fs::path drives = path / "drives";
+    if (contents != Contents::result || !fs::is_directory(drives)) return;
+    for (const auto& drive : fs::directory_iterator(drives)) {
+        if (drive.is_directory()) remove_stale(drive.path(), contents);
+    }
+}
+
+/// Whether the descriptor is still the file of that name: another process may have removed it.
+bool is_current(int descriptor, const fs::path& file) {
+    struct stat held {
+    }, named{};
+    return fstat(descriptor, &held) == 0 && stat(file.c_str(), &named) == 0 &&
+           held.st_ino == named.st_ino && held.st_dev == named.st_dev;
+}
+
+bool holds_something(const fs::path& path) {
+    for (const auto& entry : fs::directory_iterator(path)) {
+        const fs::path name = entry.path().filename();
+        if (name != kLock && name != kBeside) return true;
+    }
+    return false;
+}
+
+/// A run's labels stand for themselves, but half a recording or map misleads whoever reads it.
+bool is_of_use_in_part(Contents contents) {
+    return contents == Contents::result || contents == Contents::demo;
+}
+
+/// What one command leaves is not replaced by another's: the rest of it would stay and mislead.
+void refuse_result_of_a_run(const fs::path& folder, Contents contents) {
+    if (contents == Contents::result || !fs::exists(folder / kRunState)) return;
+    throw ConfigError(folder.string() +
+                      ": holds the result of a run, which only a run may overwrite; choose "
+                      "another folder");
+}
+
+}  // namespace
+
+OutputFolder::Lock::Lock(const fs::path& folder) : file(folder / kLock) {
+    do {
+        if (descriptor >= 0) close(descriptor);
+        descriptor = ::open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
+        if (descriptor < 0) throw OutputError(file, std::strerror(errno));
+        if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
+            close(descriptor);
+            throw ConfigError(folder.string() + ": another run is writing here; choose another -o");
+        }
+    } while (!is_current(descriptor, file));
+}
+
+OutputFolder::Lock::~Lock() {
+    std::error_code ignored;
+    fs::remove(file, ignored);
+    close(descriptor);
+}
+
+OutputFolder::OutputFolder(fs::path path, Contents contents, Existing existing)
+    : path_(std::move(path)), contents_(contents) {
+    if (path_.empty()) throw ConfigError("the output folder has no name; give one with -o");
+    try {
+        if (fs::exists(path_) && !fs::is_directory(path_)) {
+            throw ConfigError(path_.string() + ": the output must be a folder, and this is a file");
+        }
+        made_ = fs::create_directories(path_);
+        lock_.emplace(path_);
+        remove_stale(path_, contents_);
+        if (existing == Existing::resume) {
+            if (!fs::exists(path_ / kBeside)) return;
+            beside_ = path_ / kBeside;
+            remove_stale(beside_, contents_);
+            return;
+        }
+        fs::remove_all(path_ / kBeside);  // of a process that was killed
+        const bool empty = !holds_something(path_);
+        if (!empty && existing == Existing::refuse) {
+            throw ConfigError(path_.string() +
+                              ": the folder is not empty; choose another -o, or --overwrite");
+        }
+        refuse_result_of_a_run(path_, contents_);
+        if (empty && is_of_use_in_part(contents_)) return;
+        beside_ = path_ / kBeside;
+        fs::create_directory(beside_);
+    } catch (const fs::filesystem_error& error) {
+        throw OutputError(path_, error.code().message());
+    }
+}
+
+void OutputFolder::commit() {
+    if (beside_.empty()) return;
+    try {
+        remove_earlier_output(path_, contents_);
+        move_into(beside_, path_);
+        fs::remove_all(beside_);
+        beside_.clear();
+        made_ = false;
+    } catch (const fs::filesystem_error& error) {
+        throw OutputError(path_, error.code().message());
+    }
+}
+
+OutputFolder::~OutputFolder() {
+    std::error_code ignored;
+    if (beside_.empty()) return;
+    fs::remove_all(beside_, ignored);
+    lock_.reset();
+    if (made_) fs::remove(path_, ignored);
+}
+
+bool OutputFolder::is_empty() const { return !holds_something(path()); }
+
+fs::path OutputFolder::subfolder(const char* name) const {
+    std::error_code error;
+    fs::create_directories(path() / name, error);
+    if (error) throw OutputError(path() / name, error.message());
+    return path() / name;
+}
+
+void refuse_same_folder(const fs::path& input, const fs::path& output, const std::string& what) {
+    std::error_code ignored;
+    if (fs::equivalent(input, output, ignored)) {
+        throw ConfigError(output.string() + ": " + what + "; choose another -o");
+    }
+}
+
+fs::path default_output() {
+    const auto stamp = fmt::format("{:%Y%m%dT%H%M%SZ}", fmt::gmtime(std::time(nullptr)));
+    fs::path path = fs::path("results") / stamp;
+    for (int n = 2; fs::exists(path); ++n)
+        path = fs::path("results") / fmt::format("{}-{}", stamp, n);
+    return path;
+}
+
+bool link_latest(const fs::path& output) {
+    const fs::path link = output.parent_path() / "latest", fresh = output.parent_path() / ".latest";
+    std::error_code error;
+    fs::remove(fresh, error);
+    fs::create_symlink(output.filename(), fresh, error);
+    if (!error) fs::rename(fresh, link, error);  // replaces the old link in one step
+    return !error;
+}
+
+}  // namespace dynamic_filter::app

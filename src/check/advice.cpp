@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "check/advice.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace dynamic_filter::app {
+namespace {
+
+/// True if the second correction takes the first one back.
+bool undoes(const std::string& first, const std::string& second) {
+    constexpr std::array<std::array<const char*, 2>, 3> kOpposites{
+        {{"inverse", "inverse"}, {"camera", "lidar"}, {"wxyz", "xyzw"}}};
+    for (const auto& [a, b] : kOpposites) {
+        if ((first == a && second == b) || (first == b && second == a)) return true;
+    }
+    return false;
+}
+
+std::string quoted(const std::string& word) {
+    return word.find(' ') == std::string::npos ? word : "'" + word + "'";
+}
+
+}  // namespace
+
+io::Finding blame_needless_fix(io::Finding finding, const DataOptions& given) {
+    const std::string option = "--pose-fix ";
+    if (!finding.advice.starts_with(option)) return finding;
+    if (!undoes(given.pose_fix, finding.advice.substr(option.size()))) return finding;
+    const std::size_t reason = finding.what.find(": ");
+    return {"the poses are right without " + option + given.pose_fix +
+                (reason == std::string::npos ? "" : finding.what.substr(reason)),
+            "leave out --pose-fix"};
+}
+
+std::string warning_of(const io::Finding& finding, const DataOptions& given) {
+    const auto [what, advice] = blame_needless_fix(finding, given);
+    return fmt::format("{}; {}{} (`dynamicfilter check` looks closer)", what,
+                       advice.starts_with("--") ? "try " : "", advice);
+}
+
+std::string next_command(const DataOptions& given, const std::string& option) {
+    return next_command({given.data}, given, option);
+}
+
+std::string next_command(const std::vector<std::filesystem::path>& recordings,
+                         const DataOptions& given, const std::string& option) {
+    std::string line = "dynamicfilter run";
+    for (const auto& recording : recordings) line += " " + quoted(recording.string());
+    const auto add = [&](const std::string& name, const std::string& value) {
+        if (!value.empty() && !option.starts_with(name)) line += " " + name + " " + quoted(value);
+    };
+    add("--format", given.format);
+    if (given.open.poses) add("--poses", given.open.poses->string());
+    add("--topic", given.open.topic);
+    add("--pose-topic", given.open.pose_topic);
+    add("--pose-fix", given.pose_fix == "none" ? "" : given.pose_fix);
+    add("--time-unit", given.time_unit == "s" ? "" : given.time_unit);
+    if (given.open.points_in_world) line += " --points-in-world";
+    return option.empty() ? line : line + " " + option;
+}
+
+}  // namespace dynamic_filter::app

@@ -1,0 +1,385 @@
+// SPDX-License-Identifier: MIT
+#include "dynamic_filter/check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <optional>
+
+#include "base/median.hpp"
+#include "check/overlay.hpp"
+#include "check/samples.hpp"
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/poses.hpp"
+
+namespace dynamic_filter::io {
+namespace {
+
+constexpr const char* kOtherPoses =
+    "check that the poses are of this recording, of the same times, and of the sensor, not of the "
+    "vehicle that carries it; give other poses with --poses, or --poses none, which finds them";
+
+double share_of(const std::vector<Overlay>& overlays, const std::string& reading) {
+    const auto found = std::find_if(overlays.begin(), overlays.end(),
+                                    [&](const Overlay& o) { return o.reading == reading; });
+    return found == overlays.end() ? 0.0 : found->share;
+}
+
+/// True if the difference is clearly more than chance and moving objects explain.
+bool clearly_better(double share, double than) { return share > 1.1 * than + 0.02; }
+
+bool all_equal(const Samples& samples) {
+    return std::all_of(samples.begin(), samples.end(), [&](const auto& sample) {
+        return sample.second.T_world_sensor.isApprox(samples.begin()->second.T_world_sensor, 1e-9);
+    });
+}
+
+/// True if the points are in the world frame: then the ground is near the poses, not near the
+/// origin.
+bool lie_in_world(const Samples& samples) {
+    constexpr double kAway = 10.0;  // [m]
+    std::size_t near_origin = 0, near_pose = 0;
+    for (const auto& [i, sample] : samples) {
+        if (sample.T_world_sensor.translation().norm() < kAway) continue;
+        near_origin += sample.near_origin;
+        near_pose += sample.near_pose;
+    }
+    return near_pose > 2 * near_origin + 100;
+}
+
+/// True if scans show enough upright structures to be compared.
+bool have_structure(const Samples& samples) {
+    return std::count_if(samples.begin(), samples.end(), [](const auto& sample) {
+               constexpr std::size_t kEnough = 200;
+               return sample.second.upright.size() > kEnough;
+           }) > 1;
+}
+
+/// True if the sensor would be upside down; sensors of ground robots are upright.
+bool hang_upside_down(const Samples& samples, const Reading& reading) {
+    return std::all_of(samples.begin(), samples.end(), [&](const auto& sample) {
+        return reading.pose(sample.second.T_world_sensor)(2, 2) < -0.5;
+    });
+}
+
+std::string meaning_of(const std::string& reading) {
+    static const std::map<std::string, std::string> meanings = {
+        {"inverse", "the poses are inverse (T_sensor_world)"},
+        {"camera", "the poses are a camera's, not the LiDAR's"},
+        {"lidar", "the poses are the LiDAR's already, but calib.txt makes them a camera's"},
+        {"wxyz", "the quaternions are w x y z, but were read as x y z w"},
+        {"xyzw", "the quaternions are x y z w, but were read as w x y z"},
+        {"mm", "the poses are in millimetres"},
+    };
+    return meanings.at(reading);
+}
+
+std::string fits_better(const std::vector<Overlay>& overlays, const std::string& reading) {
+    return fmt::format("scans overlay by {:.0f} % this way, by {:.0f} % as given",
+                       100.0 * share_of(overlays, reading), 100.0 * share_of(overlays, kAsGiven));
+}
+
+Finding pose_finding(const std::vector<Overlay>& overlays, const std::string& reading) {
+    return {meaning_of(reading) + ": " + fits_better(overlays, reading), "--pose-fix " + reading};
+}
+
+/// True if scans far apart overlay as well as neighbors do, because the sensor stands still.
+bool stands_still(const Samples& samples, const std::vector<Pair>& pairs) {
+    std::vector<Pair> near, far;
+    for (const Pair& pair : pairs) (pair.apart == kApart.front() ? near : far).push_back(pair);
+    return share_of(compare(samples, far), kInWorld) >
+           0.8 * share_of(compare(samples, near), kInWorld);
+}
+
+/// A finding if displacements of the scans improve their overlay, which is impossible with correct
+/// poses.
+std::optional<Finding> misfit(const Samples& samples, const std::vector<Pair>& pairs) {
+    std::vector<double> given, best, offset;
+    for (const Pair& pair : pairs) {
+        const auto a = samples.find(pair.from), b = samples.find(pair.from + pair.apart);
+        if (pair.apart != kApart[1] || a == samples.end() || b == samples.end()) continue;
+        const Search search = search_around(a->second, b->second);
+        given.push_back(search.given);
+        best.push_back(search.best);
+        offset.push_back(search.offset);
+    }
+    constexpr double kFar = 0.7;  // [m]
+    if (given.empty() || median(offset) < kFar || median(best) < 1.5 * median(given) + 0.02) {
+        return std::nullopt;
+    }
+    return Finding{
+        fmt::format("the poses do not fit the scans: those {} scans apart overlay by "
+                    "{:.0f} %, but by {:.0f} % if moved by {:.1f} m",
+                    kApart[1], 100.0 * median(given), 100.0 * median(best), median(offset)),
+        kOtherPoses};
+}
+
+/// On a straight path, several interpretations overlay equally well. Then the one in which the
+/// sensor is upright is right.
+void judge_upside_down(Preflight& result, const Samples& samples) {
+    const auto& all = readings();
+    if (!hang_upside_down(samples, all.front())) return;
+    for (const PoseFix fix : pose_fixes()) {
+        const std::string name = to_string(fix);
+        const auto reading =
+            std::find_if(all.begin(), all.end(), [&](const Reading& r) { return r.name == name; });
+        const bool alike =
+            share_of(result.overlays, name) > 0.97 * share_of(result.overlays, kAsGiven);
+        if (!alike || hang_upside_down(samples, *reading)) continue;
+        Finding finding = pose_finding(result.overlays, name);
+        finding.what += ", but then the sensor would hang upside down";
+        result.findings.push_back(std::move(finding));
+        return;
+    }
+}
+
+/// Finding: points are in the sensor frame, although the format or an option says world frame.
+Finding in_sensor_finding(const std::vector<Overlay>& overlays, bool files_in_world) {
+    if (files_in_world) {
+        return {"the points are in the sensor's frame, but this format has them in the world's: " +
+                    fits_better(overlays, kInSensor),
+                "give --format folder, and a pose file with --poses"};
+    }
+    return {"the points are in the sensor's frame, not in the world's: " +
+                fits_better(overlays, kInSensor),
+            "leave out --points-in-world"};
+}
+
+/// `nearly_right` is called before poses are reported as wrong as a whole: if the sensor hardly
+/// moves, drifting poses overlay better under every interpretation.
+void judge_poses(Preflight& result, const Sequence& sequence, const Samples& samples,
+                 const std::vector<Pair>& pairs, const std::function<bool()>& nearly_right) {
+    const auto& overlays = result.overlays;
+    const double given = share_of(overlays, kAsGiven);
+    if (all_equal(samples)) {
+        if (stands_still(samples, pairs)) return;
+        result.findings.push_back({"all poses are equal, but the scans show that the sensor moves",
+                                   "give the trajectory with --poses FILE, which scans in the "
+                                   "world's frame need as well; "
+                                   "--poses none finds it for scans in the sensor's frame"});
+        return;
+    }
+    const bool files_in_world = sequence.format == Format::benchmark;
+    if (!files_in_world && lie_in_world(samples)) {
+        result.findings.push_back(
+            {"the points are in the world's frame already: " + fits_better(overlays, kInWorld),
+             "--points-in-world"});
+        return;
+    }
+    const auto best =
+        std::max_element(overlays.begin(), overlays.end(),
+                         [](const Overlay& a, const Overlay& b) { return a.share < b.share; });
+    const bool much = clearly_better(best->share, given);
+    constexpr double kNothing = 0.02;
+    if (best->share < kNothing && have_structure(samples)) {
+        result.findings.push_back(
+            {fmt::format("the scans do not overlay, however the poses are read ({:.0f} %)",
+                         100.0 * best->share),
+             kOtherPoses});
+        return;
+    }
+    if (best->reading == kAsGiven) {
+        judge_upside_down(result, samples);
+        return;
+    }
+    if (best->reading == kInSensor && (files_in_world || sequence.points_in_world)) {
+        if (much) result.findings.push_back(in_sensor_finding(overlays, files_in_world));
+        return;
+    }
+    // In the interpretation "millimetres", only a thousandth of the given motion is left, which is
+    // nearly the same as no motion.
+    const bool as_if_still = best->share < 1.02 * share_of(overlays, kInWorld);
+    if (as_if_still || best->reading == kInSensor) {
+        if (much && !nearly_right()) {
+            result.findings.push_back(
+                {"the poses do not fit the scans: " + fits_better(overlays, kInWorld) +
+                     "; the first value assumes that the sensor does not move",
+                 kOtherPoses});
+        }
+        return;
+    }
+    const auto& all = readings();
+    const auto& as_best = all[static_cast<std::size_t>(best - overlays.begin())];
+    const bool upright_instead =
+        hang_upside_down(samples, all.front()) && !hang_upside_down(samples, as_best);
+    if (upright_instead || (much && !nearly_right())) {
+        result.findings.push_back(pose_finding(overlays, best->reading));
+    }
+}
+
+void judge_points(Preflight& result, const Samples& samples) {
+    constexpr double kSuspicious = 0.2;
+    std::vector<double> doubled;
+    for (const auto& [i, sample] : samples) doubled.push_back(sample.doubled);
+    // Seen from another place, points naturally lie behind each other.
+    if (doubled.empty() || lie_in_world(samples)) return;
+    const double typical = median(std::move(doubled));
+    if (typical < kSuspicious) return;
+    result.findings.push_back(
+        {fmt::format("{:.0f} % of the points that lie in one direction are at different ranges: "
+                     "several sensors or several sweeps are merged into one scan",
+                     100.0 * typical),
+         "use the scans of one sensor, each with its own pose"});
+}
+
+/// Sensors of all kinds see less far than this with half of their beams.
+void judge_unit(Preflight& result, const Samples& samples) {
+    constexpr float kTooFar = 500.0F;  // [m]
+    std::vector<double> ranges;
+    for (const auto& [i, sample] : samples) ranges.push_back(sample.typical_range);
+    if (ranges.empty() || lie_in_world(samples)) return;
+    const double typical = median(std::move(ranges));
+    if (typical < kTooFar) return;
+    result.findings.push_back(
+        {fmt::format("half of the points lie more than {:.0f} m from the sensor: they may be in "
+                     "millimetres, or in the world's frame",
+                     typical),
+         "write the points in metres, or give --points-in-world and the poses"});
+}
+
+/// Scans and poses were matched by order, but both have stamps, which may contradict each other.
+void judge_pose_stamps(Preflight& result, const Sequence& sequence, double step) {
+    const auto& scans = sequence.stamps;
+    const auto& poses = sequence.pose_stamps;
+    if (poses.size() != scans.size()) return;
+    const double ratio = (poses.back() - poses.front()) / (scans.back() - scans.front());
+    for (const auto& [unit, seconds] : {std::pair{"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}}) {
+        if (std::abs(ratio * seconds - 1.0) < 0.5) {
+            result.findings.push_back(
+                {fmt::format("the poses' stamps are in {}, those of the scans in s", unit),
+                 "write the poses with stamps in seconds; here they were matched by order"});
+            return;
+        }
+        if (std::abs(ratio / seconds - 1.0) < 0.5) {
+            result.findings.push_back(
+                {fmt::format("the scans' stamps are in {}, those of the poses in s", unit),
+                 fmt::format("--time-unit {}", unit)});
+            return;
+        }
+    }
+    // A clock that begins at 0 cannot be compared with the other one.
+    const bool relative = std::abs(scans.front()) < 1.0 || std::abs(poses.front()) < 1.0;
+    std::vector<double> offsets;
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+        offsets.push_back(poses[i] - scans[i] - (relative ? poses.front() - scans.front() : 0.0));
+    }
+    const double offset = median(std::move(offsets));
+    if (std::abs(offset) < 1.5 * step) return;
+    result.findings.push_back(
+        {fmt::format("the poses' stamps are {:.3g} s {} those of the scans, which are {:.3g} s "
+                     "apart; they were matched by order",
+                     std::abs(offset), offset < 0.0 ? "before" : "after", step),
+         kOtherPoses});
+}
+
+void judge_stamps(Preflight& result, const Sequence& sequence) {
+    if (!sequence.measured_stamps || sequence.size() < 3) return;
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < sequence.size(); ++i) {
+        steps.push_back(sequence.stamps[i] - sequence.stamps[i - 1]);
+    }
+    const double step = median(std::move(steps));
+    judge_pose_stamps(result, sequence, step);
+    constexpr double kLongest = 20.0, kShortest = 1e-3;  // [s] between scans
+    if (step < kLongest && step > kShortest) return;
+    for (const auto& [unit, seconds] : {std::pair{"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}}) {
+        if (step * seconds > 0.5 * kLongest || step * seconds < 10.0 * kShortest) continue;
+        result.findings.push_back({fmt::format("the stamps are not in seconds: scans are {:.4g} "
+                                               "apart, which is {:.3g} s if the unit is {}",
+                                               step, step * seconds, unit),
+                                   fmt::format("--time-unit {}", unit)});
+        return;
+    }
+    result.findings.push_back({fmt::format("scans are {:.3g} s apart", step),
+                               "check the stamps; they should be in seconds"});
+}
+
+/// Natural order puts "10.pcd" after "9.pcd"; the order of other names may not be that of time.
+void judge_order(Preflight& result, const Sequence& sequence, const Samples& samples) {
+    const auto unknown = [](const auto& sample) { return !sample.second.began; };
+    if (sequence.bag || std::any_of(samples.begin(), samples.end(), unknown)) return;
+    const auto back = std::adjacent_find(
+        samples.begin(), samples.end(),
+        [](const auto& a, const auto& b) { return *b.second.began < *a.second.began; });
+    if (back == samples.end()) return;
+    const auto next = std::next(back);
+    result.findings.push_back(
+        {fmt::format("the order of the file names is not the order in time: by the times of its "
+                     "points, {} was taken {:.3g} s before {}, whose name comes first",
+                     sequence.scan_files[next->first].filename().string(),
+                     *back->second.began - *next->second.began,
+                     sequence.scan_files[back->first].filename().string()),
+         "rename the scans, and their labels, so that their names sort by time"});
+}
+
+/// Findings about poses that are nearly right, and about motion during scans.
+void judge_motion(Preflight& result, Sequence sequence) {
+    sequence.wants_times = !sequence.deskew;
+    const OdometryConfig config;
+    const std::string mistake = find_pose_mistake(sequence, config);
+    if (!mistake.empty()) {
+        result.findings.push_back({mistake,
+                                   "`run` refines such poses of a single recording without being "
+                                   "asked (as with --refine on), but not those of several; more "
+                                   "accurate poses give better results"});
+    }
+    if (sequence.deskew || !sequence.velocities.empty()) return;
+    const Blur blur = measure_motion(sequence, config).found;
+    if (blur.is_distorted() || (blur.undone == 0.0 && find_sweep(sequence, config))) {
+        result.findings.push_back(
+            {"the sensor's motion during each scan is still in the points: scans overlay better "
+             "without it",
+             "--deskew on"});
+    }
+}
+
+/// Faults of all scans that show without reading the points.
+std::map<std::size_t, std::string> find_unusable(const Sequence& sequence) {
+    std::map<std::size_t, std::string> unusable;
+    for (std::size_t i = 0; i < sequence.size(); ++i) {
+        try {
+            refuse_unusable(sequence, i);
+        } catch (const InputError& error) {
+            unusable[i] = error.what();
+        }
+    }
+    return unusable;
+}
+
+}  // namespace
+
+Preflight check_recording(const Sequence& sequence, Depth depth) {
+    const std::size_t places = depth == Depth::thorough ? 12 : 3;
+    const std::vector<Pair> chosen = choose_pairs(sequence.size(), places);
+    Preflight result;
+    std::map<std::size_t, std::string> unusable = find_unusable(sequence);
+    const Samples samples = read_samples(sequence, chosen, unusable);
+    const std::vector<Pair> pairs = comparable(samples, chosen);
+    for (const auto& [i, why] : unusable) result.unusable.push_back(stem(sequence, i) + ": " + why);
+    result.scans = samples.size();
+    if (sequence.has_poses) result.overlays = compare(samples, pairs);
+    judge_stamps(result, sequence);
+    judge_order(result, sequence, samples);
+    judge_unit(result, samples);
+    judge_points(result, samples);
+    if (result.overlays.empty()) return result;
+    std::optional<bool> known;  // evaluated once, because it reads scans
+    const auto nearly_right = [&] {
+        if (depth == Depth::quick) return false;
+        if (!known) known = measure_motion(sequence, OdometryConfig{}).nearly_right;
+        return *known;
+    };
+    judge_poses(result, sequence, samples, pairs, nearly_right);
+    if (!result.findings.empty() || depth == Depth::quick) return result;
+    auto finding = misfit(samples, pairs);
+    if (finding && !nearly_right()) {
+        result.findings.push_back(std::move(*finding));
+        return result;
+    }
+    judge_motion(result, sequence);
+    return result;
+}
+
+}  // namespace dynamic_filter::io

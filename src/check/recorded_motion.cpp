@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: MIT
+#include "dynamic_filter/check.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+#include "base/median.hpp"
+#include "check/pose_mistakes.hpp"
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/parallel.hpp"
+#include "tracking/overlay_blur.hpp"
+
+namespace dynamic_filter::io {
+namespace {
+
+// Number of places, and of consecutive scans at each.
+constexpr std::size_t kPlaces = 3, kInARow = 21;
+constexpr std::array<std::size_t, 4> kErrorsApart = {1, 5, 10, 20};
+
+/// Consecutive scans as input of the odometry.
+using Piece = std::vector<Scan>;
+
+std::optional<Scan> read(const Sequence& sequence, std::size_t i) {
+    try {
+        Frame frame = read_frame(sequence, i);
+        return Scan{std::move(frame.points), frame.T_world_sensor,  frame.stamp, i,
+                    frame.has_pose,          std::move(frame.times)};
+    } catch (const InputError&) {
+        return std::nullopt;
+    }
+}
+
+std::vector<Piece> read_pieces(const Sequence& sequence, std::size_t in_a_row) {
+    std::vector<Piece> pieces;
+    const std::size_t n = sequence.size();
+    const std::size_t places = std::clamp<std::size_t>(n / (2 * in_a_row), 1, kPlaces);
+    for (std::size_t k = 0; k < places; ++k) {
+        const std::size_t room = n > in_a_row ? n - in_a_row : 0;
+        const std::size_t first = places > 1 ? k * room / (places - 1) : room / 2;
+        Piece piece;
+        for (std::size_t i = first; i < std::min(n, first + in_a_row); ++i) {
+            if (auto scan = read(sequence, i)) piece.push_back(*std::move(scan));
+        }
+        pieces.push_back(std::move(piece));
+    }
+    return pieces;
+}
+
+std::vector<Tracked> track(const Piece& piece, const OdometryConfig& config) {
+    Odometry odometry(config);
+    std::vector<Tracked> tracked;
+    for (const Scan& scan : piece) {
+        tracked.push_back(odometry.track(scan.points, scan.times, scan.stamp));
+        odometry.learn({});
+    }
+    return tracked;
+}
+
+std::vector<Pose> poses_of(const std::vector<Tracked>& tracked) {
+    std::vector<Pose> poses;
+    for (const Tracked& t : tracked) poses.push_back(t.T_world_sensor);
+    return poses;
+}
+
+/// Blur [m] of the scans at the poses of the odometry.
+double blur(const Piece& piece, const std::vector<Tracked>& tracked, const OdometryConfig& config) {
+    return overlay_blur(piece, poses_of(tracked), config);
+}
+
+/// Distance [m] by which the motion of the sensor during a scan displaces points at a range of 10
+/// m.
+double distortion(const std::vector<Tracked>& tracked, double duration) {
+    std::vector<double> shifts;
+    for (const Tracked& t : tracked) {
+        shifts.push_back(duration *
+                         (t.velocity.head<3>().norm() + 10.0 * t.velocity.tail<3>().norm()));
+    }
+    return median(std::move(shifts));
+}
+
+/// True if the scan covers all directions, as that of a rotating sensor does.
+bool turns(const Scan& scan) {
+    constexpr std::size_t kSectors = 16, kMostEmpty = 3;
+    std::array<bool, kSectors> seen{};
+    for (const Point& p : scan.points) {
+        const double turned = std::atan2(p.y(), p.x()) / (2.0 * std::numbers::pi) + 0.5;
+        const auto sector = static_cast<std::size_t>(turned * kSectors);
+        if (is_measured(p)) seen[std::min(sector, kSectors - 1)] = true;
+    }
+    return std::count(seen.begin(), seen.end(), false) <= std::ptrdiff_t{kMostEmpty};
+}
+
+std::vector<Sweep> all_sweeps(double duration) {
+    std::vector<Sweep> sweeps;
+    for (const bool clockwise : {false, true}) {
+        for (int quarter = 0; quarter < 4; ++quarter) {
+            sweeps.push_back({clockwise, quarter * 0.5 * std::numbers::pi, duration});
+        }
+    }
+    return sweeps;
+}
+
+/// Poses of consecutive scans: as given, and as estimated from the scans.
+struct Compared {
+    std::vector<double> stamps;
+    std::vector<Pose> given, shown;
+    Blur at_given, at_shown;
+};
+
+Compared compare(Piece piece, const OdometryConfig& config) {
+    Compared compared;
+    const bool has_times = std::all_of(piece.begin(), piece.end(),
+                                       [](const Scan& scan) { return !scan.times.empty(); });
+    const bool has_poses = piece.front().has_pose;
+    for (const Scan& scan : piece) {
+        compared.stamps.push_back(scan.stamp);
+        compared.given.push_back(scan.T_world_sensor);
+    }
+    const auto look = [&](double Blur::*which) {
+        const std::vector<Pose> shown = poses_of(track(piece, config));
+        compared.at_shown.*which = overlay_blur(piece, shown, config);
+        if (has_poses) {
+            compared.at_given.*which = overlay_blur(piece, compared.given, config);
+        }
+        const bool best = compared.at_shown.*which == compared.at_shown.least();
+        if (best) compared.shown = shown;
+    };
+    if (has_times) look(&Blur::undone);
+    for (Scan& scan : piece) scan.times.clear();
+    look(&Blur::as_measured);
+    return compared;
+}
+
+/// Errors for all pairs of scans with this separation.
+std::vector<PoseError> errors_of(const std::vector<Compared>& pieces, std::size_t apart) {
+    std::vector<PoseError> errors;
+    for (const Compared& piece : pieces) {
+        const auto& [given, shown] = std::tie(piece.given, piece.shown);
+        for (std::size_t i = apart; i < shown.size(); ++i) {
+            const Pose moved = shown[i - apart].inverse() * shown[i];
+            const Twist off = log(moved.inverse() * given[i - apart].inverse() * given[i]);
+            errors.push_back(
+                {apart, moved.translation().norm(), off.head<3>().norm(), off.tail<3>().norm()});
+        }
+    }
+    return errors;
+}
+
+double median_of(const std::vector<PoseError>& errors, double PoseError::*which) {
+    std::vector<double> values;
+    for (const PoseError& error : errors) values.push_back(error.*which);
+    return median(std::move(values));
+}
+
+std::optional<PoseError> typical_error(const std::vector<Compared>& pieces, std::size_t apart) {
+    const std::vector<PoseError> errors = errors_of(pieces, apart);
+    if (errors.empty()) return std::nullopt;
+    return PoseError{apart, median_of(errors, &PoseError::way),
+                     median_of(errors, &PoseError::shift), median_of(errors, &PoseError::turn)};
+}
+
+/// See MotionQuality::nearly_right.
+bool nearly_right(const std::vector<Compared>& pieces) {
+    constexpr double kShift = 1.0, kShare = 0.3, kTurn = 0.1;  // [m], share of the distance, [rad]
+    const std::vector<PoseError> errors = errors_of(pieces, kErrorsApart.back());
+    const auto is_small = [&](const PoseError& error) {
+        return error.shift <= std::max(kShift, kShare * error.way) && error.turn <= kTurn;
+    };
+    return !errors.empty() && std::all_of(errors.begin(), errors.end(), is_small);
+}
+
+double usual_step(const Sequence& sequence) {
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < sequence.size(); ++i) {
+        steps.push_back(sequence.stamps[i] - sequence.stamps[i - 1]);
+    }
+    return median(std::move(steps));
+}
+
+std::vector<Compared> compare_places(const Sequence& sequence, std::size_t in_a_row,
+                                     const OdometryConfig& config) {
+    std::vector<Piece> pieces = read_pieces(sequence, in_a_row);
+    std::erase_if(pieces, [](const Piece& piece) { return piece.size() < 2; });
+    std::vector<Compared> compared(pieces.size());
+    parallel_for(pieces.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+            compared[k] = compare(std::move(pieces[k]), config);
+        }
+    });
+    return compared;
+}
+
+MotionQuality quality_of(const std::vector<Compared>& compared, bool has_poses) {
+    MotionQuality quality;
+    const double share = 1.0 / static_cast<double>(compared.size());
+    for (const Compared& piece : compared) {
+        for (double Blur::*which : {&Blur::as_measured, &Blur::undone}) {
+            quality.given.*which += share * piece.at_given.*which;
+            quality.found.*which += share * piece.at_shown.*which;
+        }
+    }
+    quality.nearly_right = has_poses && nearly_right(compared);
+    for (const std::size_t apart : kErrorsApart) {
+        if (!has_poses) break;
+        if (const auto error = typical_error(compared, apart)) quality.errors.push_back(*error);
+    }
+    return quality;
+}
+
+/// In a short recording, a sweep may look better by chance. A real one makes the map of each half
+/// of the scans sharper.
+bool sharpens_both_halves(const Piece& piece, const Sweep& sweep, const OdometryConfig& config) {
+    const auto middle = piece.begin() + static_cast<std::ptrdiff_t>(piece.size() / 2);
+    for (Piece half : {Piece(piece.begin(), middle), Piece(middle, piece.end())}) {
+        const double as_it_is = blur(half, track(half, config), config);
+        for (Scan& scan : half) scan.times = sweep_times(scan.points, sweep);
+        if (!(blur(half, track(half, config), config) < as_it_is)) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+std::vector<std::optional<Tracked>> track_scans(const Sequence& sequence,
+                                                const OdometryConfig& config,
+                                                const std::function<bool()>& after) {
+    std::vector<std::optional<Tracked>> tracked(sequence.size());
+    Odometry odometry(config);
+    for (std::size_t i = 0; i < sequence.size(); ++i) {
+        if (const auto scan = read(sequence, i)) {
+            tracked[i] = odometry.track(scan->points, scan->times, scan->stamp);
+            odometry.learn({});
+        }
+        if (after && !after()) break;
+    }
+    return tracked;
+}
+
+std::optional<Sweep> find_sweep(const Sequence& sequence, const OdometryConfig& given) {
+    OdometryConfig config = given;
+    config.points = std::min(config.points, 1500);  // fewer points, because this takes long
+    // [s] of one rotation; a longer time means that scans were left out.
+    constexpr double kLongest = 0.25;
+    constexpr double kLeast = 0.3;      // [m] of distortion; less does not matter
+    constexpr double kClearly = 0.988;  // factor of the blur that counts as clearly better
+    const double duration = usual_step(sequence);
+    if (!(duration > 0.0) || duration > kLongest) return std::nullopt;
+    const Piece* fastest = nullptr;
+    double most_distorted = kLeast, as_it_is = 0.0;
+    std::vector<Piece> pieces = read_pieces(sequence, kInARow);
+    for (Piece& piece : pieces) {
+        if (piece.size() < 2 || !turns(piece.front())) continue;
+        for (Scan& scan : piece) scan.times.clear();
+        const std::vector<Tracked> tracked = track(piece, config);
+        const double distorted = distortion(tracked, duration);
+        if (distorted < most_distorted) continue;
+        most_distorted = distorted;
+        fastest = &piece;
+        as_it_is = blur(piece, tracked, config);
+    }
+    if (fastest == nullptr) return std::nullopt;
+    const std::vector<Sweep> sweeps = all_sweeps(duration);
+    std::vector<double> blurs(sweeps.size());
+    parallel_for(sweeps.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+            Piece piece = *fastest;
+            for (Scan& scan : piece) scan.times = sweep_times(scan.points, sweeps[k]);
+            blurs[k] = blur(piece, track(piece, config), config);
+        }
+    });
+    const auto best = std::min_element(blurs.begin(), blurs.end());
+    if (*best > as_it_is * kClearly) return std::nullopt;
+    const Sweep sweep = sweeps[static_cast<std::size_t>(best - blurs.begin())];
+    return sharpens_both_halves(*fastest, sweep, config) ? std::optional(sweep) : std::nullopt;
+}
+
+double Blur::least() const {
+    return undone > 0.0 ? std::min(undone, as_measured > 0.0 ? as_measured : undone) : as_measured;
+}
+
+bool Blur::is_distorted() const {
+    constexpr double kClearly = 0.995;
+    return undone > 0.0 && undone < kClearly * as_measured;
+}
+
+bool MotionQuality::has_bad_poses() const {
+    constexpr double kClearly = 1.1;
+    return given.least() > kClearly * found.least();
+}
+
+MotionQuality measure_motion(const Sequence& sequence, const OdometryConfig& config) {
+    return quality_of(compare_places(sequence, kInARow, config), sequence.has_poses);
+}
+
+std::string find_pose_mistake(const Sequence& sequence, const OdometryConfig& config) {
+    // Number of consecutive scans; long enough that the motion varies.
+    constexpr std::size_t kLong = 60;
+    std::vector<Compared> compared = compare_places(sequence, kLong, config);
+    if (compared.empty() || !sequence.has_poses) return "";
+    const bool blur = quality_of(compared, true).has_bad_poses();
+    std::vector<TwoTracks> tracks;
+    for (Compared& piece : compared) {
+        tracks.push_back({std::move(piece.stamps), std::move(piece.given), std::move(piece.shown)});
+    }
+    return blur ? name_mistake(tracks) : name_constant_mistake(tracks);
+}
+
+}  // namespace dynamic_filter::io

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include "check/samples.hpp"
+
+#include <tsl/robin_map.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "dynamic_filter/error.hpp"
+#include "formats/clouds/time_field.hpp"
+#include "geometry/voxel.hpp"
+
+namespace dynamic_filter::io {
+namespace {
+
+constexpr float kNearest = 2.0F, kFarthest = 30.0F;  // [m]
+
+/// Upright structures. The ground is left out, because its rings look the same from everywhere, as
+/// if the sensor had not moved.
+Points upright(const Points& points) {
+    constexpr float kColumn = 0.6F, kTall = 0.5F;  // [m]
+    struct Extent {
+        float low, high;
+    };
+    tsl::robin_map<VoxelKey, Extent, VoxelHash> columns;
+    const auto column_of = [&](const Point& p) -> std::optional<VoxelKey> {
+        const bool usable = is_measured(p) && p.norm() > kNearest && p.norm() < kFarthest;
+        const auto cell = usable ? cell_of({p.x(), p.y(), 0.0F}, 1.0F / kColumn) : std::nullopt;
+        return cell ? std::optional(pack(*cell)) : std::nullopt;
+    };
+    for (const Point& p : points) {
+        if (const auto column = column_of(p)) {
+            Extent& e = columns.try_emplace(*column, Extent{p.z(), p.z()}).first.value();
+            e = {std::min(e.low, p.z()), std::max(e.high, p.z())};
+        }
+    }
+    Points kept;
+    for (const Point& p : points) {
+        const auto column = column_of(p);
+        if (!column) continue;
+        const Extent& e = columns.at(*column);
+        if (e.high - e.low > kTall && p.z() > e.low + 0.5F * kTall) kept.push_back(p);
+    }
+    return kept;
+}
+
+/// Share of pairs of points in nearly the same direction that have different ranges. From one
+/// place, one direction has one range. Two returns of one beam have exactly the same direction and
+/// are not counted.
+double share_of_doubles(const Points& points) {
+    constexpr float kPixel = 0.2F * 3.14159265F / 180.0F, kSame = 0.02F * kPixel;
+    struct Direction {
+        float azimuth, elevation, range;
+    };
+    tsl::robin_map<VoxelKey, Direction, VoxelHash> first;
+    std::size_t pairs = 0, doubles = 0;
+    for (const Point& p : points) {
+        const float range = p.norm();
+        if (!is_measured(p) || range < kNearest || range > kFarthest) continue;
+        const Direction d{std::atan2(p.y(), p.x()), std::asin(p.z() / range), range};
+        const auto cell = cell_of({d.azimuth, d.elevation, 0.0F}, 1.0F / kPixel);
+        const auto [it, fresh] = first.try_emplace(pack(*cell), d);
+        if (fresh) continue;
+        const Direction& other = it->second;
+        const bool one_beam = std::abs(d.azimuth - other.azimuth) < kSame &&
+                              std::abs(d.elevation - other.elevation) < kSame;
+        if (one_beam) continue;
+        ++pairs;
+        doubles += std::abs(range - other.range) > std::max(0.5F, 0.1F * range) ? 1 : 0;
+    }
+    constexpr double kEnough = 0.015;  // seams, edges and windows cause a few
+    const bool many = static_cast<double>(doubles) > kEnough * static_cast<double>(points.size());
+    return many ? static_cast<double>(doubles) / static_cast<double>(pairs) : 0.0;
+}
+
+std::size_t count_near(const Points& points, const Point& place) {
+    constexpr float kNear = 6.0F;  // [m] a LiDAR on a car or robot sees the ground at this range
+    return static_cast<std::size_t>(std::count_if(
+        points.begin(), points.end(),
+        [&](const Point& p) { return is_measured(p) && (p - place).norm() < kNear; }));
+}
+
+/// Start of the scan in seconds since 1970, also from nanoseconds in a field that is wide enough.
+/// Smaller numbers may be relative to a start that differs between scans.
+std::optional<double> began_of(const Cloud& cloud) {
+    constexpr double kLeast = 1e8, kMost = 1e10, kNanosecond = 1e-9;
+    const Field* field = time_field(cloud);
+    if (field == nullptr || size_of(field->type) < 8) return std::nullopt;
+    std::optional<double> began;
+    for (const double raw : values(cloud, *field)) {
+        const double time = raw > kMost ? raw * kNanosecond : raw;
+        if (time > kLeast && time < kMost) began = std::min(time, began.value_or(time));
+    }
+    return began;
+}
+
+/// The points without motion compensation, after which they are seen from several places and
+/// naturally lie behind each other.
+Points as_measured(const Sequence& sequence, const Frame& frame) {
+    return sequence.points_in_world ? frame.points : positions(frame.cloud);
+}
+
+float typical_range(const Points& points) {
+    std::vector<float> ranges;
+    for (const Point& p : points) {
+        if (is_measured(p)) ranges.push_back(p.norm());
+    }
+    if (ranges.empty()) return 0.0F;
+    const auto middle = ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() / 2);
+    std::nth_element(ranges.begin(), middle, ranges.end());
+    return *middle;
+}
+
+Sample sample_of(const Sequence& sequence, const Frame& frame) {
+    const Point said = frame.T_world_sensor.translation().cast<float>();
+    return {upright(frame.points),
+            frame.T_world_sensor,
+            share_of_doubles(as_measured(sequence, frame)),
+            count_near(frame.points, Point::Zero()),
+            count_near(frame.points, said),
+            typical_range(frame.points),
+            began_of(frame.cloud)};
+}
+
+}  // namespace
+
+std::vector<Pair> choose_pairs(std::size_t scans, std::size_t places) {
+    std::vector<Pair> pairs;
+    for (std::size_t k = 0; k < places; ++k) {
+        const std::size_t from = k * scans / places;
+        for (const std::size_t apart : kApart) {
+            if (from + apart < scans) pairs.push_back({from, apart});
+        }
+    }
+    return pairs;
+}
+
+Samples read_samples(const Sequence& sequence, const std::vector<Pair>& pairs,
+                     std::map<std::size_t, std::string>& unusable) {
+    std::set<std::size_t> chosen = {0};
+    for (const Pair& pair : pairs) chosen.insert({pair.from, pair.from + pair.apart});
+    Samples samples;
+    std::vector<Field> fields;
+    for (const std::size_t i : chosen) {
+        try {
+            const Frame frame = read_frame(sequence, i);
+            if (fields.empty()) fields = frame.cloud.fields;
+            if (frame.cloud.fields != fields) unusable[i] = kOtherFields;
+            samples.emplace(i, sample_of(sequence, frame));
+        } catch (const InputError& error) {
+            unusable[i] = error.what();
+        }
+    }
+    return samples;
+}
+
+std::vector<Pair> comparable(const Samples& samples, const std::vector<Pair>& pairs) {
+    constexpr double kFar = 20.0;  // [m]
+    std::vector<Pair> near;
+    for (const Pair& pair : pairs) {
+        const auto a = samples.find(pair.from), b = samples.find(pair.from + pair.apart);
+        if (a == samples.end() || b == samples.end()) continue;
+        const Eigen::Vector3d way =
+            b->second.T_world_sensor.translation() - a->second.T_world_sensor.translation();
+        if (way.norm() <= kFar) {
+            near.push_back(pair);
+        } else if (pair.apart == kApart.front()) {
+            return pairs;
+        }
+    }
+    return near;
+}
+
+}  // namespace dynamic_filter::io

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include "check/advice.hpp"
+#include "check/motion.hpp"
+#include "dynamic_filter/check.hpp"
+#include "dynamic_filter/error.hpp"
+#include "recording/drives.hpp"
+#include "recording/frames.hpp"
+#include "run/commands.hpp"
+
+namespace dynamic_filter::app {
+namespace {
+
+void print_overlays(const io::Preflight& preflight) {
+    if (preflight.overlays.empty()) return;
+    fmt::print(
+        "overlay   share of structures that another scan shows in the same place, if "
+        "poses are read\n");
+    for (const io::Overlay& overlay : preflight.overlays) {
+        fmt::print("overlay   {:>3.0f} %  {}\n", 100.0 * overlay.share, overlay.reading);
+    }
+}
+
+void print_finding(const io::Finding& finding, const DataOptions& options) {
+    fmt::print("FOUND     {}\n", finding.what);
+    if (finding.advice.starts_with("--")) {
+        fmt::print("try       {}\n", next_command(options, finding.advice));
+    } else {
+        fmt::print("advice    {}\n", finding.advice);
+    }
+}
+
+/// True if nothing was found.
+bool check_one(io::Sequence sequence, const DataOptions& options) {
+    ensure_poses(sequence, preset("default"), options.deskew, true);
+    for (const std::string& note : sequence.notes) fmt::print("note      {}\n", note);
+    const io::Preflight preflight = io::check_recording(sequence, io::Depth::thorough);
+    fmt::print("scans     {}, of which {} were read\n", sequence.size(), preflight.scans);
+    print_overlays(preflight);
+    for (const std::string& line : sequence.losses) fmt::print("LOST      {}\n", line);
+    for (const std::string& line : preflight.unusable) fmt::print("UNUSABLE  {}\n", line);
+    for (const io::Finding& finding : preflight.findings) {
+        print_finding(blame_needless_fix(finding, options), options);
+    }
+    return preflight.findings.empty() && preflight.unusable.empty() && sequence.losses.empty();
+}
+
+std::string match_text(const io::DriveOffset& offset) {
+    switch (offset.match) {
+        case io::FrameMatch::equal:
+            return fmt::format("their scans overlay at {} of {} places", offset.fitting,
+                               offset.places);
+        case io::FrameMatch::shifted:
+            return fmt::format("one offset explains {} of {} places", offset.agreeing,
+                               offset.places);
+        case io::FrameMatch::drifting:
+            return fmt::format("{} places differ by different offsets", offset.fitting);
+        case io::FrameMatch::unlike:
+            return fmt::format("their scans fit together at none of {} places", offset.places);
+        case io::FrameMatch::apart:
+            return fmt::format("they do not meet; {:.0f} m lie between them", offset.gap);
+        case io::FrameMatch::same_poses:
+            return "their poses are the same";
+        case io::FrameMatch::not_known:
+            break;
+    }
+    return "not compared";
+}
+
+/// True if nothing was found.
+bool check_together(const std::vector<io::Sequence>& sequences,
+                    const std::vector<DataOptions>& each) {
+    // Scans that the motion of the sensor distorts overlay badly, so it is undone as in a run.
+    std::vector<io::Sequence> drives = sequences;
+    std::vector<const io::Sequence*> all;
+    for (io::Sequence& drive : drives) {
+        Config config = preset("default");
+        if (drive.has_poses) {
+            choose_motion(drive, config, {.refine = "off", .deskew = each.front().deskew});
+        }
+        all.push_back(&drive);
+    }
+    const std::vector<io::DriveOffset> offsets = io::measure_drive_offsets(all);
+    fmt::print("together\n");
+    for (const io::DriveOffset& offset : offsets) {
+        fmt::print("frames    {} and {}: {}\n", each[offset.a].data.string(),
+                   each[offset.b].data.string(), match_text(offset));
+    }
+    const std::vector<io::Finding> findings = io::findings_of(all, offsets);
+    for (const io::Finding& finding : findings) print_finding(finding, each.front());
+    return findings.empty();
+}
+
+}  // namespace
+
+int check(const CheckOptions& options) {
+    const std::vector<DataOptions> each = options_of(expand(options.recordings), options.how);
+    const bool several = each.size() > 1;
+    std::vector<io::Sequence> sequences;
+    for (const DataOptions& one : each) sequences.push_back(open(one));
+    bool fine = true;
+    for (std::size_t i = 0; i < sequences.size(); ++i) {
+        if (several) fmt::print("recording {}\n", each[i].data.string());
+        fine = check_one(sequences[i], each[i]) && fine;
+        if (several) fmt::print("\n");
+    }
+    if (several) fine = check_together(sequences, each) && fine;
+    if (!fine) return kRejected;
+    fmt::print("nothing suspicious\nnext      {}\n",
+               next_command(options.recordings, options.how, ""));
+    return kDone;
+}
+
+}  // namespace dynamic_filter::app

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "base/output_folder.hpp"
+#include "base/progress.hpp"
+#include "check/motion.hpp"
+#include "dynamic_filter/bag.hpp"
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/writers.hpp"
+#include "export/autoware_tiles.hpp"
+#include "export/convert_map.hpp"
+#include "export/sinks.hpp"
+#include "formats/voxel_map/map_index.hpp"
+#include "recording/frames.hpp"
+#include "run/commands.hpp"
+
+namespace fs = std::filesystem;
+
+namespace dynamic_filter::app {
+
+namespace {
+
+/// What a format could not hold, or what was wrong with its source.
+void say(const std::string& note) {
+    if (!note.empty()) fmt::print(stderr, "note: {}\n", note);
+}
+
+/// Of a run, or the recording's own truth.
+Labels labels_of(const ConvertOptions& o, const io::Sequence& sequence, std::size_t i,
+                 const io::Frame& frame) {
+    if (!o.labels) {
+        const bool has_own = !sequence.has_truth() || !frame.truth.empty();
+        return has_own ? frame.truth : Labels(frame.points.size(), Label::unknown);
+    }
+    const fs::path folder =
+        fs::is_directory(*o.labels / "labels") ? *o.labels / "labels" : *o.labels;
+    Labels labels = io::read_labels(folder / (io::stem(sequence, i) + ".label"));
+    if (labels.size() == frame.points.size()) return labels;
+    throw ConfigError(
+        fmt::format("{}: {} labels for the {} points of scan {}; are they of another "
+                    "recording?",
+                    folder.string(), labels.size(), frame.points.size(), io::stem(sequence, i)));
+}
+
+/// Of options that are for the map of several drives only.
+void refuse_map_options(const ConvertOptions& o) {
+    if (o.to != "3dtiles" && o.to != "las" && o.origin.empty()) return;
+    throw ConfigError(fmt::format(
+        "{}: {} is for the map of several drives, which `dynamicfilter run A B ... -o OUT` makes; "
+        "give OUT as IN",
+        o.data.data.string(), o.origin.empty() ? "--to " + o.to : "--origin"));
+}
+
+int convert_recording(const ConvertOptions& o) {
+    if (o.to == "autoware")
+        throw ConfigError("--to autoware is for a map: give a cloud file as IN");
+    io::Sequence sequence = open(o.data);
+    ensure_poses(sequence, preset("default"), o.data.deskew, false);
+    for (const std::string& note : sequence.notes) fmt::print(stderr, "note: {}\n", note);
+    for (const std::string& line : sequence.losses) fmt::print(stderr, "lost     {}\n", line);
+    catch_interrupts();
+    const std::unique_ptr<Sink> sink = make_sink(o);
+    std::vector<std::size_t> scans(sequence.size());
+    std::iota(scans.begin(), scans.end(), 0U);
+    std::vector<std::string> rejected, notes;
+    {
+        Progress progress("convert", scans.size());
+        for_each_frame(sequence, scans, {}, [&](std::size_t i, MaybeFrame& maybe) {
+            progress.advance();
+            if (interrupted()) return false;
+            if (!maybe.frame) {
+                rejected.push_back(maybe.error);
+                return true;
+            }
+            if (!o.labels && !maybe.frame->truth_fault.empty()) {
+                notes.push_back(maybe.frame->truth_fault + "; its points are unknown");
+            }
+            sink->append(*maybe.frame, labels_of(o, sequence, i, *maybe.frame));
+            return true;
+        });
+    }
+    for (const std::string& line : rejected) fmt::print(stderr, "rejected {}\n", line);
+    for (const std::string& note : notes) say(note);
+    if (interrupted()) return kInterrupted;  // nothing is put in place
+    if (rejected.size() == scans.size()) throw InputError(o.data.data, "", "no scan is usable");
+    say(sink->commit());
+    fmt::print("written  {} ({} scans)\n", o.output.string(), scans.size() - rejected.size());
+    return rejected.empty() && sequence.losses.empty() ? kDone : kRejected;
+}
+
+int write_tiles(const io::Cloud& cloud, const ConvertOptions& o) {
+    OutputFolder output(o.output, Contents::tiles, replaced_if(o.overwrite));
+    const auto x = io::values(cloud, *cloud.find("x")), y = io::values(cloud, *cloud.find("y"));
+    std::map<Corner, io::Cloud> tiles;
+    std::size_t nowhere = 0;
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+        if (!std::isfinite(x[i]) || !std::isfinite(y[i])) {
+            ++nowhere;
+            continue;
+        }
+        io::Cloud& tile = tiles[{autoware_corner(x[i]), autoware_corner(y[i])}];
+        tile.fields = cloud.fields;
+        tile.point_bytes = cloud.point_bytes;
+        append_record(tile.data, cloud.data, i, cloud.point_bytes);
+    }
+    const fs::path folder = output.subfolder("pointcloud_map");
+    std::vector<Corner> corners;
+    for (const auto& [corner, tile] : tiles) {
+        io::write_pcd(folder / autoware_name(corner), tile);
+        corners.push_back(corner);
+    }
+    io::write_file(output.path() / "pointcloud_map_metadata.yaml", autoware_metadata(corners));
+    output.commit();
+    if (nowhere > 0) say(fmt::format("left out: {} points that are not finite", nowhere));
+    fmt::print("written  {} ({} tiles)\n", output.name().string(), tiles.size());
+    return kDone;
+}
+
+int convert_cloud(const ConvertOptions& o) {
+    if (o.to == "autoware") return write_tiles(io::read_cloud(o.data.data), o);
+    check_cloud_output(o);
+    const io::Cloud cloud = io::read_cloud(o.data.data);
+    const io::Written written = io::write_cloud(o.output, cloud);
+    say(written.loss);
+    fmt::print("written  {} ({} points)\n", o.output.string(), written.points);
+    return kDone;
+}
+
+}  // namespace
+
+int convert(const ConvertOptions& o) {
+    std::error_code ignored;
+    if (fs::equivalent(o.data.data, o.output, ignored)) {
+        throw ConfigError(o.output.string() + ": is the input itself; choose another output");
+    }
+    const fs::path folder = fs::weakly_canonical(fs::absolute(o.output)).parent_path();
+    for (fs::path above = folder; above.has_relative_path(); above = above.parent_path()) {
+        if (fs::is_directory(o.data.data, ignored) && fs::equivalent(above, o.data.data, ignored)) {
+            throw ConfigError(o.output.string() + ": lies within the recording; choose another");
+        }
+    }
+    if (o.data.format.empty() && is_city_map(o.data.data)) return convert_map(o);
+    refuse_map_options(o);
+    const bool recording = !o.data.format.empty() || fs::is_directory(o.data.data, ignored) ||
+                           io::Bag::recognises(o.data.data);
+    return recording ? convert_recording(o) : convert_cloud(o);
+}
+
+}  // namespace dynamic_filter::app

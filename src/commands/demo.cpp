@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include "base/progress.hpp"
+#include "commands/picture.hpp"
+#include "commands/write_simulation.hpp"
+#include "recording/frames.hpp"
+#include "run/commands.hpp"
+#include "run/run_reports.hpp"
+#include "score/report.hpp"
+
+namespace dynamic_filter::app {
+
+namespace {
+
+constexpr int kPedestrians = 100;
+
+void print_row(const char* method, double pr, double rr, double f1) {
+    fmt::print("  {:<34} {:>7.2f} {:>7.2f} {:>6.3f}\n", method, pr, rr, f1);
+}
+
+/// Table II of the paper for 100 pedestrians, and this run.
+void print_table(const eval::VoxelScore& ours) {
+    fmt::print("\nCrowd of {} pedestrians, VLP-16, two rounds; voxels of 0.2 m\n", kPedestrians);
+    fmt::print("  {:<34} {:>7} {:>7} {:>6}\n", "", "PR [%]", "RR [%]", "F1");
+    print_row("Removert      (paper, its scene)", 66.48, 57.96, 0.619);
+    print_row("ERASOR        (paper, its scene)", 69.16, 71.87, 0.705);
+    print_row("DynamicFilter (paper, its scene)", 95.32, 94.26, 0.948);
+    fmt::print("  {:<34} {:>7} {:>7} {:>6}\n", "this run      (our scene)", percent(ours.pr),
+               percent(ours.rr), three_digits(ours.f1));
+}
+
+}  // namespace
+
+int demo(const DemoOptions& o) {
+    // The folder of an earlier demo is reused; any other that holds something is refused.
+    const auto recording = o.output / "recording";
+    const bool again = std::filesystem::exists(o.output / "before.png") &&
+                       std::filesystem::exists(recording / "poses.txt");
+    OutputFolder output(o.output, Contents::demo, replaced_if(again));
+    OutputFolder recorded(recording, Contents::recording, replaced_if(again));
+    OutputFolder result(o.output / "result", Contents::result, replaced_if(again));
+    StageClock clock;
+    sim::SimulationOptions scene;
+    scene.pedestrians = kPedestrians;
+    write_simulation(scene, recorded.path());
+    recorded.commit();
+
+    const io::Sequence sequence = open({.data = recording, .format = "kitti", .open = {}});
+    clock.finish("simulate");
+    const RunSummary summary = run_sequence(sequence, preset("default"), {}, result, clock);
+    result.commit();
+    // Seen from where the whole hall is in view.
+    RenderOptions picture;
+    picture.data.data = result.name();
+    picture.width = 1600;
+    picture.height = 560;
+    picture.azimuth_deg = 85.0;
+    picture.elevation_deg = 40.0;
+    io::write_png(output.path() / "before.png", picture_of(picture));
+    picture.clean = true;
+    io::write_png(output.path() / "after.png", picture_of(picture));
+    output.commit();
+
+    fmt::print("\n{}", to_text(summary));
+    print_table(summary.scores->voxel.at("excluded"));
+    fmt::print(
+        "\npictures {0}/before.png (removed points in red) and {0}/after.png\n"
+        "report   {0}/result/report.html (open it in a browser)\n"
+        "maps     {0}/result/static_map.pcd and dynamic_points.pcd\n"
+        "\nYour own recording, a bag or a folder with scans:\n"
+        "  build/release/dynamicfilter check YOUR_RECORDING\n"
+        "  build/release/dynamicfilter run YOUR_RECORDING -o out\n",
+        o.output.string());
+    return kDone;
+}
+
+}  // namespace dynamic_filter::app

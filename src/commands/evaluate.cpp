@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "dynamic_filter/cloud.hpp"
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/file.hpp"
+#include "recording/frames.hpp"
+#include "run/commands.hpp"
+#include "score/protocols.hpp"
+#include "score/report.hpp"
+
+namespace dynamic_filter::app {
+
+namespace {
+
+/// Notes which scans give nothing.
+eval::ScanSource noting(eval::ScanSource source, std::vector<std::atomic<bool>>& left_out) {
+    return [source = std::move(source), &left_out](std::size_t i) {
+        auto scan = source(i);
+        left_out[i] = !scan.has_value();
+        return scan;
+    };
+}
+
+eval::ScanSource with_labels(const io::Sequence& sequence, const Eigen::Vector3d& origin,
+                             const std::filesystem::path& folder, const RangeLimits& ranges) {
+    // Given the output folder of a run, its labels are meant.
+    const auto labels =
+        std::filesystem::is_directory(folder / "labels") ? folder / "labels" : folder;
+    if (!std::filesystem::is_directory(labels)) throw InputError(labels, "", "is not a folder");
+    const auto labels_of = [&sequence, labels](std::size_t i) -> std::optional<Labels> {
+        const auto file = labels / (io::stem(sequence, i) + ".label");
+        if (!std::filesystem::exists(file)) return std::nullopt;
+        return io::read_labels(file);
+    };
+    return scan_source(sequence, origin, labels_of, ranges);
+}
+
+std::string ranges_text(const RangeLimits& ranges) {
+    if (ranges.min <= 0.0 && std::isinf(ranges.max)) return "";
+    const std::string far = std::isinf(ranges.max) ? "" : fmt::format(" to {:g} m", ranges.max);
+    return fmt::format("scored are points from {:g} m{} of the sensor\n", ranges.min, far);
+}
+
+/// Where the recording has no poses, those that the run found.
+io::Sequence with_poses(const EvalOptions& o) {
+    io::Sequence sequence = open(o.truth);
+    if (sequence.has_poses) return sequence;
+    const std::filesystem::path labels = o.labels.value_or("");
+    for (const auto& file : {labels / "poses.txt", labels.parent_path() / "poses.txt"}) {
+        if (!o.labels || !std::filesystem::exists(file)) continue;
+        DataOptions with = o.truth;
+        with.open.poses = file;
+        return open(with);
+    }
+    throw InputError(o.truth.data, "",
+                     "has no poses, so its voxels cannot be scored; give those of the run with "
+                     "--poses");
+}
+
+}  // namespace
+
+Evaluation scores_of(const EvalOptions& o) {
+    if (!(o.ranges.min >= 0.0 && o.ranges.max > o.ranges.min)) {
+        throw ConfigError("--min-range must be 0 or more, and less than --max-range");
+    }
+    const io::Sequence sequence = with_poses(o);
+    if (!sequence.has_truth()) {
+        throw InputError(o.truth.data, "",
+                         "has no ground truth (labels/*.label, or 0/1 intensities)");
+    }
+    const Eigen::Vector3d origin = scoring_origin(sequence, o.voxel);
+    std::vector<std::atomic<bool>> left_out(sequence.size());
+    const eval::ScanSource source =
+        noting(o.labels ? with_labels(sequence, origin, *o.labels, o.ranges)
+                        : scan_source(sequence, origin, {}, o.ranges),
+               left_out);
+    eval::Scores scores =
+        o.labels ? eval::score_labels(sequence.size(), source, o.voxel)
+                 : eval::score_map(sequence.size(), source,
+                                   positions_from(io::read_cloud(*o.map), origin), o.voxel);
+    const auto missing =
+        static_cast<std::size_t>(std::count(left_out.begin(), left_out.end(), true));
+    if (missing == sequence.size()) {
+        throw InputError(
+            o.labels ? *o.labels : o.truth.data, "",
+            fmt::format("holds no label file of any readable scan in {}; labels are named "
+                        "as the scans, for instance {}.label",
+                        o.truth.data.string(), io::stem(sequence, 0)));
+    }
+    return {std::move(scores), sequence.size(), missing};
+}
+
+int evaluate(const EvalOptions& o) {
+    if (o.json) require_extension(*o.json, ".json");
+    const Evaluation e = scores_of(o);
+    fmt::print("{}{}", ranges_text(o.ranges), protocol_table(o.protocol, e.scores, o.voxel));
+    if (o.json) io::write_file(*o.json, text_of(to_json(e.scores)));
+    if (e.left_out == 0) return kDone;
+    fmt::print(stderr, "left out {} of {} scans: unreadable, or without labels\n", e.left_out,
+               e.scans);
+    return kRejected;
+}
+
+}  // namespace dynamic_filter::app

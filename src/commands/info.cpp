@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "dynamic_filter/bag.hpp"
+#include "dynamic_filter/cloud.hpp"
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/recording.hpp"
+#include "formats/voxel_map/map_index.hpp"
+#include "run/commands.hpp"
+
+namespace dynamic_filter::app {
+
+namespace {
+
+constexpr const char* kTypeNames[] = {"int8",   "uint8", "int16",  "uint16",  "int32",
+                                      "uint32", "int64", "uint64", "float32", "float64"};
+
+/// Four digits say how small values are spread. Of large ones, such as coordinates of a map or
+/// stamps, they would say nothing.
+std::string readable(double value) {
+    constexpr double kLarge = 1e3, kEndless = 1e12;
+    const double size = std::abs(value);
+    if (size < kLarge || size > kEndless) return fmt::format("{:.4g}", value);
+    return fmt::format("{:.{}f}", value, value == std::floor(value) ? 0 : 2);
+}
+
+void describe_cloud(const std::filesystem::path& name, const io::Cloud& cloud) {
+    fmt::print("{}\n  points  {}\n", name.string(), cloud.size());
+    for (const io::Field& field : cloud.fields) {
+        double low = INFINITY, high = -INFINITY;
+        std::size_t finite = 0;
+        for (const double value : io::values(cloud, field)) {
+            if (!std::isfinite(value)) continue;
+            ++finite;
+            low = std::min(low, value);
+            high = std::max(high, value);
+        }
+        fmt::print("  {:<10} {:<8}", field.name, kTypeNames[static_cast<std::size_t>(field.type)]);
+        if (field.count > 1) fmt::print(" x{}", field.count);
+        if (finite > 0) fmt::print(" {} .. {}", readable(low), readable(high));
+        if (finite < cloud.size()) fmt::print(" ({} not finite)", cloud.size() - finite);
+        fmt::print("\n");
+    }
+    if (cloud.viewpoint) {
+        const Eigen::Vector3d t = cloud.viewpoint->translation();
+        fmt::print("  viewpoint {:.3f} {:.3f} {:.3f}\n", t.x(), t.y(), t.z());
+    }
+}
+
+/// From one pose that is known to the next.
+double path_of(const std::vector<Pose>& poses) {
+    double length = 0.0;
+    const Pose* last = nullptr;
+    for (const Pose& pose : poses) {
+        if (!pose.matrix().allFinite()) continue;
+        if (last != nullptr) length += (pose.translation() - last->translation()).norm();
+        last = &pose;
+    }
+    return length;
+}
+
+void describe_poses(const io::Sequence& s) {
+    if (!s.has_poses) {
+        fmt::print("  poses   none: the odometry finds them\n");
+        return;
+    }
+    const std::vector<Pose>& poses = s.T_world_sensor;
+    if (poses.empty()) {
+        fmt::print("  poses   in the scans' files (VIEWPOINT)\n");
+        return;
+    }
+    const auto known = std::count_if(poses.begin(), poses.end(),
+                                     [](const Pose& p) { return p.matrix().allFinite(); });
+    fmt::print(
+        "  poses   of {} scans{}\n  path    {:.1f} m\n",
+        static_cast<std::size_t>(known) == s.size() ? "all" : fmt::format("{} of the", known),
+        s.pose_source.empty() ? "" : ", from " + s.pose_source.string(), path_of(poses));
+}
+
+/// What a run would use of it.
+void describe_scans(const io::Sequence& s) {
+    fmt::print("  scans   {}\n", s.size());
+    if (s.size() > 1) {
+        fmt::print("  stamps  {:.3f} .. {:.3f} s{}\n", s.stamps.front(), s.stamps.back(),
+                   s.measured_stamps ? "" : " (made up at 10 Hz)");
+    }
+    describe_poses(s);
+    fmt::print("  truth   {}\n", s.has_truth() ? "yes" : "none");
+    for (const std::string& note : s.notes) fmt::print("  note    {}\n", note);
+}
+
+/// The first scan that can be read stands for all, whether it has a pose or not.
+void describe_first(io::Sequence s) {
+    constexpr std::size_t kTried = 5;
+    s.T_world_sensor.clear();
+    s.has_poses = s.points_in_world = false;
+    for (std::size_t i = 0; i < std::min(s.size(), kTried); ++i) {
+        try {
+            describe_cloud(s.scan_files[i], io::read_frame(s, i).cloud);
+            return;
+        } catch (const InputError& error) {
+            fmt::print("  note    {}\n", error.what());
+        }
+    }
+}
+
+void describe_sequence(const std::filesystem::path& folder) {
+    const io::Sequence s = io::open_sequence(folder);
+    fmt::print("{}\n  format  {}\n", folder.string(), io::to_string(s.format));
+    describe_scans(s);
+    describe_first(s);
+}
+
+/// Its topics are told before: several of clouds, or none, are no mistake here.
+void describe_scans_of_bag(const std::filesystem::path& path) {
+    try {
+        const io::Sequence s = io::open_sequence(path);
+        describe_scans(s);
+        describe_first(s);
+    } catch (const Error& error) {
+        fmt::print("  note    {}\n", error.what());
+    }
+}
+
+void describe_bag(const std::filesystem::path& path) {
+    struct Count {
+        io::Topic topic;
+        std::size_t messages = 0;
+    };
+    std::map<std::string, Count> topics;
+    std::int64_t first = INT64_MAX, last = INT64_MIN;
+    const io::Bag bag(path);
+    const auto defects = bag.for_each([&](const io::Message& message) {
+        Count& count = topics[message.topic.name];
+        count.topic = message.topic;
+        ++count.messages;
+        first = std::min(first, message.recorded_ns);
+        last = std::max(last, message.recorded_ns);
+    });
+    fmt::print("{}\n  format  bag\n", path.string());
+    if (!topics.empty()) {
+        fmt::print("  length  {:.1f} s\n", 1e-9 * static_cast<double>(last - first));
+    }
+    for (const auto& [name, count] : topics) {
+        fmt::print("  {:<28} {:<40} {:>7} messages\n", name, count.topic.type, count.messages);
+    }
+    for (const io::Defect& defect : defects) {
+        fmt::print("  {}    {}\n", defect.lost ? "LOST" : "note", defect.what);
+    }
+}
+
+/// The map of several drives.
+void describe_map(const std::filesystem::path& path) {
+    const MapIndex index = read_map_index(map_folder_of(path));
+    std::map<int, std::size_t> levels;
+    std::uint64_t voxels = 0;
+    Eigen::AlignedBox3d box;
+    for (const MapTile& tile : index.tiles) {
+        ++levels[tile.level];
+        voxels += tile.voxels;
+        if (tile.voxels > 0) box.extend(tile.min).extend(tile.max);
+    }
+    fmt::print("{}\n  format  map of several drives, version {}\n  tiles   {}\n", path.string(),
+               index.version, index.tiles.size());
+    const bool is_whole = !index.tiles.empty() && index.tiles.front().is_whole;
+    if (is_whole) levels.clear();  // it has no side
+    for (const auto& [level, tiles] : levels)
+        fmt::print("          {} with a side of {} m\n", tiles, side_of(index.voxel_size, level));
+    fmt::print("  voxels  {} of {} m\n", voxels, index.voxel_size);
+    if (!box.isEmpty()) {
+        fmt::print("  from    {:.1f} {:.1f} {:.1f}\n  to      {:.1f} {:.1f} {:.1f}\n",
+                   box.min().x(), box.min().y(), box.min().z(), box.max().x(), box.max().y(),
+                   box.max().z());
+    }
+    fmt::print("  drives  {}\n", index.drives.size());
+    for (const MapDrive& drive : index.drives)
+        fmt::print("  {:<28} {:>7} scans\n", drive.name, drive.scans);
+}
+
+}  // namespace
+
+int info(const std::filesystem::path& file) {
+    if (is_city_map(file)) {
+        describe_map(file);
+    } else if (io::Bag::recognises(file)) {
+        describe_bag(file);
+        describe_scans_of_bag(file);
+    } else if (std::filesystem::is_regular_file(file)) {
+        describe_cloud(file, io::read_cloud(file));
+    } else {
+        describe_sequence(file);  // also a scene that is named behind its folder
+    }
+    return kDone;
+}
+
+}  // namespace dynamic_filter::app

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+/// A picture of a run's maps or of a cloud.
+#pragma once
+
+#include "draw/png.hpp"
+#include "run/commands.hpp"
+
+namespace dynamic_filter::app {
+
+/// Draws `options.data.data`, the output folder of a run or a cloud file, as `options` say: what
+/// stays is colored by height, what was removed is red. Throws InputError.
+io::Image picture_of(const RenderOptions& options);
+
+}  // namespace dynamic_filter::app

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/progress.hpp"
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/parallel.hpp"
+#include "run/city.hpp"
+#include "run/filter_tiles.hpp"
+#include "score/report.hpp"
+
+namespace dynamic_filter::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Totals {
+    std::size_t scans = 0, visits = 0, voxels = 0, memory = 0;  // memory: of the largest tile
+    double cost = 0.0;                                          // [s]
+    std::vector<double> by_part;
+};
+
+Totals totals_of(const City& city, const std::vector<std::size_t>& part_of, std::size_t parts) {
+    Totals totals{.by_part = std::vector<double>(parts)};
+    for (const PlannedDrive& drive : city.plan.drives) totals.scans += used_scans(drive).size();
+    for (std::size_t t = 0; t < city.plan.tiles.size(); ++t) {
+        const TileWork& work = city.plan.tiles[t];
+        totals.visits += work.scans.size();
+        totals.voxels += work.voxels;
+        totals.memory = std::max(totals.memory, memory_of(work, city.plan, city.config));
+        totals.cost += work.cost();
+        totals.by_part[part_of[t] - 1] += work.cost();
+    }
+    return totals;
+}
+
+std::string plan_text(const City& city, std::size_t parts) {
+    const Totals t = totals_of(city, part_of_tiles(city.plan.tiles, parts), parts);
+    std::string text = fmt::format(
+        "drives   {}, {} scans\n"
+        "tiles    {}, about {:.1f} million voxels; a scan reaches {:.1f} of them on average\n"
+        "memory   about {:.2f} GB for a process with the largest tile\n"
+        "time     about {:.2f} hours of one core\n",
+        city.drives.size(), t.scans, city.plan.tiles.size(), 1e-6 * static_cast<double>(t.voxels),
+        static_cast<double>(t.visits) / static_cast<double>(std::max<std::size_t>(t.scans, 1)),
+        1e-9 * static_cast<double>(process_memory(t.memory)), t.cost / 3600.0);
+    if (parts > 1) {
+        const auto [least, most] = std::minmax_element(t.by_part.begin(), t.by_part.end());
+        text += fmt::format("parts    {}, of {:.2f} to {:.2f} hours\n", parts, *least / 3600.0,
+                            *most / 3600.0);
+    }
+    return text;
+}
+
+std::string plan_json(const City& city, std::size_t parts) {
+    const std::vector<std::size_t> part_of = part_of_tiles(city.plan.tiles, parts);
+    const Totals totals = totals_of(city, part_of, parts);
+    nlohmann::ordered_json json{{"scans", totals.scans},
+                                {"visits", totals.visits},
+                                {"cost_seconds", totals.cost},
+                                {"memory_bytes", process_memory(totals.memory)},
+                                {"tiles", nlohmann::ordered_json::array()}};
+    for (std::size_t t = 0; t < city.plan.tiles.size(); ++t) {
+        const TileWork& work = city.plan.tiles[t];
+        json["tiles"].push_back({{"name", name_of(work.tile)},
+                                 {"part", part_of[t]},
+                                 {"voxels", work.voxels},
+                                 {"scans", work.scans.size()},
+                                 {"cost_seconds", work.cost()},
+                                 {"memory_bytes", memory_of(work, city.plan, city.config)}});
+    }
+    return text_of(json);
+}
+
+}  // namespace
+
+int plan(const PlanOptions& options) {
+    const RunOptions& o = options.run;
+    City city = open_city(expand(o.city.recordings), o);
+    catch_interrupts();
+    with_threads(o.threads, [&] {
+        city.plan = make_plan(city.drives, city.config, o.data, o.city.tile_voxels, o.quiet);
+    });
+    if (interrupted()) return kInterrupted;
+    tell_notes(city, o.quiet);
+    if (o.output) {
+        if (fs::exists(*o.output) && !o.overwrite) {
+            throw ConfigError(o.output->string() + ": exists; choose another -o, or --overwrite");
+        }
+        write_plan(*o.output, city.plan, city.run);
+    }
+    fmt::print("{}",
+               options.json ? plan_json(city, options.parts) : plan_text(city, options.parts));
+    return kDone;
+}
+
+}  // namespace dynamic_filter::app

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <chrono>
+#include <map>
+#include <optional>
+#include <thread>
+
+#include "base/progress.hpp"
+#include "commands/edit_server.hpp"
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/file.hpp"
+#include "page/http_server.hpp"
+#include "run/commands.hpp"
+
+namespace dynamic_filter::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What can be asked for: only what was there at the start, by the paths made here.
+using Pages = std::map<std::string, fs::path>;
+
+Pages reports_in(const fs::path& folder) {
+    if (fs::exists(folder / "report.html")) return {{"/report.html", folder / "report.html"}};
+    Pages pages;
+    std::error_code unreadable;
+    for (const fs::directory_entry& run : fs::directory_iterator(folder, unreadable)) {
+        const fs::path page = run.path() / "report.html";
+        if (run.is_symlink() || !fs::exists(page)) continue;
+        pages["/" + run.path().filename().string() + "/report.html"] = page;
+    }
+    if (pages.empty()) {
+        throw InputError(folder, "",
+                         "holds no report.html, nor do the folders in it; expected the output "
+                         "folder of a run, which `dynamicfilter run RECORDING -o DIR` makes, or a "
+                         "folder with several");
+    }
+    return pages;
+}
+
+/// The pages of a map's tiles, and what they share, beside each report.
+Pages tiles_beside(const Pages& reports) {
+    Pages pages;
+    for (const auto& [path, report] : reports) {
+        const std::string folder = path.substr(0, path.rfind('/')) + "/report/";
+        std::error_code none;
+        for (const fs::directory_entry& entry :
+             fs::directory_iterator(report.parent_path() / "report", none)) {
+            const fs::path& file = entry.path();
+            const bool is_page = file.extension() == ".html" || file.filename() == "viewer.js" ||
+                                 file.filename() == "viewer.css";
+            if (is_page && !entry.is_symlink()) pages[folder + file.filename().string()] = file;
+        }
+    }
+    return pages;
+}
+
+std::string escaped(const std::string& text) {
+    std::string result;
+    for (const char c : text) {
+        switch (c) {
+            case '<':
+                result += "&lt;";
+                break;
+            case '&':
+                result += "&amp;";
+                break;
+            case '"':
+                result += "&quot;";
+                break;
+            default:
+                result += c;
+        }
+    }
+    return result;
+}
+
+std::string list_of(const Pages& pages) {
+    std::string text =
+        "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>Runs</title>"
+        "<style>:root{color-scheme:light dark}body{font:1rem system-ui;margin:2rem}"
+        "li{margin:.5rem}</style><h1>Runs</h1><ul>";
+    for (const auto& [path, file] : pages) {
+        text += fmt::format("<li><a href=\"{}\">{}</a></li>", escaped(path),
+                            escaped(file.parent_path().filename().string()));
+    }
+    return text + "</ul>\n";
+}
+
+HttpAnswer html(std::string text) {
+    return {200, "text/html; charset=utf-8", std::make_shared<const std::string>(std::move(text))};
+}
+
+HttpAnswer file_of(const fs::path& file) {
+    HttpAnswer answer = html(io::read_file(file));
+    if (file.extension() == ".js") answer.type = "text/javascript; charset=utf-8";
+    if (file.extension() == ".css") answer.type = "text/css; charset=utf-8";
+    return answer;
+}
+
+/// One run is shown at once, several as a list.
+HttpAnswer answer(const Pages& reports, const Pages& tiles, const std::string& path) {
+    const auto page = path == "/" && reports.size() == 1 ? reports.begin() : reports.find(path);
+    const auto tile = tiles.find(path);
+    if (page == reports.end() && tile == tiles.end())
+        return path == "/" ? html(list_of(reports)) : HttpAnswer{};
+    try {
+        return file_of(page != reports.end() ? page->second : tile->second);
+    } catch (const InputError&) {
+        return {};  // gone since
+    }
+}
+
+}  // namespace
+
+int serve(const ServeOptions& o) {
+    std::optional<EditServer> editor;
+    if (o.edit) editor.emplace(o.folder);
+    const Pages reports = reports_in(o.folder), tiles = tiles_beside(reports);
+    catch_interrupts();
+    constexpr std::size_t kMostBytes = 64 << 20;  // of edits.json
+    const auto handle = [&](const HttpRequest& request) {
+        if (editor && EditServer::is_meant(request.path)) return editor->answer(request);
+        return request.method == "POST" ? HttpAnswer{405, "text/plain", {}}
+                                        : answer(reports, tiles, request.path);
+    };
+    const HttpServer server(o.port, handle, {.body_bytes = editor ? kMostBytes : 0});
+    fmt::print("{} {} at {}{}   (Ctrl-C ends)\n", reports.size(),
+               reports.size() == 1 ? "run" : "runs", server.url(),
+               editor ? "?edit=" + editor->token() : "");
+    std::fflush(stdout);
+    while (!interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    return kDone;
+}
+
+}  // namespace dynamic_filter::app

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <array>
+#include <future>
+#include <span>
+#include <utility>
+
+#include "base/output_folder.hpp"
+#include "base/progress.hpp"
+#include "commands/write_simulation.hpp"
+#include "dynamic_filter/writers.hpp"
+#include "run/commands.hpp"
+
+namespace dynamic_filter::app {
+
+namespace {
+
+/// x y z intensity t.
+io::Cloud timed_cloud(const sim::SimulatedScan& scan) {
+    io::Cloud cloud;
+    for (const char* name : {"x", "y", "z", "intensity", "t"}) {
+        io::add_field(cloud, name, io::FieldType::f32);
+    }
+    for (std::size_t i = 0; i < scan.points.size(); ++i) {
+        const Point& p = scan.points[i];
+        const std::array record = {p.x(), p.y(), p.z(), scan.intensity[i], scan.times[i]};
+        const auto bytes = std::as_bytes(std::span(record));
+        cloud.data.insert(cloud.data.end(), bytes.begin(), bytes.end());
+    }
+    return cloud;
+}
+
+/// The values of a label file.
+std::vector<std::uint32_t> numbered_labels(const sim::SimulatedScan& scan) {
+    constexpr std::uint32_t moving_other = 259;
+    std::vector<std::uint32_t> out(scan.labels.size());
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        out[i] = scan.kinds[i] == sim::Kind::temporary
+                     ? moving_other | std::uint32_t{scan.instances[i]} << 16U
+                     : static_cast<std::uint32_t>(scan.labels[i]);
+    }
+    return out;
+}
+
+std::filesystem::path scan_folder(const sim::SimulationOptions& options,
+                                  const std::filesystem::path& folder) {
+    return folder / (options.sweep ? "scans" : "velodyne");
+}
+
+/// The names of the files become durable later, all at once.
+void write_scan(const sim::SimulationOptions& options, const std::filesystem::path& folder,
+                const std::string& stem, const sim::SimulatedScan& scan) {
+    const auto scans = scan_folder(options, folder);
+    if (options.sweep) {
+        io::write_pcd(scans / (stem + ".pcd"), timed_cloud(scan));
+    } else {
+        io::write_bin(scans / (stem + ".bin"), scan.points, scan.intensity, io::Durable::contents);
+    }
+    io::write_numbered_labels(folder / "labels" / (stem + ".label"), numbered_labels(scan),
+                              io::Durable::contents);
+}
+
+}  // namespace
+
+std::vector<SimulatedRecording> simulated_recordings(const sim::SimulationOptions& options,
+                                                     const std::filesystem::path& folder) {
+    const int drives = sim::drive_count(options);
+    if (drives == 0) return {{options, folder}};
+    std::vector<SimulatedRecording> out;
+    for (int drive = 1; drive <= drives; ++drive) {
+        out.push_back({options, folder / fmt::format("drive_{}", drive)});
+        out.back().options.drives = drives;
+        out.back().options.drive = drive;
+    }
+    return out;
+}
+
+std::size_t write_simulation(const sim::SimulationOptions& options,
+                             const std::filesystem::path& folder, bool quiet) {
+    sim::Simulation simulation(options);
+    const auto scans = scan_folder(options, folder);
+    std::filesystem::create_directories(scans);
+    std::filesystem::create_directories(folder / "labels");
+    std::vector<Pose> poses;
+    std::vector<double> stamps;
+    std::size_t points = 0;
+    Progress progress("simulate", simulation.size(), quiet);
+    std::future<void> writing;  // of the last scan, while the next one is simulated
+    for (std::size_t i = 0; i < simulation.size() && !interrupted(); ++i) {
+        sim::SimulatedScan scan = simulation.scan(i);
+        poses.push_back(scan.T_world_sensor);
+        stamps.push_back(scan.stamp);
+        points += scan.points.size();
+        if (writing.valid()) writing.get();
+        writing = std::async(std::launch::async, [&options, &folder, i, done = std::move(scan)] {
+            write_scan(options, folder, fmt::format("{:06}", i), done);
+        });
+        progress.advance();
+    }
+    if (writing.valid()) writing.get();
+    io::sync_folder(scans);
+    io::sync_folder(folder / "labels");
+    io::write_poses_kitti(folder / "poses.txt", poses);
+    io::write_times(folder / "times.txt", stamps);
+    return points;
+}
+
+int simulate(const SimulateOptions& o) {
+    catch_interrupts();
+    for (const auto& [options, folder] : simulated_recordings(o.simulation, o.output)) {
+        if (interrupted()) break;
+        OutputFolder output(folder, Contents::recording, replaced_if(o.overwrite));
+        const std::size_t points = write_simulation(options, output.path(), o.quiet);
+        output.commit();
+        if (!o.quiet) fmt::print("written  {} ({} points)\n", output.name().string(), points);
+    }
+    return interrupted() ? kInterrupted : kDone;
+}
+
+}  // namespace dynamic_filter::app

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#include "export/las_tiles.hpp"
+
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/writers.hpp"
+#include "formats/voxel_map/tile_points.hpp"
+
+namespace fs = std::filesystem;
+
+namespace dynamic_filter::app {
+
+std::string write_las_tiles(const MapIndex& index, const fs::path& folder, const fs::path& output) {
+    if (index.tiles.empty()) throw InputError(folder / "index.json", "", "lists no tiles");
+    fs::create_directories(output / "las");
+    MapIndex written = index;
+    std::string loss;
+    for (MapTile& tile : written.tiles) {
+        read_tile(folder, index, tile);  // says what is wrong with a file, before it is copied
+        loss =
+            io::write_las(output / "las" / (tile.name + ".las"), io::read_pcd(folder / tile.file))
+                .loss;
+        tile.file = "las/" + tile.name + ".las";
+    }
+    io::write_file(output / "index.json", to_json(written));
+    return loss;
+}
+
+}  // namespace dynamic_filter::app

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+#include "filter/evidence_map.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "dynamic_filter/parallel.hpp"
+
+namespace dynamic_filter {
+
+namespace {
+
+constexpr std::size_t kBlocksAtATime = 64;  // number of blocks that a thread takes at a time
+
+Config with_one_keyframe(Config config) {
+    config.scans.max_keyframes = 1;
+    return config;
+}
+
+}  // namespace
+
+EvidenceMap::EvidenceMap(const Config& config, const std::optional<CellBounds>& bounds)
+    : margins_(margins_of(config.scans.sight, config.map.voxel_size)),
+      grid_(static_cast<float>(config.map.voxel_size), config.scans.evidence, bounds),
+      observers_(config),
+      again_{.drive = {}, .observers = Observers(with_one_keyframe(config)), .blocks = {}} {
+    if (!bounds) return;
+    area_.emplace(config.map.voxel_size * bounds->low.cast<double>(),
+                  config.map.voxel_size * bounds->high.cast<double>());
+}
+
+/// False if no place within the bounds is in the reach of the scan.
+bool EvidenceMap::may_observe(const Scan& scan) const {
+    if (!area_) return true;
+    const Eigen::Vector2d sensor = scan.T_world_sensor.translation().head<2>();
+    return area_->exteriorDistance(sensor) <= static_cast<double>(margins_.farthest);
+}
+
+void EvidenceMap::begin_drive() {
+    observers_.begin_drive();
+    known_after_.push_back(grid_.size());
+}
+
+void EvidenceMap::look_again(std::size_t drive, const Scan& scan) {
+    const std::uint32_t known = known_after_.at(drive);
+    if (again_.drive != drive) {
+        again_.drive = drive;
+        again_.observers.begin_drive();
+        again_.blocks = grid_.blocks_from(known);
+    }
+    if (!may_observe(scan) || !again_.observers.add(scan)) return;
+    observe(again_.observers.kept().back(), again_.blocks, false,
+            [&](std::uint32_t v) { return v >= known; });
+}
+
+PointVoxels EvidenceMap::insert(const Scan& scan, StageTimes& times) {
+    is_due_ = false;
+    if (std::none_of(scan.points.begin(), scan.points.end(), is_measured)) {
+        return PointVoxels(scan.points.size(), kNoVoxel);
+    }
+    known_ = grid_.size();
+    PointVoxels voxels_of_points;
+    timed(times, "insertion", [&] {  // insertion of the points beside that of the beams
+        parallel_for(2, 1, [&](std::size_t begin, std::size_t end) {
+            if (begin == 0) voxels_of_points = grid_.add_points(scan);
+            if (end == 2) is_due_ = may_observe(scan) && observers_.add(scan);
+        });
+    });
+    indices_.push_back(scan.index);
+    timed(times, "visibility_check", [&] {
+        if (is_due_) check_known(grid_.blocks_touched(true));
+        check_new();
+    });
+    return voxels_of_points;
+}
+
+void EvidenceMap::observe_elsewhere(StageTimes& times) {
+    if (!std::exchange(is_due_, false) || known_ == 0) return;
+    timed(times, "visibility_check_elsewhere", [&] { check_known(grid_.blocks_touched(false)); });
+}
+
+/// Voxels that are to be observed, ordered by block.
+struct EvidenceMap::Places {
+    std::vector<std::uint32_t> blocks;
+    // For each block, the index of its first voxel below; then the end.
+    std::vector<std::size_t> first;
+    std::vector<std::uint32_t> voxels;
+    Points centroids;
+};
+
+/// The voxels of these blocks for which `wanted` is true.
+template <class Wanted>
+EvidenceMap::Places EvidenceMap::places_in(std::vector<std::uint32_t> blocks,
+                                           const Wanted& wanted) const {
+    Places places{.blocks = std::move(blocks), .first = {0}, .voxels = {}, .centroids = {}};
+    for (std::size_t b = 0; b < places.blocks.size(); ++b) {
+        constexpr std::size_t kAhead = 4;
+        if (b + kAhead < places.blocks.size()) {
+            grid_.voxels().prefetch_block(places.blocks[b + kAhead]);
+        }
+        grid_.voxels().each_in_block(places.blocks[b], [&](std::uint32_t v) {
+            if (wanted(v)) places.voxels.push_back(v);
+        });
+        places.first.push_back(places.voxels.size());
+    }
+    places.centroids.reserve(places.voxels.size());
+    for (std::size_t i = 0; i < places.voxels.size(); ++i) {
+        // Prefetched, because the voxels of a block may be far apart in memory.
+        constexpr std::size_t kAhead = 16;
+        if (i + kAhead < places.voxels.size()) {
+            __builtin_prefetch(&grid_[places.voxels[i + kAhead]]);
+        }
+        places.centroids.push_back(grid_[places.voxels[i]].centroid);
+    }
+    return places;
+}
+
+/// The newest observer observes the voxels that were known before its scan.
+void EvidenceMap::check_known(std::span<const std::uint32_t> blocks) {
+    observe(observers_.kept().back(), blocks, true, [&](std::uint32_t v) { return v < known_; });
+}
+
+/// The observer observes the voxels of these blocks for which `wanted` is true.
+template <class Wanted>
+void EvidenceMap::observe(const Observer& observer, std::span<const std::uint32_t> blocks,
+                          bool newest, const Wanted& wanted) {
+    parallel_for(blocks.size(), kBlocksAtATime, [&](std::size_t begin, std::size_t end) {
+        const auto some = blocks.subspan(begin, end - begin);
+        std::vector<std::uint32_t> in_sight;
+        for (const std::size_t b : blocks_in_sight(some, observer)) in_sight.push_back(some[b]);
+        const Places places = places_in(std::move(in_sight), wanted);
+        const std::vector<Sight> sights = look(observer, places.centroids);
+        for (std::size_t i = 0; i < sights.size(); ++i) {
+            if (sights[i] == Sight::unknown) continue;
+            const std::uint32_t v = places.voxels[i];
+            if (grid_.record(v, sights[i], 1, newest)) grid_.update_score(v);
+        }
+    });
+}
+
+/// The earlier observers, oldest first, observe the voxels that the newest scan has added. Each
+/// observer handles all of these voxels at once, so that its image stays in the cache.
+void EvidenceMap::check_new() {
+    const Places places =
+        places_in(grid_.blocks_from(known_), [&](std::uint32_t v) { return v >= known_; });
+    const std::vector<Observers::Asked> asked = observers_.asked_by_new();
+    std::vector<std::vector<Sight>> sights(asked.size());
+    parallel_for(asked.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) sights[k] = look(*asked[k].observer, places);
+    });
+    parallel_for(places.voxels.size(), kBlocksAtATime, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            for (std::size_t k = 0; k < asked.size(); ++k) {
+                if (sights[k][i] == Sight::unknown) continue;
+                const bool newest = is_due_ && k + 1 == asked.size();
+                grid_.record(places.voxels[i], sights[k][i], asked[k].weight, newest);
+            }
+            grid_.update_score(places.voxels[i]);
+        }
+    });
+}
+
+SightMargins EvidenceMap::margins_for(const Observer& observer) const {
+    SightMargins margins = margins_;
+    margins.farthest = observer.reach;
+    return margins;
+}
+
+/// Indices of those blocks that may hold a voxel in the view of the observer.
+std::vector<std::size_t> EvidenceMap::blocks_in_sight(std::span<const std::uint32_t> blocks,
+                                                      const Observer& observer) const {
+    const SightMargins margins = margins_for(observer);
+    // Radius of the sphere around a block, and a little more.
+    const float radius = 3.5F * grid_.voxel_size();
+    const Point sensor = observer.T_sensor_map.inverse().translation();
+    // A little more, because may_see() decides.
+    const float in_reach = margins.farthest + radius + 0.1F;
+    Points centers;
+    std::vector<std::size_t> near, in_sight;
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+        const Point center = grid_.middle_of(blocks[b]);
+        if ((center - sensor).squaredNorm() > in_reach * in_reach) continue;
+        centers.push_back(center);
+        near.push_back(b);
+    }
+    Directions seen;
+    to_spherical(centers, observer.T_sensor_map, seen);
+    for (std::size_t i = 0; i < near.size(); ++i) {
+        const Beam center{seen.azimuth[i], seen.elevation[i], seen.range[i]};
+        if (may_see(observer.image, center, radius, margins)) in_sight.push_back(near[i]);
+    }
+    return in_sight;
+}
+
+/// The observation of each of the places.
+std::vector<Sight> EvidenceMap::look(const Observer& observer, const Points& centroids) const {
+    const SightMargins margins = margins_for(observer);
+    Directions seen;
+    to_spherical(centroids, observer.T_sensor_map, seen);
+    std::vector<Sight> sights;
+    check_lines_of_sight(observer.image, seen, margins, sights);
+    return sights;
+}
+
+/// The same for places in blocks, most of which are out of view.
+std::vector<Sight> EvidenceMap::look(const Observer& observer, const Places& places) const {
+    Points centroids;
+    std::vector<std::size_t> at;
+    for (const std::size_t b : blocks_in_sight(places.blocks, observer)) {
+        for (std::size_t i = places.first[b]; i < places.first[b + 1]; ++i) {
+            centroids.push_back(places.centroids[i]);
+            at.push_back(i);
+        }
+    }
+    const std::vector<Sight> seen = look(observer, centroids);
+    std::vector<Sight> sights(places.voxels.size(), Sight::unknown);
+    for (std::size_t i = 0; i < at.size(); ++i) sights[at[i]] = seen[i];
+    return sights;
+}
+
+std::vector<std::vector<std::size_t>> EvidenceMap::free_keyframes(
+    std::span<const std::uint32_t> voxels) const {
+    std::vector<std::uint32_t> place(grid_.size(), kNoVoxel), blocks;  // index among `voxels`
+    for (std::size_t i = 0; i < voxels.size(); ++i) {
+        place[voxels[i]] = static_cast<std::uint32_t>(i);
+        blocks.push_back(grid_.voxels().block_of_voxel(voxels[i]));
+    }
+    std::sort(blocks.begin(), blocks.end());
+    blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+    const Places places =
+        places_in(std::move(blocks), [&](std::uint32_t v) { return place[v] != kNoVoxel; });
+    constexpr std::size_t kMostAsked = 64;
+    const auto& kept = observers_.kept();
+    const std::size_t stride =
+        std::max<std::size_t>(1, (kept.size() + kMostAsked - 1) / kMostAsked);
+    const std::size_t asked = kept.size() / stride;
+    std::vector<std::vector<Sight>> sights(asked);
+    const auto observer = [&](std::size_t k) -> const Observer& {
+        return kept[stride * (k + 1) - 1];
+    };
+    parallel_for(asked, 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) sights[k] = look(observer(k), places);
+    });
+    std::vector<std::vector<std::size_t>> result(voxels.size());
+    for (std::size_t k = 0; k < asked; ++k) {
+        for (std::size_t i = 0; i < places.voxels.size(); ++i) {
+            if (is_free(sights[k][i])) result[place[places.voxels[i]]].push_back(observer(k).index);
+        }
+    }
+    return result;
+}
+
+}  // namespace dynamic_filter

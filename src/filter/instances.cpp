@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include "filter/instances.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace dynamic_filter {
+
+namespace {
+
+VoxelKey block_of(const EvidenceGrid& grid, std::uint32_t voxel) {
+    return pack(grid.voxels().corner(grid.voxels().block_of_voxel(voxel)));
+}
+
+/// True if the voxel had no points, or was surely empty, before the track came.
+bool came_with(std::uint32_t start, const Evidence& e) { return e.since >= start; }
+
+}  // namespace
+
+void Instances::update(const Scan& scan, const PointVoxels& voxels, EvidenceGrid& grid,
+                       Labels& labels) {
+    if (last_stamp_ && scan.stamp - *last_stamp_ < config_.every) return;
+    const std::uint32_t newest = grid.scans() - 1;
+    // Number of scans for which this one stands.
+    const std::uint32_t scans = last_stamp_ ? newest - last_scan_ : 1;
+    last_stamp_ = scan.stamp;
+    last_scan_ = newest;
+    forget(scan.stamp);
+    const Clusters found = find_clusters(scan.points, voxels, config_);
+    std::vector<Cluster> clusters = describe(found, voxels, grid, labels);
+    match(clusters, grid, scan.stamp);
+    for (Cluster& cluster : clusters) follow(cluster, grid, scan.stamp, scans);
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        if (found.of_points[i] == kNoCluster || labels[i] != Label::static_) continue;
+        const auto& id = clusters[found.of_points[i]].track;
+        if (!id) continue;
+        const Track& track = tracks_.at(*id);
+        if (track.moves && came_with(track.start, grid[voxels[i]].evidence)) {
+            labels[i] = Label::dynamic;
+        }
+    }
+}
+
+std::vector<Instances::Cluster> Instances::describe(const Clusters& found,
+                                                    const PointVoxels& voxels,
+                                                    const EvidenceGrid& grid,
+                                                    const Labels& labels) const {
+    std::vector<std::vector<std::pair<std::uint32_t, bool>>> members(found.count);
+    for (std::size_t i = 0; i < voxels.size(); ++i) {
+        if (found.of_points[i] == kNoCluster) continue;
+        members[found.of_points[i]].emplace_back(voxels[i], labels[i] == Label::dynamic);
+    }
+    std::vector<Cluster> clusters(found.count);
+    for (std::size_t c = 0; c < clusters.size(); ++c) {
+        std::sort(members[c].begin(), members[c].end());
+        members[c].erase(std::unique(members[c].begin(), members[c].end()), members[c].end());
+        Cluster& cluster = clusters[c];
+        for (const auto& [voxel, dynamic] : members[c]) {
+            cluster.dynamic += dynamic ? 1U : 0U;
+            if (!cluster.voxels.empty() && cluster.voxels.back() == voxel) continue;
+            cluster.voxels.push_back(voxel);
+            cluster.center += grid[voxel].centroid;
+        }
+        cluster.center /= static_cast<float>(cluster.voxels.size());
+    }
+    return clusters;
+}
+
+/// True if the cluster may be the object of the track: its size is similar, and its center is near
+/// the last or the expected center of the track. Without this test, the track of an object would
+/// continue with another object that it touches.
+bool Instances::fits(const Track& track, const Cluster& cluster, double stamp) const {
+    const auto elapsed = static_cast<float>(stamp - track.seen.stamp);
+    const Point expected = track.seen.center + elapsed * track.velocity;
+    const float jump =
+        std::min((cluster.center - expected).norm(), (cluster.center - track.seen.center).norm());
+    const auto now = static_cast<double>(cluster.voxels.size());
+    const auto before = static_cast<double>(track.seen.voxels);
+    const double least = config_.fewest;  // tolerance for small clusters, whose size varies
+    return jump <= static_cast<float>(config_.jump) && now <= config_.growth * before + least &&
+           before <= config_.growth * now + least;
+}
+
+/// Gives each cluster the track that it overlaps most. Each track is given to at most one cluster.
+void Instances::match(std::vector<Cluster>& clusters, const EvidenceGrid& grid,
+                      double stamp) const {
+    std::vector<std::tuple<std::size_t, std::size_t, Id>> matches;  // shared voxels, cluster, track
+    for (std::size_t c = 0; c < clusters.size(); ++c) {
+        std::map<Id, std::size_t> shared;
+        for (const std::uint32_t voxel : clusters[c].voxels) {
+            const auto place = last_there_.find(block_of(grid, voxel));
+            if (place != last_there_.end()) ++shared[place->second.track];
+        }
+        const double least = config_.overlap * static_cast<double>(clusters[c].voxels.size());
+        for (const auto& [id, count] : shared) {
+            if (static_cast<double>(count) < least) continue;
+            if (fits(tracks_.at(id), clusters[c], stamp)) matches.emplace_back(count, c, id);
+        }
+    }
+    std::sort(matches.begin(), matches.end(), [](const auto& a, const auto& b) {
+        const auto& [shared_a, cluster_a, id_a] = a;
+        const auto& [shared_b, cluster_b, id_b] = b;
+        return std::tie(shared_b, cluster_a, id_a) < std::tie(shared_a, cluster_b, id_b);
+    });
+    std::map<Id, bool> taken;
+    for (const auto& [shared, c, id] : matches) {
+        if (clusters[c].track || taken[id]) continue;
+        clusters[c].track = id;
+        taken[id] = true;
+    }
+}
+
+/// Continues the track of the cluster, or begins a new one. The cluster stands for `scans` scans.
+void Instances::follow(Cluster& cluster, EvidenceGrid& grid, double stamp, std::uint32_t scans) {
+    if (cluster.voxels.size() < static_cast<std::size_t>(config_.fewest)) {
+        cluster.track.reset();
+        return;
+    }
+    if (!cluster.track) {
+        cluster.track = next_++;
+        tracks_[*cluster.track] = {.start = last_scan_, .first_center = cluster.center, .seen = {}};
+    }
+    Track& track = tracks_.at(*cluster.track);
+    if (track.seen.voxels > 0) {
+        const Point step = cluster.center - track.seen.center;
+        const auto elapsed = static_cast<float>(stamp - track.seen.stamp);
+        track.velocity = 0.5F * (track.velocity + step / elapsed);
+    }
+    track.seen = {stamp, cluster.center, cluster.voxels.size()};
+    const double least = config_.dynamic_share * static_cast<double>(cluster.voxels.size());
+    if (static_cast<double>(cluster.dynamic) >= least) ++track.dynamic_scans;
+    for (const std::uint32_t voxel : cluster.voxels) {
+        last_there_[block_of(grid, voxel)] = {*cluster.track, stamp};
+    }
+    const auto mark = [&](std::uint32_t voxel, std::uint32_t count) {
+        if (came_with(track.start, grid[voxel].evidence)) grid.record_moved(voxel, count);
+    };
+    if (track.moves) {
+        for (const std::uint32_t voxel : cluster.voxels) mark(voxel, scans);
+        return;
+    }
+    for (const std::uint32_t voxel : cluster.voxels) track.history[voxel] += scans;
+    const float path = (cluster.center - track.first_center).norm();
+    track.moves =
+        track.dynamic_scans >= config_.dynamic_scans && path >= static_cast<float>(config_.gone);
+    if (!track.moves) return;
+    for (const auto& [voxel, count] : track.history) mark(voxel, count);
+    track.history = {};
+}
+
+/// Removes the tracks that were not seen for too long.
+void Instances::forget(double stamp) {
+    const auto is_lost = [&](double seen) { return stamp - seen > config_.lost; };
+    std::erase_if(tracks_, [&](const auto& track) { return is_lost(track.second.seen.stamp); });
+    for (auto it = last_there_.begin(); it != last_there_.end();) {
+        it = tracks_.contains(it->second.track) && !is_lost(it->second.stamp)
+                 ? std::next(it)
+                 : last_there_.erase(it);
+    }
+}
+
+void Instances::keep(std::span<const std::uint32_t> kept) {
+    tsl::robin_map<std::uint32_t, std::uint32_t> renumbered;
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+        renumbered[kept[i]] = static_cast<std::uint32_t>(i);
+    }
+    for (auto& [id, track] : tracks_) {
+        tsl::robin_map<std::uint32_t, std::uint32_t> history;
+        for (const auto& [voxel, scans] : track.history) {
+            const auto now = renumbered.find(voxel);
+            if (now != renumbered.end()) history[now->second] = scans;
+        }
+        track.history = std::move(history);
+    }
+}
+
+}  // namespace dynamic_filter

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+/// Instances: clusters of scans are tracked over time, so that a moving object is judged as a
+/// whole.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <tsl/robin_map.h>
+
+#include "filter/clusters.hpp"
+#include "filter/evidence_grid.hpp"
+
+namespace dynamic_filter {
+
+/// Tracks clusters over scans. A person who stops at a kerb, or a car that waits in a queue, may
+/// stand there until the recording ends; no beam then shows that the place is free. But earlier
+/// scans saw the object move there. So clusters are linked to tracks by overlap. A track moves once
+/// its clusters were dynamic in several scans and it has gone some distance. All its points, from
+/// the first scan of the track on, are then points of a moving object. Each voxel counts the scans
+/// in which it held such points (Evidence::moved); occupancy_of() uses this count.
+///
+/// Static objects that touch a track must stay static: the bench beside a person, the parked car
+/// beside a car that passes. So a voxel counts only if it was seen empty, or was not seen at all,
+/// before the track came.
+///
+/// Source: docs/how-it-works.md, "Instances". Single caller. Memory: 8 bytes for each voxel of the
+/// tracks in sight.
+class Instances {
+public:
+    explicit Instances(const ScansConfig::Instances& config) : config_(config) {}
+
+    /// Uses the scan that was last added to the grid. `labels` are its instant verdicts; points of
+    /// moving objects become dynamic there. Scans that follow sooner than `every` are skipped.
+    void update(const Scan& scan, const PointVoxels& voxels, EvidenceGrid& grid, Labels& labels);
+
+    /// Renumbers the voxels: only those with the old numbers `kept` remain, in that order.
+    void keep(std::span<const std::uint32_t> kept);
+
+private:
+    using Id = std::uint32_t;
+    /// State of a track when it was last seen.
+    struct Seen {
+        double stamp = 0.0;  // [s]
+        Point center = Point::Zero();
+        std::size_t voxels = 0;
+    };
+    struct Track {
+        std::uint32_t start = 0;             // number of its first scan
+        Point first_center = Point::Zero();  // center in its first scan
+        Point velocity = Point::Zero();      // [m/s]
+        Seen seen;
+        int dynamic_scans = 0;
+        bool moves = false;
+        // Per voxel: number of scans; kept until the track moves.
+        tsl::robin_map<std::uint32_t, std::uint32_t> history{};
+    };
+    struct Cluster {
+        std::vector<std::uint32_t> voxels;  // ascending
+        Point center = Point::Zero();
+        std::size_t dynamic = 0;  // number of voxels
+        std::optional<Id> track{};
+    };
+    [[nodiscard]] std::vector<Cluster> describe(const Clusters& clusters, const PointVoxels& voxels,
+                                                const EvidenceGrid& grid,
+                                                const Labels& labels) const;
+    void match(std::vector<Cluster>& clusters, const EvidenceGrid& grid, double stamp) const;
+    [[nodiscard]] bool fits(const Track& track, const Cluster& cluster, double stamp) const;
+    void follow(Cluster& cluster, EvidenceGrid& grid, double stamp, std::uint32_t scans);
+    void forget(double stamp);
+
+    ScansConfig::Instances config_;
+    std::map<Id, Track> tracks_;
+    Id next_ = 0;
+    struct Place {
+        Id track;
+        double stamp;
+    };
+    tsl::robin_map<VoxelKey, Place, VoxelHash> last_there_;  // per block of voxels
+    std::optional<double> last_stamp_;
+    std::uint32_t last_scan_ = 0;
+};
+
+}  // namespace dynamic_filter

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#include "dynamic_filter/settings.hpp"
+
+namespace dynamic_filter {
+
+bool is_keyframe(const Scan& last, const Scan& scan, const KeyframeConfig& config) {
+    const double moved =
+        (scan.T_world_sensor.translation() - last.T_world_sensor.translation()).norm();
+    return scan.stamp - last.stamp >= config.interval || moved >= config.distance;
+}
+
+}  // namespace dynamic_filter

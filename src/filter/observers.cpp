@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "filter/observers.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace dynamic_filter {
+
+bool Observers::is_reliable(const BeamPattern& beams, const Scan& scan) const {
+    return beams.azimuth_spacing > 0.0F && beams.elevation_spacing > 0.0F &&
+           scan.points.size() >= static_cast<std::size_t>(config_.least_points);
+}
+
+bool Observers::add(const Scan& scan) {
+    if (last_keyframe_ && !is_keyframe(*last_keyframe_, scan, keyframe_)) return false;
+    const BeamPattern beams = beams_ ? *beams_ : estimate_beam_pattern({&scan, 1});
+    if (!beams_ && is_reliable(beams, scan)) beams_ = beams;
+    last_keyframe_ = Scan{{}, scan.T_world_sensor, scan.stamp, scan.index};
+    const bool looks_far = kept_.empty() || scan.stamp - last_far_look_ >= keyframe_.interval;
+    if (looks_far) last_far_look_ = scan.stamp;
+    const float reach =
+        looks_far ? farthest_ : std::min(static_cast<float>(config_.near_reach), farthest_);
+    kept_.push_back({BeamImage(scan.points, beams), scan.T_world_sensor.inverse().cast<float>(),
+                     reach, scan.index});
+    ++total_;
+    if (kept_.size() > most_) kept_.pop_front();
+    return true;
+}
+
+void Observers::begin_drive() {
+    kept_.clear();
+    last_keyframe_.reset();
+    beams_.reset();
+}
+
+std::vector<Observers::Asked> Observers::asked_by_new() const {
+    std::vector<Asked> asked;
+    if (kept_.empty()) return asked;
+    // The lower limit avoids a division by zero for an image without beams.
+    constexpr float kLeast = 0.01F;
+    const float coverage = std::max(kept_.back().image.coverage(), kLeast);
+    const auto one_by_one =
+        static_cast<std::size_t>(static_cast<float>(config_.images_asked) / coverage);
+    for (std::size_t i = 0; i < kept_.size(); ++i) {
+        const std::size_t age = kept_.size() - 1 - i;
+        const std::size_t apart = std::max<std::size_t>(1, std::bit_floor(age / one_by_one));
+        if ((total_ - age) % apart == 0) {
+            asked.push_back({&kept_[i], static_cast<unsigned>(apart)});
+        }
+    }
+    return asked;
+}
+
+}  // namespace dynamic_filter

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+/// The keyframes as observers: which scans become keyframes, how far each keyframe looks, and which
+/// of them observe a new voxel.
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "dynamic_filter/range_image.hpp"
+#include "dynamic_filter/settings.hpp"
+#include "dynamic_filter/types.hpp"
+#include "geometry/beam_image.hpp"
+
+namespace dynamic_filter {
+
+/// A keyframe and its image.
+struct Observer {
+    BeamImage image;
+    Eigen::Isometry3f T_sensor_map = Eigen::Isometry3f::Identity();
+    float reach = 0.0F;     ///< [m] how far the keyframe looks
+    std::size_t index = 0;  ///< Scan::index
+};
+
+/// Stores the newest keyframes of a drive. Single caller.
+class Observers {
+public:
+    explicit Observers(const Config& config)
+        : keyframe_(config.keyframe),
+          config_(config.scans.observers),
+          farthest_(static_cast<float>(config.scans.sight.farthest)),
+          most_(static_cast<std::size_t>(config.scans.max_keyframes)) {}
+
+    /// Adds the scan if it is a keyframe, and returns whether it is one. Its pose is relative to
+    /// the map.
+    bool add(const Scan& scan);
+
+    /// The next scan is the first one of another drive, perhaps by another sensor. The keyframes so
+    /// far are removed.
+    void begin_drive();
+
+    /// The keyframes that observe a new voxel, oldest first, and the number of keyframes for which
+    /// each one stands. Keyframes close in time see nearly the same. So all of the newest keyframes
+    /// are used; of those twice as old every second one, and so on.
+    struct Asked {
+        const Observer* observer;
+        unsigned weight;
+    };
+    [[nodiscard]] std::vector<Asked> asked_by_new() const;
+
+    [[nodiscard]] const std::deque<Observer>& kept() const { return kept_; }  ///< oldest first
+    [[nodiscard]] std::size_t total() const {
+        return total_;
+    }  ///< including those that are no longer kept
+    /// Measured on the first scan that has enough points; empty before that scan.
+    [[nodiscard]] const std::optional<BeamPattern>& beams() const { return beams_; }
+
+private:
+    [[nodiscard]] bool is_reliable(const BeamPattern& beams, const Scan& scan) const;
+
+    KeyframeConfig keyframe_;
+    ScansConfig::Observers config_;
+    float farthest_;  // [m]
+    std::size_t most_;
+    std::optional<BeamPattern> beams_;
+    std::optional<Scan> last_keyframe_;  // only its pose and stamp
+    double last_far_look_ = 0.0;         // [s]
+    std::deque<Observer> kept_;
+    std::size_t total_ = 0;
+};
+
+}  // namespace dynamic_filter

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/writers.hpp"
+#include "formats/clouds/field_types.hpp"
+#include "formats/clouds/las_format.hpp"
+
+namespace dynamic_filter::io {
+namespace {
+
+constexpr double kResolution = 0.001;  // [m] of coordinates
+constexpr std::size_t header_bytes = 375, base_bytes = 30, returns_at = 14;
+constexpr std::size_t most_name = 32, most_u16 = 65535;
+
+/// Fields for which point format 6 has a place.
+struct Standard {
+    const char* name;
+    FieldType type;
+    std::size_t at;
+    unsigned first_bit, bits;
+};
+constexpr std::array standards = {Standard{"intensity", FieldType::u16, 12, 0, 16},
+                                  Standard{"return_number", FieldType::u8, 14, 0, 4},
+                                  Standard{"number_of_returns", FieldType::u8, 14, 4, 4},
+                                  Standard{"classification", FieldType::u8, 16, 0, 8},
+                                  Standard{"user_data", FieldType::u8, 17, 0, 8},
+                                  Standard{"scan_angle", FieldType::f32, 18, 0, 16},
+                                  Standard{"point_source_id", FieldType::u16, 20, 0, 16},
+                                  Standard{"gps_time", FieldType::f64, 22, 0, 64}};
+
+struct Placed {
+    Field field;
+    const Standard* standard = nullptr;  ///< null for Extra Bytes
+    std::string name;                    ///< name in Extra Bytes
+    std::size_t at = 0;                  ///< [bytes] offset in the record
+};
+
+struct Axis {
+    std::vector<double> values;
+    double least = 0.0, greatest = 0.0, offset = 0.0;
+};
+
+/// Consecutive little-endian numbers.
+class LasBytes {
+public:
+    template <class T>
+    LasBytes& put(T value) {
+        const std::size_t at = bytes_.size();
+        bytes_.resize(at + sizeof value);
+        store_at(bytes_.data() + at, value);
+        return *this;
+    }
+    LasBytes& text(std::string_view text, std::size_t width) {
+        for (std::size_t i = 0; i < width; ++i) put(i < text.size() ? text[i] : '\0');
+        return *this;
+    }
+    LasBytes& zeros(std::size_t count) { return text("", count); }
+    [[nodiscard]] const std::vector<std::byte>& bytes() const { return bytes_; }
+
+private:
+    std::vector<std::byte> bytes_;
+};
+
+const Standard* standard_named(const std::string& name) {
+    const auto* found = std::find_if(standards.begin(), standards.end(),
+                                     [&](const Standard& s) { return s.name == name; });
+    return found == standards.end() ? nullptr : found;
+}
+
+/// True if the standard field represents the values of the field exactly. The scan angle has
+/// another unit in the file, so it is never exact.
+bool holds(const Standard& standard, const Cloud& cloud, const Field& field) {
+    if (standard.type != field.type || field.type == FieldType::f32) return false;
+    if (standard.bits >= 8) return true;
+    const std::vector<double> all = values(cloud, field);
+    return std::all_of(all.begin(), all.end(),
+                       [&](double v) { return v < std::exp2(standard.bits); });
+}
+
+std::vector<Placed> place(const Cloud& cloud) {
+    std::vector<Placed> placed;
+    std::size_t end = base_bytes;
+    for (const Field& field : single_fields(cloud)) {
+        if (field.name == "x" || field.name == "y" || field.name == "z") continue;
+        const Standard* standard = standard_named(field.name);
+        if (standard != nullptr && holds(*standard, cloud, field)) {
+            placed.push_back({field, standard, "", standard->at});
+            continue;
+        }
+        const std::string name = field.name + std::string(standard != nullptr ? las_exact : "");
+        placed.push_back({field, nullptr, name, end});
+        end += size_of(field.type);
+    }
+    return placed;
+}
+
+std::size_t record_bytes_of(const std::vector<Placed>& placed) {
+    std::size_t bytes = base_bytes;
+    for (const Placed& p : placed) bytes += p.standard == nullptr ? size_of(p.field.type) : 0;
+    return bytes;
+}
+
+std::vector<std::byte> extra_record(const std::vector<Placed>& placed,
+                                    const std::filesystem::path& path) {
+    LasBytes record;
+    for (const Placed& p : placed) {
+        if (p.standard != nullptr) continue;
+        if (p.name.size() > most_name) {
+            throw OutputError(path, "the name of field '" + p.field.name +
+                                        "' is longer than the 32 characters that LAS holds");
+        }
+        const auto* code = std::find(las_extra_types.begin(), las_extra_types.end(), p.field.type);
+        record.zeros(2).put(static_cast<std::uint8_t>(code - las_extra_types.begin() + 1));
+        record.zeros(1).text(p.name, most_name).zeros(las_extra_bytes - 4 - most_name);
+    }
+    if (record.bytes().size() > most_u16 || record_bytes_of(placed) > most_u16) {
+        throw OutputError(path, fmt::format("{} fields are more than LAS holds", placed.size()));
+    }
+    return record.bytes();
+}
+
+Axis axis_of(const Cloud& cloud, const char* name, const std::filesystem::path& path) {
+    const Field* field = cloud.find(name);
+    if (field == nullptr) throw OutputError(path, fmt::format("the cloud has no field '{}'", name));
+    return {values(cloud, *field)};
+}
+
+/// Indices of the points with three finite coordinates.
+std::vector<std::size_t> finite_points(const std::array<Axis, 3>& axes) {
+    std::vector<std::size_t> finite;
+    for (std::size_t i = 0; i < axes[0].values.size(); ++i) {
+        const bool good = std::all_of(axes.begin(), axes.end(), [&](const Axis& axis) {
+            return std::isfinite(axis.values[i]);
+        });
+        if (good) finite.push_back(i);
+    }
+    return finite;
+}
+
+std::int32_t steps(const Axis& axis, double value) {
+    return static_cast<std::int32_t>(std::llround((value - axis.offset) / kResolution));
+}
+
+/// Chooses the offset of an axis in the middle of the data, in whole metres, so that 32 bits reach
+/// to both sides. The bounds are computed from the coordinates as written, because readers check
+/// whether points lie outside.
+void span_axis(Axis& axis, char name, const std::vector<std::size_t>& points,
+               const std::filesystem::path& path) {
+    if (points.empty()) return;
+    axis.least = axis.greatest = axis.values[points[0]];
+    for (const std::size_t i : points) {
+        axis.least = std::min(axis.least, axis.values[i]);
+        axis.greatest = std::max(axis.greatest, axis.values[i]);
+    }
+    axis.offset = std::round(axis.least / 2 + axis.greatest / 2);
+    if (!(axis.greatest - axis.offset <
+          kResolution * std::numeric_limits<std::int32_t>::max() - 1)) {
+        throw OutputError(
+            path, fmt::format("the cloud goes from {0} = {1:.6g} to {2:.6g} m, wider than the "
+                              "4,000 km that LAS holds at its scale of 1 mm; are these "
+                              "coordinates right? .pcd, .ply and .npy hold any",
+                              name, axis.least, axis.greatest));
+    }
+    for (double* bound : {&axis.least, &axis.greatest}) {
+        *bound = steps(axis, *bound) * kResolution + axis.offset;
+    }
+}
+
+/// Writes the bits of a standard field beside those of another field in the same byte.
+void put_standard(std::byte* record, const Standard& standard, const std::byte* value) {
+    if (standard.bits >= 8) {
+        std::memcpy(record + standard.at, value, size_of(standard.type));
+        return;
+    }
+    record[standard.at] |= *value << standard.first_bit;
+}
+
+/// Sets "one return of one" where the cloud does not contain these fields.
+void complete_returns(std::byte* record) {
+    const auto returns = std::to_integer<unsigned>(record[returns_at]);
+    const unsigned number = std::max(returns & 15U, 1U);
+    const unsigned count = std::max(returns >> 4U, number);
+    record[returns_at] = static_cast<std::byte>(count << 4U | number);
+}
+
+std::vector<std::byte> records_of(const Cloud& cloud, const std::vector<Placed>& placed,
+                                  const std::array<Axis, 3>& axes,
+                                  const std::vector<std::size_t>& points) {
+    const std::size_t stride = record_bytes_of(placed);
+    std::vector<std::byte> records(points.size() * stride);
+    for (std::size_t n = 0; n < points.size(); ++n) {
+        std::byte* record = records.data() + n * stride;
+        const std::byte* from = cloud.data.data() + points[n] * cloud.point_bytes;
+        for (std::size_t a = 0; a < 3; ++a)
+            store_at(record + 4 * a, steps(axes[a], axes[a].values[points[n]]));
+        for (const Placed& p : placed) {
+            if (p.standard != nullptr) {
+                put_standard(record, *p.standard, from + p.field.offset);
+            } else {
+                std::memcpy(record + p.at, from + p.field.offset, size_of(p.field.type));
+            }
+        }
+        complete_returns(record);
+    }
+    return records;
+}
+
+std::array<std::uint64_t, 15> count_returns(const std::vector<std::byte>& records,
+                                            std::size_t stride) {
+    std::array<std::uint64_t, 15> counts{};
+    for (std::size_t at = returns_at; at < records.size(); at += stride) {
+        ++counts[(std::to_integer<std::size_t>(records[at]) & 15U) - 1];
+    }
+    return counts;
+}
+
+struct Sizes {
+    std::size_t extra = 0, stride = 0;  ///< [bytes]
+    std::uint64_t points = 0;
+};
+
+LasBytes header_of(const Sizes& sizes, const std::array<Axis, 3>& axes,
+                   const std::array<std::uint64_t, 15>& returns) {
+    constexpr std::uint16_t has_wkt = 16;  // required by the format for point formats from 6 on
+    const bool has_extra = sizes.extra != 0;
+    const std::size_t begin = header_bytes + (has_extra ? las_vlr_header_bytes + sizes.extra : 0);
+    LasBytes header;
+    header.text("LASF", 4).put(std::uint16_t{0}).put(has_wkt).zeros(16);
+    header.put(std::uint8_t{1}).put(std::uint8_t{4}).text("", 32).text("DynamicFilter", 32);
+    header.zeros(4).put(static_cast<std::uint16_t>(header_bytes));
+    header.put(static_cast<std::uint32_t>(begin)).put(std::uint32_t{has_extra ? 1U : 0U});
+    header.put(std::uint8_t{6}).put(static_cast<std::uint16_t>(sizes.stride)).zeros(24);
+    for (std::size_t a = 0; a < 3; ++a) header.put(kResolution);
+    for (const Axis& axis : axes) header.put(axis.offset);
+    for (const Axis& axis : axes) header.put(axis.greatest).put(axis.least);
+    header.zeros(20).put(sizes.points);
+    for (const std::uint64_t count : returns) header.put(count);
+    return header;
+}
+
+}  // namespace
+
+Written write_las(const std::filesystem::path& path, const Cloud& cloud) {
+    std::array<Axis, 3> axes = {axis_of(cloud, "x", path), axis_of(cloud, "y", path),
+                                axis_of(cloud, "z", path)};
+    const std::vector<std::size_t> points = finite_points(axes);
+    for (std::size_t a = 0; a < 3; ++a) span_axis(axes[a], "xyz"[a], points, path);
+    const std::vector<Placed> placed = place(cloud);
+    const std::vector<std::byte> extra = extra_record(placed, path);
+    const std::vector<std::byte> records = records_of(cloud, placed, axes, points);
+    const Sizes sizes{extra.size(), record_bytes_of(placed), points.size()};
+    LasBytes header = header_of(sizes, axes, count_returns(records, sizes.stride));
+    if (!extra.empty()) {
+        header.zeros(2).text(las_spec, 16).put(las_extra_id);
+        header.put(static_cast<std::uint16_t>(extra.size())).text("Extra Bytes", 32);
+    }
+    AtomicFile file(path);
+    file.write(header.bytes());
+    file.write(extra);
+    file.write(records);
+    file.commit();
+    const std::size_t lost = cloud.size() - points.size();
+    const std::string rounded = "coordinates are rounded to 1 mm";
+    if (lost == 0) return {points.size(), rounded};
+    return {points.size(),
+            rounded + fmt::format("; {} points that are not finite are left out", lost)};
+}
+
+}  // namespace dynamic_filter::io

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+/// The live filter on any bus: what `dynamicfilter live` and the ROS 1 node share.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "live/bus.hpp"
+
+namespace dynamic_filter::live {
+
+struct LiveOptions {
+    std::optional<std::filesystem::path> file;  ///< TOML with the settings of live and filter
+    std::vector<std::string> assignments;       ///< "section.key=value"
+    std::string preset = "default";
+    std::optional<std::filesystem::path> record;  ///< output folder, completed at the end
+    bool dry_run = false, overwrite = false, quiet = false;
+    double look = 5.0;      ///< [s] of listening in a dry run
+    bool settings = false;  ///< only prints the settings in force
+};
+
+/// Filters what the bus delivers until SIGINT or SIGTERM; in a dry run, says what is there, what
+/// fits and what is missing. Values of the bus's parameters come before those of the file. Returns
+/// the exit code of the command. Throws ConfigError, OutputError, Error.
+int live(Bus& bus, const LiveOptions& options);
+
+}  // namespace dynamic_filter::live

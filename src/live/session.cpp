@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: MIT
+#include "live/session.hpp"
+
+#include <fmt/format.h>
+
+#include "dynamic_filter/error.hpp"
+
+namespace dynamic_filter::live {
+
+namespace {
+
+constexpr std::size_t kMostWork = 16;      // that waits to be published
+constexpr std::size_t kMostPending = 200;  // preset paper: verdicts come window by window
+constexpr std::size_t kMostLatencies = 1000;
+
+OnlineOptions options_of(const LiveConfig& config) {
+    return {.queue = static_cast<std::size_t>(config.input.queue),
+            .overload = Overload::drop_oldest,
+            .horizon = config.limits.horizon,
+            .max_bytes = static_cast<std::size_t>(config.limits.map_mib) << 20,
+            .settle_after = 0,  // scans are settled here, and only if somebody wants corrections
+            .threads = config.limits.threads};
+}
+
+/// The scan as the filter saw it.
+Scan scan_of(const LiveScan& scan, const Verdict& verdict) {
+    Scan seen{scan.points, scan.T_world_sensor, scan.stamp, verdict.index, true, {}};
+    if (!verdict.tracked) return seen;
+    seen.T_world_sensor = verdict.tracked->T_world_sensor;
+    if (!scan.times.empty()) {
+        seen.points = undo_motion(seen.points, scan.times, verdict.tracked->velocity);
+    }
+    return seen;
+}
+
+}  // namespace
+
+Session::Session(const LiveConfig& config, Outputs& outputs, Recorder* recorder)
+    : config_(config),
+      outputs_(outputs),
+      recorder_(recorder),
+      map_rate_(config.output.map_rate),
+      map_radius_(config.output.map_radius) {
+    filter_ = std::make_unique<OnlineFilter>(config.filter, options_of(config), callbacks());
+    publisher_ = std::thread([this] { publish_work(); });
+    mapper_ = std::thread([this] { publish_maps(); });
+}
+
+Session::~Session() { stop(); }
+
+void Session::stop() {
+    try {
+        filter_->flush();
+    } catch (...) {
+        fail(std::current_exception());
+    }
+    {
+        const std::lock_guard hold(lock_);
+        if (std::exchange(stopping_, true)) return;
+    }
+    changed_.notify_all();
+    publisher_.join();
+    mapper_.join();
+}
+
+void Session::set_map(double rate_hz, double radius) {
+    const std::lock_guard hold(lock_);
+    map_rate_ = rate_hz;
+    map_radius_ = radius;
+}
+
+void Session::fail(std::exception_ptr error) {
+    const std::lock_guard hold(lock_);
+    failure_ = std::move(error);
+}
+
+OnlineCallbacks Session::callbacks() {
+    return {.instant = [this](const Verdict& verdict) { take_instant(verdict); },
+            .settled = {},
+            .notice = [this](const Notice& notice) { take_notice(notice); }};
+}
+
+void Session::push(LiveScan scan) {
+    Scan core{scan.points,   scan.T_world_sensor, scan.stamp,
+              next_index_++, scan.has_pose,       scan.times};
+    {
+        const std::lock_guard hold(lock_);
+        if (failure_) std::rethrow_exception(failure_);
+        pending_.emplace(core.index, std::make_shared<LiveScan>(std::move(scan)));
+        if (pending_.size() > kMostPending) {
+            pending_.erase(pending_.begin());
+            ++unpublished_;
+        }
+    }
+    filter_->push(std::move(core));
+}
+
+void Session::take_instant(const Verdict& verdict) {
+    std::shared_ptr<LiveScan> scan;
+    {
+        const std::lock_guard hold(lock_);
+        const auto found = pending_.find(verdict.index);
+        if (found == pending_.end()) return;
+        scan = std::move(found->second);
+        pending_.erase(found);
+        newest_ = Place{scan->T_world_sensor, scan->world, scan->stamp};
+        if (verdict.tracked) {
+            newest_->T_world_sensor = verdict.tracked->T_world_sensor;
+            odometry_.last = verdict.tracked->status;
+            ++(odometry_.last == TrackStatus::good   ? odometry_.good
+               : odometry_.last == TrackStatus::weak ? odometry_.weak
+                                                     : odometry_.lost);
+        }
+        if (!scan->has_pose) newest_->world = config_.output.map_frame;
+    }
+    put({std::move(scan), verdict});
+}
+
+/// The scan of all notices but those of new maps gets no verdict.
+void Session::take_notice(const Notice& notice) {
+    const std::lock_guard hold(lock_);
+    const bool new_map = notice.kind == NoticeKind::jump || notice.kind == NoticeKind::restart;
+    if (!new_map) pending_.erase(notice.index);
+    constexpr std::size_t kMost = 20;  // between two calls of take_notices()
+    // Dropped scans are counted; a line for each would fill the log when the log helps least.
+    if (notice.kind == NoticeKind::dropped || notices_.size() >= kMost) return;
+    notices_.push_back(fmt::format("scan {}: {}", notice.index, notice.text));
+}
+
+void Session::put(Work work) {
+    {
+        const std::lock_guard hold(lock_);
+        if (stopping_) return;
+        work_.push_back(std::move(work));
+        if (work_.size() > kMostWork) {
+            ++unpublished_;
+            work_.pop_front();
+        }
+    }
+    changed_.notify_all();
+}
+
+void Session::publish_work() {
+    try {
+        while (true) {
+            std::unique_lock hold(lock_);
+            changed_.wait(hold, [&] { return stopping_ || !work_.empty(); });
+            if (work_.empty()) return;
+            Work work = std::move(work_.front());
+            work_.pop_front();
+            hold.unlock();
+            publish(work);
+        }
+    } catch (...) {
+        fail(std::current_exception());
+    }
+}
+
+void Session::publish(Work& work) {
+    JudgedScan judged = outputs_.judged(*work.scan, work.verdict);
+    note_latency(*work.scan);
+    ++published_;
+    record(*work.scan);
+    if (config_.output.settle_after == 0 || !filter_->judges_each_scan()) return;
+    unsettled_.push_back({std::move(judged), scan_of(*work.scan, work.verdict)});
+    if (unsettled_.size() <= static_cast<std::size_t>(config_.output.settle_after)) return;
+    const Unsettled due = std::move(unsettled_.front());
+    unsettled_.pop_front();
+    if (outputs_.wants_corrections()) {
+        outputs_.settled(due.judged, filter_->settled(due.scan));
+    }
+}
+
+/// A disk that is full ends the recording, but not the filter: the robot needs it.
+void Session::record(const LiveScan& scan) {
+    if (recorder_ == nullptr) return;
+    try {
+        recorder_->add(scan);
+    } catch (const OutputError& error) {
+        recorder_ = nullptr;
+        const std::lock_guard hold(lock_);
+        notices_.push_back(fmt::format("the recording has ended: {}", error.what()));
+    }
+}
+
+void Session::note_latency(const LiveScan& scan) {
+    const std::chrono::duration<float, std::milli> passed =
+        std::chrono::steady_clock::now() - scan.arrived;
+    const std::lock_guard hold(lock_);
+    latencies_.push_back(passed.count());
+    if (latencies_.size() > kMostLatencies) latencies_.pop_front();
+}
+
+void Session::publish_maps() {
+    try {
+        std::unique_lock hold(lock_);
+        auto due = std::chrono::steady_clock::now();
+        while (!stopping_) {
+            const std::chrono::duration<double> pause(map_rate_ > 0.0 ? 1.0 / map_rate_ : 1.0);
+            due = std::max(due + std::chrono::duration_cast<SteadyTime::duration>(pause),
+                           std::chrono::steady_clock::now());
+            changed_.wait_until(hold, due, [&] { return stopping_; });
+            if (stopping_ || map_rate_ <= 0.0 || !newest_) continue;
+            const Place at = *newest_;
+            const double radius = map_radius_;
+            hold.unlock();
+            if (outputs_.wants_map()) {
+                outputs_.map(filter_->local_static_map(at.T_world_sensor, radius), at.world,
+                             at.stamp);
+            }
+            hold.lock();
+        }
+    } catch (...) {
+        fail(std::current_exception());
+    }
+}
+
+Latencies Session::latencies() const {
+    std::vector<float> sorted;
+    {
+        const std::lock_guard hold(lock_);
+        sorted.assign(latencies_.begin(), latencies_.end());
+    }
+    if (sorted.empty()) return {};
+    std::sort(sorted.begin(), sorted.end());
+    const auto at = [&](double share) {
+        return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+    };
+    return {at(0.5), at(0.99), sorted.back(), sorted.size()};
+}
+
+OdometryState Session::odometry() const {
+    const std::lock_guard hold(lock_);
+    return odometry_;
+}
+
+std::vector<std::string> Session::take_notices() {
+    const std::lock_guard hold(lock_);
+    return std::exchange(notices_, {});
+}
+
+}  // namespace dynamic_filter::live

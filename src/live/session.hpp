@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+/// The filter, and the threads that publish what it says.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "dynamic_filter/online.hpp"
+#include "live/outputs.hpp"
+#include "live/recorder.hpp"
+
+namespace dynamic_filter::live {
+
+/// [ms] from the arrival of a cloud until its labels are published, of the newest scans.
+struct Latencies {
+    double p50 = 0.0, p99 = 0.0, most = 0.0;
+    std::size_t scans = 0;
+};
+
+/// How reliable the own odometry, or the refined poses, are.
+struct OdometryState {
+    std::uint64_t good = 0, weak = 0, lost = 0;  ///< scans
+    TrackStatus last = TrackStatus::good;
+};
+
+/// push(), the getters and take_notices() have one caller; threads of its own do the rest.
+class Session {
+public:
+    /// `recorder` may be null. All must outlive this object.
+    Session(const LiveConfig& config, Outputs& outputs, Recorder* recorder);
+    /// Waits until what was pushed is judged, published and recorded: a few scans at most.
+    ~Session();
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+
+    void push(LiveScan scan);  ///< rethrows what stopped the filter
+    /// True if the filter has enough to do; a scan that waits outside can still be replaced.
+    [[nodiscard]] bool is_busy() const { return filter_->counters().queued > 1; }
+    void stop();  ///< as the destructor; the getters may be called after it
+    /// How often the local map is published, and its radius [m].
+    void set_map(double rate_hz, double radius);
+
+    [[nodiscard]] Counters counters() const { return filter_->counters(); }
+    [[nodiscard]] Latencies latencies() const;
+    [[nodiscard]] OdometryState odometry() const;
+    [[nodiscard]] std::uint64_t published() const { return published_; }
+    /// Judged scans that were neither published nor recorded, because publishing is too slow.
+    [[nodiscard]] std::uint64_t unpublished() const { return unpublished_; }
+    std::vector<std::string> take_notices();
+
+private:
+    struct Work {
+        std::shared_ptr<LiveScan> scan;
+        Verdict verdict;
+    };
+    struct Unsettled {
+        JudgedScan judged;
+        Scan scan;
+    };
+    OnlineCallbacks callbacks();
+    void take_instant(const Verdict& verdict);
+    void take_notice(const Notice& notice);
+    void put(Work work);
+    void publish_work();
+    void publish(Work& work);
+    void publish_maps();
+    void record(const LiveScan& scan);
+    void note_latency(const LiveScan& scan);
+    void fail(std::exception_ptr error);
+
+    const LiveConfig& config_;
+    Outputs& outputs_;
+    Recorder* recorder_;  // of the publishing thread; may be null
+
+    mutable std::mutex lock_;  // guards the members below
+    std::condition_variable changed_;
+    std::map<std::size_t, std::shared_ptr<LiveScan>> pending_;  // keys: Scan::index
+    std::deque<Work> work_;
+    std::deque<float> latencies_;  // [ms]
+    OdometryState odometry_;
+    std::vector<std::string> notices_;
+    struct Place {
+        Pose T_world_sensor = Pose::Identity();
+        std::string world;
+        double stamp = 0.0;
+    };
+    std::optional<Place> newest_;
+    double map_rate_, map_radius_;
+    bool stopping_ = false;
+    std::exception_ptr failure_;  // of publishing
+
+    std::deque<Unsettled> unsettled_;  // of the publishing thread
+    std::atomic<std::uint64_t> published_{0}, unpublished_{0};
+    std::size_t next_index_ = 0;
+    std::unique_ptr<OnlineFilter> filter_;
+    std::thread publisher_, mapper_;
+};
+
+}  // namespace dynamic_filter::live

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+/// Chooses the topics that the filter needs, and follows publishers that come and go.
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "live/intake.hpp"
+
+namespace dynamic_filter::live {
+
+/// What others publish that the filter can use.
+struct UsableTopics {
+    std::vector<SeenTopic> clouds, poses, transforms;
+    std::vector<SeenTopic> packets;  ///< raw data of sensors, for which a driver is needed
+};
+/// Sorts topics by their use. What another instance of this program publishes is left out.
+UsableTopics usable(const std::vector<SeenTopic>& seen);
+
+std::vector<std::string> names_of(const std::vector<SeenTopic>& topics);
+
+/// True for a topic whose transforms hold forever.
+bool is_static_transforms(const std::string& topic);
+
+/// What to ask for: as much as all publishers offer, or what `qos` says.
+Quality quality_for(const SeenTopic& topic, const std::string& qos);
+
+/// Single caller.
+class Subscriptions {
+public:
+    Subscriptions(Bus& bus, const LiveConfig& config, Intake& intake)
+        : bus_(bus), config_(config), intake_(intake) {}
+    ~Subscriptions() { bus_.stop(); }  // before what receives its messages goes
+    Subscriptions(const Subscriptions&) = delete;
+    Subscriptions& operator=(const Subscriptions&) = delete;
+
+    /// Subscribes to what is there by now. Call it about once a second, at first more often.
+    /// Throws ConfigError if several topics could hold the scans.
+    void update();
+
+    [[nodiscard]] const std::string& cloud() const { return cloud_; }  ///< empty: none yet
+    std::vector<std::string> take_notices() { return std::exchange(notices_, {}); }
+
+private:
+    void choose_cloud(const UsableTopics& topics);
+    void subscribe(const SeenTopic& topic);
+
+    Bus& bus_;
+    const LiveConfig& config_;
+    Intake& intake_;
+    std::string cloud_;
+    std::optional<std::chrono::steady_clock::time_point> first_seen_;
+    std::map<std::string, Quality> subscribed_;  // keys: topics
+    std::vector<std::string> notices_;
+};
+
+}  // namespace dynamic_filter::live

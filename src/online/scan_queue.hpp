@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+/// Scans that wait to be judged, in the order of their stamps. It takes no locks; the owner holds
+/// one.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "dynamic_filter/online.hpp"
+
+namespace dynamic_filter {
+
+struct QueuedScan {
+    Scan scan;
+    /// Number of the run: within a run stamps increase, a restart begins the next run.
+    std::uint64_t run = 0;
+    std::chrono::steady_clock::time_point since = std::chrono::steady_clock::now();
+    std::shared_ptr<std::promise<std::optional<Verdict>>> reply;  ///< may be null
+};
+
+class ScanQueue {
+public:
+    /// The reason why the scan cannot be taken; empty if it can.
+    [[nodiscard]] std::optional<Notice> refusal(const Scan& scan) const;
+
+    /// Inserts a scan that is not refused. If its stamp is more than 1 s older than the newest one,
+    /// it begins a new run. If it is a little older, it goes before the waiting scans with later
+    /// stamps.
+    void add(QueuedScan waiting);
+
+    /// Returns the scan with the oldest stamp.
+    /// To judge it: scans with older stamps are late from now on.
+    QueuedScan take();
+    QueuedScan drop();  ///< to make room
+
+    [[nodiscard]] std::size_t size() const { return waiting_.size(); }
+
+private:
+    [[nodiscard]] bool restarts(double stamp) const;
+    QueuedScan pop();
+
+    std::deque<QueuedScan> waiting_;
+    std::uint64_t run_ = 0;
+    std::optional<bool> with_poses_;
+    std::optional<double> newest_;  // largest stamp within the run
+    struct Taken {
+        std::uint64_t run;
+        double stamp;
+        Pose T_world_sensor;
+    };
+    std::optional<Taken> taken_;  // the scan that was taken last
+};
+
+}  // namespace dynamic_filter

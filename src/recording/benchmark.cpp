@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "recording/benchmark.hpp"
+
+#include "base/input.hpp"
+#include "dynamic_filter/error.hpp"
+#include "formats/clouds/pcd_header.hpp"
+
+namespace dynamic_filter::io {
+namespace {
+
+constexpr std::size_t head_bytes = 4096;  // a header has only a few hundred bytes
+
+/// An unreadable scan is ignored here; it is rejected when it is read.
+bool may_have_viewpoint(const std::filesystem::path& scan) {
+    try {
+        const std::string head = read_head(scan, head_bytes);
+        Lines lines(head, scan);
+        return parse_pcd_header(lines).viewpoint.has_value();
+    } catch (const InputError&) {
+        return false;
+    }
+}
+
+enum class Verdict { truth, no_truth, undecided };
+
+Verdict judge_intensity(const std::filesystem::path& scan) {
+    try {
+        const Cloud cloud = read_pcd(scan);
+        const Field* intensity = cloud.find("intensity");
+        if (intensity == nullptr) return Verdict::no_truth;
+        Verdict verdict = Verdict::undecided;
+        for (const double value : values(cloud, *intensity)) {
+            if (value != 0.0 && value != 1.0) return Verdict::no_truth;
+            if (value == 1.0) verdict = Verdict::truth;
+        }
+        return verdict;
+    } catch (const InputError&) {
+        return Verdict::undecided;
+    }
+}
+
+bool all_intensities_are_flags(const Sequence& sequence) {
+    bool any_dynamic = false;
+    for (const auto& scan : sequence.scan_files) {
+        const Verdict verdict = judge_intensity(scan);
+        if (verdict == Verdict::no_truth) return false;
+        any_dynamic = any_dynamic || verdict == Verdict::truth;
+    }
+    return any_dynamic;
+}
+
+}  // namespace
+
+void require_viewpoints(Sequence& sequence) {
+    for (const auto& scan : sequence.scan_files) {
+        if (may_have_viewpoint(scan)) return;
+    }
+    if (sequence.size() > 1) {
+        throw InputError(sequence.scan_files[0].parent_path(), "",
+                         "no poses: VIEWPOINT of every scan is the identity; give poses with "
+                         "--poses, and --format folder if the points are in the sensor's frame");
+    }
+    sequence.notes.emplace_back("VIEWPOINT is the identity; the sensor is taken to be there");
+}
+
+void find_intensity_truth(Sequence& sequence, const Layout& layout) {
+    if (!sequence.label_files.empty()) return;  // label files are more precise
+    sequence.intensity_is_truth = layout.truth_map || all_intensities_are_flags(sequence);
+    if (sequence.intensity_is_truth) {
+        sequence.notes.emplace_back("intensity is taken as ground truth (1: dynamic)");
+    }
+}
+
+}  // namespace dynamic_filter::io

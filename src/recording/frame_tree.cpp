@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "recording/frame_tree.hpp"
+
+#include <algorithm>
+
+namespace dynamic_filter::io {
+
+void FrameTree::add(const StampedPose& transform, bool is_static) {
+    const auto [it, fresh] = links_.try_emplace(transform.child);
+    Link& link = it->second;
+    if (fresh) {
+        link.parent = transform.parent;
+        link.is_static = is_static;
+    }
+    if (link.parent != transform.parent || (link.is_static && !fresh)) return;
+    link.T_parent_child.stamps.push_back(transform.stamp);
+    link.T_parent_child.poses.push_back(transform.T_parent_child);
+}
+
+void FrameTree::put_in_order() {
+    for (auto& [child, link] : links_) io::put_in_order(link.T_parent_child);
+}
+
+void FrameTree::forget_before(double stamp) {
+    constexpr std::ptrdiff_t kLeast = 2;
+    for (auto& [child, link] : links_) {
+        auto& [stamps, poses] = link.T_parent_child;
+        const auto old = std::lower_bound(stamps.begin(), stamps.end(), stamp) - stamps.begin();
+        const auto most = static_cast<std::ptrdiff_t>(stamps.size()) - kLeast;
+        const auto gone = std::min(old, most);
+        if (gone <= 0) continue;
+        stamps.erase(stamps.begin(), stamps.begin() + gone);
+        poses.erase(poses.begin(), poses.begin() + gone);
+    }
+}
+
+void FrameTree::forget_moving() {
+    std::erase_if(links_, [](const auto& link) { return !link.second.is_static; });
+}
+
+std::vector<std::string> FrameTree::above(const std::string& frame) const {
+    std::vector<std::string> chain{frame};
+    for (auto it = links_.find(frame); it != links_.end(); it = links_.find(it->second.parent)) {
+        const std::string& parent = it->second.parent;
+        // The links form a cycle.
+        if (std::find(chain.begin(), chain.end(), parent) != chain.end()) break;
+        chain.push_back(parent);
+    }
+    return chain;
+}
+
+std::optional<Pose> FrameTree::in_root(const std::string& frame, double stamp) const {
+    Pose pose = Pose::Identity();
+    const std::vector<std::string> chain = above(frame);
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+        const Link& link = links_.at(chain[i]);
+        const auto step = link.is_static ? std::optional(link.T_parent_child.poses.front())
+                                         : pose_at(link.T_parent_child, stamp, 1.0, 0.2);
+        if (!step) return std::nullopt;
+        pose = *step * pose;
+    }
+    return pose;
+}
+
+std::optional<Pose> FrameTree::pose(const std::string& of, const std::string& in,
+                                    double stamp) const {
+    if (above(of).back() != above(in).back()) return std::nullopt;
+    const auto T_root_of = in_root(of, stamp), T_root_in = in_root(in, stamp);
+    if (!T_root_of || !T_root_in) return std::nullopt;
+    return T_root_in->inverse() * *T_root_of;
+}
+
+bool FrameTree::moves(const std::string& frame) const { return !stamps_above(frame).empty(); }
+
+std::optional<double> FrameTree::newest(const std::string& frame) const {
+    std::optional<double> newest;
+    for (const std::string& child : above(frame)) {
+        const auto link = links_.find(child);
+        if (link == links_.end() || link->second.is_static) continue;
+        const double last = link->second.T_parent_child.stamps.back();
+        newest = newest ? std::min(*newest, last) : last;
+    }
+    return newest;
+}
+
+std::vector<double> FrameTree::stamps_above(const std::string& frame) const {
+    std::vector<double> most;
+    for (const std::string& child : above(frame)) {
+        const auto link = links_.find(child);
+        if (link == links_.end() || link->second.is_static) continue;
+        const auto& stamps = link->second.T_parent_child.stamps;
+        if (stamps.size() > 1 && stamps.size() > most.size()) most = stamps;
+    }
+    return most;
+}
+
+}  // namespace dynamic_filter::io

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+#include "recording/frames.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <future>
+#include <map>
+#include <numeric>
+
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/parallel.hpp"
+#include "geometry/pose.hpp"
+
+namespace dynamic_filter::app {
+
+namespace {
+
+io::Format format_of(const std::string& name) {
+    for (const auto format :
+         {io::Format::kitti, io::Format::benchmark, io::Format::folder, io::Format::bag}) {
+        if (io::to_string(format) == name) return format;
+    }
+    throw ConfigError("unknown format '" + name + "'; choose kitti, benchmark, folder or bag");
+}
+
+io::PoseFix pose_fix_of(const std::string& name) {
+    for (const io::PoseFix fix : io::pose_fixes()) {
+        if (io::to_string(fix) == name) return fix;
+    }
+    return io::PoseFix::none;
+}
+
+double seconds_of(const std::string& unit) {
+    static const std::map<std::string, double> units = {
+        {"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}};
+    return units.at(unit);
+}
+
+/// A ConfigError, because it is the pair of arguments that is wrong, and must not pass as a scan
+/// that cannot be read.
+void refuse_other_count(const io::Sequence& sequence, std::size_t i, std::size_t labels,
+                        std::size_t points) {
+    if (labels == points) return;
+    throw ConfigError(
+        fmt::format("scan {}: {} labels, but {} points; are they of another recording?",
+                    io::stem(sequence, i), labels, points));
+}
+
+}  // namespace
+
+void require_extension(const std::filesystem::path& output, const std::string& extension) {
+    if (output.extension() == extension) return;
+    throw ConfigError(output.string() + ": the name of what is written must end in " + extension);
+}
+
+io::Sequence open(const DataOptions& options) {
+    io::OpenOptions how = options.open;
+    if (!options.format.empty()) how.format = format_of(options.format);
+    how.pose_fix = pose_fix_of(options.pose_fix);
+    how.time_unit = seconds_of(options.time_unit);
+    // A file of that name would be meant by ./none.
+    if (how.poses == std::filesystem::path("none")) {
+        how.poses.reset();
+        how.without_poses = true;
+    }
+    how.deskew = options.deskew == "on";
+    io::Sequence sequence = io::open_sequence(options.data, how);
+    if (how.pose_fix != io::PoseFix::none && !sequence.has_poses) {
+        throw ConfigError("--pose-fix " + options.pose_fix +
+                          " has no poses to correct; give them with --poses FILE");
+    }
+    return sequence;
+}
+
+std::vector<std::size_t> all_scans(const io::Sequence& sequence) {
+    std::vector<std::size_t> scans(sequence.size());
+    std::iota(scans.begin(), scans.end(), std::size_t{0});
+    return scans;
+}
+
+InputError changed_in_use(const io::Sequence& sequence, std::size_t i, const std::string& why) {
+    const std::string file = sequence.scan_files[i].string();
+    const bool names_it = why.starts_with(file + ": ");
+    return {file, "", "changed while it was in use: " + why.substr(names_it ? file.size() + 2 : 0)};
+}
+
+void for_each_frame(const io::Sequence& sequence, const std::vector<std::size_t>& scans,
+                    const std::function<void(std::size_t, MaybeFrame&)>& prepare,
+                    const std::function<bool(std::size_t, MaybeFrame&)>& use) {
+    constexpr std::size_t kAhead = 8;
+    const auto read = [&](std::size_t i, MaybeFrame& maybe) {
+        try {
+            maybe.frame = io::read_frame(sequence, scans[i]);
+            if (prepare) prepare(scans[i], maybe);
+        } catch (const InputError& error) {
+            maybe = {std::nullopt, error.what()};
+        }
+    };
+    const auto read_batch = [&, threads = current_threads()](std::size_t first) {
+        std::vector<MaybeFrame> batch(std::min(kAhead, scans.size() - first));
+        with_threads(threads, [&] {
+            parallel_for(batch.size(), 1, [&](std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i) read(first + i, batch[i]);
+            });
+        });
+        return batch;
+    };
+    // With one thread, the batch is read when it is needed.
+    const auto when = current_threads() > 1 ? std::launch::async : std::launch::deferred;
+    std::future<std::vector<MaybeFrame>> next;  // its destructor waits
+    const auto begin_batch = [&](std::size_t first) {
+        if (first < scans.size()) next = std::async(when, read_batch, first);
+    };
+    begin_batch(0);
+    for (std::size_t first = 0; first < scans.size(); first += kAhead) {
+        std::vector<MaybeFrame> batch = next.get();
+        begin_batch(first + kAhead);
+        for (std::size_t i = 0; i < batch.size(); ++i) {
+            if (!use(scans[first + i], batch[i])) return;
+        }
+    }
+}
+
+Scan take_scan(io::Frame& frame, std::size_t index) {
+    return {std::move(frame.points), frame.T_world_sensor,  frame.stamp, index,
+            frame.has_pose,          std::move(frame.times)};
+}
+
+Points shifted_world(const Points& points, const Pose& T_world_sensor,
+                     const Eigen::Vector3d& origin) {
+    const Eigen::Matrix3d rotation = T_world_sensor.linear();
+    const Eigen::Vector3d translation = T_world_sensor.translation() - origin;
+    Points shifted(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        shifted[i] = (rotation * points[i].cast<double>() + translation).cast<float>();
+    }
+    return shifted;
+}
+
+Points shifted_world(const io::Frame& frame, const Eigen::Vector3d& origin) {
+    return shifted_world(frame.points, frame.T_world_sensor, origin);
+}
+
+Points positions_from(const io::Cloud& cloud, const Eigen::Vector3d& origin) {
+    Points points(cloud.size());
+    for (const char axis : {'x', 'y', 'z'}) {
+        const auto world = io::values(cloud, *cloud.find(std::string(1, axis)));
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            points[i][axis - 'x'] = static_cast<float>(world[i] - origin[axis - 'x']);
+        }
+    }
+    return points;
+}
+
+Eigen::Vector3d origin_of(const io::Cloud& cloud) {
+    Pose near = Pose::Identity();
+    const Points points = positions_from(cloud, Eigen::Vector3d::Zero());
+    const auto finite =
+        std::find_if(points.begin(), points.end(), [](const Point& p) { return p.allFinite(); });
+    if (finite != points.end()) near.translation() = finite->cast<double>();
+    return nearby_origin(near, 1.0);
+}
+
+Eigen::Vector3d scoring_origin(const io::Sequence& sequence, double voxel_size) {
+    for (std::size_t i = 0; i < sequence.size(); ++i) {
+        try {
+            return nearby_origin(io::read_frame(sequence, i).T_world_sensor, voxel_size);
+        } catch (const InputError&) {
+            continue;  // a rejected scan; the next will do
+        }
+    }
+    return Eigen::Vector3d::Zero();
+}
+
+eval::LabelledScan labelled(const io::Frame& frame, const Eigen::Vector3d& origin,
+                            const RangeLimits& limits) {
+    eval::LabelledScan scan{shifted_world(frame, origin), frame.truth, {}};
+    for (std::size_t p = 0; p < frame.points.size(); ++p) {
+        const double range = frame.points[p].cast<double>().norm();
+        const bool is_scored =
+            is_measured(frame.points[p]) && range >= limits.min && range <= limits.max;
+        if (!is_scored) scan.truth[p] = Label::unknown;
+    }
+    return scan;
+}
+
+eval::ScanSource scan_source(const io::Sequence& sequence, const Eigen::Vector3d& origin,
+                             std::function<std::optional<Labels>(std::size_t)> labels_of,
+                             const RangeLimits& limits) {
+    return [&sequence, origin, limits,
+            labels_of = std::move(labels_of)](std::size_t i) -> std::optional<eval::LabelledScan> {
+        try {
+            const io::Frame frame = io::read_frame(sequence, i);
+            if (frame.truth.empty()) return std::nullopt;
+            eval::LabelledScan scan = labelled(frame, origin, limits);
+            if (labels_of) {
+                auto labels = labels_of(i);
+                if (!labels) return std::nullopt;
+                refuse_other_count(sequence, i, labels->size(), scan.truth.size());
+                scan.verdict = std::move(*labels);
+            }
+            return scan;
+        } catch (const InputError&) {
+            return std::nullopt;
+        }
+    };
+}
+
+}  // namespace dynamic_filter::app

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+/// Reading a sequence with read-ahead, and putting its scans into a frame that floats can hold.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/recording.hpp"
+#include "dynamic_filter/scores.hpp"
+#include "dynamic_filter/types.hpp"
+#include "run/commands.hpp"
+
+namespace dynamic_filter::app {
+
+/// Throws ConfigError if the file to be written has another extension, because it may then be a
+/// file of the user's recording.
+void require_extension(const std::filesystem::path& output, const std::string& extension);
+
+io::Sequence open(const DataOptions& options);
+
+/// A frame, or why it cannot be used.
+struct MaybeFrame {
+    std::optional<io::Frame> frame;
+    std::string error;
+};
+
+/// The indices of all scans, in order.
+std::vector<std::size_t> all_scans(const io::Sequence& sequence);
+
+/// What to throw if a scan that could be used before is another one now, or gone.
+InputError changed_in_use(const io::Sequence& sequence, std::size_t i, const std::string& why);
+
+/// Reads `scans` (indices) a few at a time, in parallel, and the next few meanwhile; `prepare` runs
+/// on each in parallel, then `use` on each in order, in the caller's thread. Stops early when `use`
+/// returns false.
+void for_each_frame(const io::Sequence& sequence, const std::vector<std::size_t>& scans,
+                    const std::function<void(std::size_t, MaybeFrame&)>& prepare,
+                    const std::function<bool(std::size_t, MaybeFrame&)>& use);
+
+/// The core's view of a frame; takes the frame's points.
+Scan take_scan(io::Frame& frame, std::size_t index);
+
+/// Points of the sensor in the world, shifted by `-origin`. Near the origin floats are exact
+/// enough.
+Points shifted_world(const Points& points, const Pose& T_world_sensor,
+                     const Eigen::Vector3d& origin);
+/// The scan's points, shifted by `-origin` from the world. Near the origin floats are exact enough.
+Points shifted_world(const io::Frame& frame, const Eigen::Vector3d& origin);
+
+/// x y z of a cloud in the world, less the origin; in double until then.
+Points positions_from(const io::Cloud& cloud, const Eigen::Vector3d& origin);
+
+/// Whole metres near the first finite point; zero if there is none.
+Eigen::Vector3d origin_of(const io::Cloud& cloud);
+
+/// A whole number of voxels near the first usable pose; the world's origin if there is none.
+Eigen::Vector3d scoring_origin(const io::Sequence& sequence, double voxel_size);
+
+/// A frame with ground truth as the scores take it, without a verdict. Points outside of `limits`
+/// get an unknown truth, so that every score leaves them out.
+eval::LabelledScan labelled(const io::Frame& frame, const Eigen::Vector3d& origin,
+                            const RangeLimits& limits = {});
+
+/// For the scores: scans with ground truth, verdicts from `labels_of` (may be empty).
+/// Rejected scans (unreadable, or without labels) give nothing.
+eval::ScanSource scan_source(const io::Sequence& sequence, const Eigen::Vector3d& origin,
+                             std::function<std::optional<Labels>(std::size_t)> labels_of,
+                             const RangeLimits& limits = {});
+
+}  // namespace dynamic_filter::app

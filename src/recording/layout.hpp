@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+/// Finds the files of a recording.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamic_filter/recording.hpp"
+
+namespace dynamic_filter::io {
+
+using Paths = std::vector<std::filesystem::path>;
+
+struct Layout {
+    Format format = Format::folder;
+    std::filesystem::path scan_folder;
+    Paths scans;  ///< in natural order; never empty
+    /// Poses of the scans if the layout defines them; otherwise empty.
+    std::vector<Pose> T_world_sensor;
+    std::vector<double> stamps;         ///< [s] stamps of the scans if the layout defines them
+    std::filesystem::path pose_source;  ///< file of T_world_sensor
+    std::optional<std::filesystem::path> poses, times, calib, labels, truth_map;
+    std::vector<std::string> notes;
+};
+
+/// Finds the layout. Throws InputError if there is nothing usable; the message lists what was
+/// looked for.
+Layout find_layout(const std::filesystem::path& data, const OpenOptions& options);
+
+/// True if a folder contains scan files, directly or in one of the usual subfolders.
+bool has_scans(const std::filesystem::path& data);
+
+/// The label file of each scan, with an empty path for scans without one. Empty if no scan has a
+/// label file. Missing files and files without a scan are reported in `notes` only, because a run
+/// does not need ground truth.
+Paths find_labels(const Layout& layout, std::vector<std::string>& notes);
+
+}  // namespace dynamic_filter::io

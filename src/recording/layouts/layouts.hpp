@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+/// Layouts that are recognized by the contents of the folder, and that contain the poses of their
+/// scans.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "recording/layout.hpp"
+
+namespace dynamic_filter::io {
+
+/// SEC_NSEC.pcd with SEC_NSEC.odom, a 4x4 matrix T_world_sensor each, as interactive_slam saves
+/// them. Empty if there is no .odom file. Throws InputError if one file of a pair is missing.
+std::optional<Layout> find_pairs(const std::filesystem::path& data);
+
+/// A folder saved by GLIM: NNNNNN/ with data.txt (T_world_origin and the stamps of the frames) and
+/// points_compact.bin. A scan is such a folder, for read_submap(). Empty for other folders.
+std::optional<Layout> find_glim(const std::filesystem::path& data);
+
+/// Reads x y z, and the intensity if there is an intensities_compact.bin. Throws InputError.
+Cloud read_submap(const std::filesystem::path& folder);
+
+/// MulRan: Ouster/NANOSECONDS.bin, here or in sensor_data/, and global_pose.csv. `data` may also be
+/// the folder Ouster. The file contains poses of the vehicle; the poses of the sensor follow from
+/// the calibration of the data set. A scan without neighboring poses gets a non-finite pose. Empty
+/// for other folders, and if other poses are given. Throws InputError if no scan gets a pose.
+std::optional<Layout> find_mulran(const std::filesystem::path& data, const OpenOptions& options);
+
+/// nuScenes: v1.0-*/ with its tables, samples/LIDAR_TOP and sweeps/LIDAR_TOP. Returns the scans of
+/// one scene in the order of their times. If there are several scenes, the user appends the name of
+/// one to the folder, as in DATA/scene-0061. `data` may also be one of the folders in it. Empty for
+/// other folders. Throws InputError with the names of the scenes if none is chosen, and if tables
+/// contradict each other.
+std::optional<Layout> find_nuscenes(const std::filesystem::path& data);
+
+/// A raw drive of KITTI: velodyne_points/data/*.bin with timestamps.txt, and oxts/data/*.txt, from
+/// which the poses are computed. `data` is the folder itself or its velodyne_points. Without oxts,
+/// a note says so. A scan without an oxts file gets a non-finite pose. Empty for other folders.
+/// Throws InputError for invalid rows, and if no scan gets a pose.
+std::optional<Layout> find_kitti_raw(const std::filesystem::path& data, const OpenOptions& options);
+
+/// A drive of KITTI-360 below data_3d_raw; data_poses and calibration are beside that folder. The
+/// poses are those of the vehicle and exist for some scans only; between them they are interpolated
+/// over up to 1 s. Otherwise like find_kitti_raw().
+std::optional<Layout> find_kitti_360(const std::filesystem::path& data, const OpenOptions& options);
+
+/// pcds/1.pcd, 2.pcd... with poses.txt, rows of "index stamp x y z qx qy qz qw", as in the samples
+/// of Apollo. Empty for other folders. Throws InputError for invalid rows, and if no scan gets a
+/// pose.
+std::optional<Layout> find_apollo(const std::filesystem::path& data, const OpenOptions& options);
+
+/// Throws InputError if the scans are those of Argoverse 2, here or in logs below, which cannot be
+/// read; the message says what to do.
+void refuse_argoverse(const std::filesystem::path& data);
+
+/// Throws InputError if the sizes of these .bin files show that a point has other than four floats.
+void refuse_other_floats(const std::filesystem::path& folder, const Paths& scans);
+
+/// Throws InputError with the names of the recordings.
+[[noreturn]] void refuse_several(const std::filesystem::path& data, const Paths& recordings);
+
+/// Throws InputError with their names if several subfolders are recordings (each with a velodyne/),
+/// such as the sensors of HeLiMOS and the sequences of SemanticKITTI.
+void refuse_several_recordings(const std::filesystem::path& data);
+
+/// The only folder, at most four levels below `data`, that contains files of one of the kinds or a
+/// drive. Empty if there is none. Throws InputError with their names if there are several.
+std::optional<std::filesystem::path> find_below(const std::filesystem::path& data,
+                                                const std::set<std::string>& kinds);
+
+}  // namespace dynamic_filter::io

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <tsl/robin_map.h>
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "run/edits.hpp"
+
+namespace dynamic_filter::app {
+
+/// What edits make of a point: one look-up, however many edits there are. Immutable once built;
+/// thread-safe.
+class EditLookup {
+public:
+    explicit EditLookup(const Edits& edits);
+    /// `world` [m]; `from`: the filter's verdict; `scan`: row, counted from 0 over the run's
+    /// labels.
+    [[nodiscard]] Label label_of(const Eigen::Vector3d& world, Label from,
+                                 std::uint32_t scan) const;
+
+private:
+    using Key = std::array<std::int32_t, 4>;  // cell, verdict_code of `from`
+    struct Hash {
+        std::size_t operator()(const Key& key) const;
+    };
+    static constexpr std::uint32_t kNone = UINT32_MAX;
+    /// An edit of a cell, and the entry of the one before it, which counts where this one's range
+    /// of scans does not reach.
+    struct Entry {
+        std::uint32_t first, last, before;
+        Label label;
+    };
+    double cell_size_;
+    tsl::robin_map<Key, std::uint32_t, Hash> newest_;
+    std::vector<Entry> entries_;
+};
+
+}  // namespace dynamic_filter::app

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: MIT
+#include "run/filter_tile.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "base/progress.hpp"
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/filter.hpp"
+#include "dynamic_filter/scores.hpp"
+#include "dynamic_filter/writers.hpp"
+#include "geometry/pose.hpp"
+#include "geometry/voxel.hpp"
+#include "recording/frames.hpp"
+#include "run/label_store.hpp"
+#include "run/piece.hpp"
+#include "run/tile_file.hpp"
+#include "run/tile_map.hpp"
+
+namespace dynamic_filter::app {
+
+namespace {
+
+/// Scans that are compared with each other, in order.
+using ScanGroup = std::vector<ScanOfDrive>;
+
+/// The scans of all drives. Those after a jump of the poses are a group of their own, because they
+/// do not fit the others.
+std::vector<ScanGroup> groups_of(const Plan& plan, const std::vector<ScanOfDrive>& scans) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, ScanGroup> groups;
+    for (const ScanOfDrive& scan : scans) {
+        const std::uint32_t part = plan.drives[scan.drive].scans[scan.scan].part;
+        groups[part == 0 ? std::pair(0U, 0U) : std::pair(scan.drive, part)].push_back(scan);
+    }
+    std::vector<ScanGroup> result;
+    for (auto& [key, group] : groups) result.push_back(std::move(group));
+    return result;
+}
+
+/// The final verdict on the points of a scan in and around the tile.
+struct Seen {
+    Piece piece;
+    Verdict verdict;                    // on the points of the piece
+    std::vector<std::uint32_t> voxels;  // of these points; kNoVoxel outside of the tile
+};
+
+struct TileRun {
+    const City& city;
+    const TileWork& work;
+    const std::filesystem::path& folder;
+    TileWriter verdicts{folder / tile_file(work.tile), city.run};
+    Sightings sightings{city.drives.size()};
+    io::Cloud map = empty_tile_map(sightings.words());
+    TileSummary summary{.tile = work.tile, .drives = {}, .map_mark = {}};
+    std::optional<eval::ScanScores> scorer{};  // of the drive that is decided, if it has truth
+
+    [[nodiscard]] bool contains(const Eigen::Vector3d& world) const {
+        return work.tile.is_whole ||
+               tile_at(cell_at(world, city.plan.cell), work.tile.level) == work.tile;
+    }
+    [[nodiscard]] DynamicFilter new_filter() const;
+    [[nodiscard]] Eigen::Vector3d scoring_origin() const;
+    bool filter(DynamicFilter& filter, const ScanGroup& scans, LabelStore& instants) const;
+    bool look_again(DynamicFilter& filter, const ScanGroup& scans) const;
+    bool decide(const DynamicFilter& filter, const ScanGroup& scans,
+                const std::vector<std::size_t>& numbers, const LabelStore& instants);
+    [[nodiscard]] Seen look(const DynamicFilter& filter, const io::Frame& frame,
+                            std::size_t number) const;
+    void score(const Pose& T_world_sensor, const Seen& seen, const Labels& instant);
+    bool score_near(const ScanGroup& scans, const std::vector<std::size_t>& numbers,
+                    const LabelStore& finals, const LabelStore& instants);
+    void add_to_map(const DynamicFilter& filter);
+};
+
+/// The pose of the first scan, from which the filter's frame has its height.
+Pose first_pose(const City& city) {
+    const PlannedDrive& drive = city.plan.drives.front();
+    Pose pose = Pose::Identity();
+    const std::vector<std::size_t> used = used_scans(drive);
+    if (!used.empty()) pose.translation() = drive.scans[used.front()].position;
+    return pose;
+}
+
+DynamicFilter TileRun::new_filter() const {
+    if (work.tile.is_whole) return DynamicFilter(city.config);
+    const double size = city.config.map.voxel_size;
+    const double height = nearby_origin(first_pose(city), 4.0 * size).z();
+    return {city.config, region_of(work.tile, size, height)};
+}
+
+Eigen::Vector3d TileRun::scoring_origin() const {
+    if (work.tile.is_whole) return nearby_origin(first_pose(city), eval::kVoxelSize);
+    Pose corner = Pose::Identity();
+    corner.translation() = region_of(work.tile, city.config.map.voxel_size, 0.0).origin;
+    return nearby_origin(corner, eval::kVoxelSize);
+}
+
+/// Calls use(number, scan, frame) for the scans in order; `prepare` (number, frame) runs in
+/// parallel before. False if it was interrupted.
+bool each_scan(const City& city, const ScanGroup& group, const std::vector<std::size_t>& numbers,
+               const std::function<void(std::size_t, io::Frame&)>& prepare,
+               const std::function<void(std::size_t, io::Frame&)>& use) {
+    for (std::size_t begin = 0; begin < numbers.size();) {
+        const std::uint32_t drive = group[numbers[begin]].drive;
+        std::map<std::size_t, std::size_t> number_of;  // by index in the drive
+        std::vector<std::size_t> scans;
+        for (; begin < numbers.size() && group[numbers[begin]].drive == drive; ++begin) {
+            scans.push_back(group[numbers[begin]].scan);
+            number_of[scans.back()] = numbers[begin];
+        }
+        const io::Sequence& sequence = city.drives[drive].sequence;
+        for_each_frame(
+            sequence, scans,
+            [&](std::size_t i, MaybeFrame& maybe) {
+                if (prepare) prepare(number_of.at(i), *maybe.frame);
+            },
+            [&](std::size_t i, MaybeFrame& maybe) {
+                if (!maybe.frame) throw changed_in_use(sequence, i, maybe.error);
+                use(number_of.at(i), *maybe.frame);
+                return !interrupted();
+            });
+        if (interrupted()) return false;
+    }
+    return true;
+}
+
+std::vector<std::size_t> all_of(const ScanGroup& group) {
+    std::vector<std::size_t> numbers(group.size());
+    std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+    return numbers;
+}
+
+/// The scans of the group with points inside of the tile, drive by drive.
+std::vector<std::vector<std::size_t>> inside_by_drive(const ScanGroup& group,
+                                                      const TileWork& work) {
+    std::vector<std::vector<std::size_t>> drives;
+    for (std::size_t n = 0; n < group.size(); ++n) {
+        if (!std::binary_search(work.inside.begin(), work.inside.end(), group[n])) continue;
+        const bool begins = drives.empty() || group[drives.back().front()].drive != group[n].drive;
+        if (begins) drives.emplace_back();
+        drives.back().push_back(n);
+    }
+    return drives;
+}
+
+/// First pass: every scan goes through the filter.
+bool TileRun::filter(DynamicFilter& filter, const ScanGroup& scans, LabelStore& instants) const {
+    std::uint32_t drive = scans.front().drive;
+    return each_scan(city, scans, all_of(scans), {}, [&](std::size_t number, io::Frame& frame) {
+        if (std::exchange(drive, scans[number].drive) != scans[number].drive) filter.begin_drive();
+        for (const Verdict& verdict : filter.push(take_scan(frame, number))) {
+            instants.put(verdict.index, verdict.labels);
+        }
+    });
+}
+
+/// Between the passes: all drives but the last one observe what only later ones found.
+bool TileRun::look_again(DynamicFilter& filter, const ScanGroup& scans) const {
+    std::vector<std::size_t> earlier, drive_of;  // drives are counted from 0 within the group
+    for (std::size_t n = 0; n < scans.size() && scans[n].drive != scans.back().drive; ++n) {
+        const bool begins = n > 0 && scans[n].drive != scans[n - 1].drive;
+        drive_of.push_back(n == 0 ? 0 : drive_of.back() + (begins ? 1 : 0));
+        earlier.push_back(n);
+    }
+    return each_scan(city, scans, earlier, {}, [&](std::size_t number, io::Frame& frame) {
+        filter.look_again(drive_of[number], take_scan(frame, number));
+    });
+}
+
+Seen TileRun::look(const DynamicFilter& filter, const io::Frame& frame, std::size_t number) const {
+    Seen seen{.piece = cut(frame, work.tile, city.plan.cell), .verdict = {}, .voxels = {}};
+    seen.verdict =
+        filter.verdict({seen.piece.points, frame.T_world_sensor, frame.stamp, number}, seen.voxels);
+    for (std::size_t i = 0; i < seen.voxels.size(); ++i) {
+        if (!seen.piece.inside[i]) seen.voxels[i] = kNoVoxel;
+    }
+    return seen;
+}
+
+/// Second pass, of one drive: final verdicts on the points inside.
+bool TileRun::decide(const DynamicFilter& filter, const ScanGroup& scans,
+                     const std::vector<std::size_t>& numbers, const LabelStore& instants) {
+    std::vector<Seen> seen(scans.size());
+    LabelStore finals(folder);
+    const auto prepare = [&](std::size_t number, io::Frame& frame) {
+        seen[number] = look(filter, frame, number);
+    };
+    const auto use = [&](std::size_t number, io::Frame& frame) {
+        const Seen one = std::exchange(seen[number], {});
+        const Labels instant = labels_of(one.piece, instants.get(number));
+        const auto& [index, labels, probability, stays, tracked] = one.verdict;
+        PointVerdicts inside;
+        for (std::size_t i = 0; i < labels.size(); ++i) {
+            if (!one.piece.inside[i]) continue;
+            inside.push_back({labels[i], instant[i], !stays.empty() && stays[i]});
+        }
+        verdicts.add(scans[number], inside);
+        sightings.add(scans[number], one.voxels);
+        if (frame.truth.empty()) return;
+        score(frame.T_world_sensor, one, instant);
+        finals.put(number, labels);
+    };
+    if (!each_scan(city, scans, numbers, prepare, use)) return false;
+    return !scorer || score_near(scans, numbers, finals, instants);
+}
+
+void TileRun::score(const Pose& T_world_sensor, const Seen& seen, const Labels& instant) {
+    if (!scorer) scorer.emplace(eval::kVoxelSize, 2);
+    scorer->add(labelled_inside(seen.piece, T_world_sensor, scoring_origin()),
+                std::array<const Labels*, 2>{&seen.verdict.labels, &instant});
+}
+
+/// Third pass, with ground truth: which removed points lie near one that stays.
+bool TileRun::score_near(const ScanGroup& scans, const std::vector<std::size_t>& numbers,
+                         const LabelStore& finals, const LabelStore& instants) {
+    std::vector<std::vector<Points>> near(scans.size());
+    const auto prepare = [&](std::size_t number, io::Frame& frame) {
+        if (frame.truth.empty()) return;
+        const Piece piece = cut(frame, work.tile, city.plan.cell);
+        const Labels final = finals.get(number);
+        const Labels instant = labels_of(piece, instants.get(number));
+        near[number] =
+            scorer->near_removed(labelled_inside(piece, frame.T_world_sensor, scoring_origin()),
+                                 std::array<const Labels*, 2>{&final, &instant});
+    };
+    const auto use = [&](std::size_t number, io::Frame&) {
+        if (!near[number].empty()) scorer->add_near(std::exchange(near[number], {}));
+    };
+    if (!each_scan(city, scans, numbers, prepare, use)) return false;
+    summary.drives.push_back({.drive = scans[numbers.front()].drive,
+                              .final = scorer->sums(0),
+                              .instant = scorer->sums(1)});
+    scorer.reset();
+    return true;
+}
+
+void TileRun::add_to_map(const DynamicFilter& filter) {
+    for (const StaticVoxel& voxel : filter.static_map()) {
+        if (!contains(voxel.center)) continue;
+        const bool is_first = summary.still++ == 0;
+        summary.low = is_first ? voxel.center : summary.low.cwiseMin(voxel.center);
+        summary.high = is_first ? voxel.center : summary.high.cwiseMax(voxel.center);
+        append(map, voxel, sightings);
+    }
+    summary.voxels += sightings.voxels();
+    summary.keyframes += filter.contents().observers;
+    sightings = Sightings(city.drives.size());
+}
+
+}  // namespace
+
+bool filter_tile(const City& city, const TileWork& work, const std::filesystem::path& folder) {
+    TileRun tile{.city = city, .work = work, .folder = folder};
+    for (const ScanGroup& scans : groups_of(city.plan, work.scans)) {
+        DynamicFilter filter = tile.new_filter();
+        LabelStore instants(folder);
+        if (!tile.filter(filter, scans, instants)) return false;
+        if (!tile.look_again(filter, scans)) return false;
+        filter.finish();
+        for (const auto& numbers : inside_by_drive(scans, work)) {
+            if (!tile.decide(filter, scans, numbers, instants)) return false;
+        }
+        tile.add_to_map(filter);
+    }
+    io::write_pcd(folder / tile_map_file(work.tile), tile.map);
+    tile.summary.map_mark = file_mark_of(folder / tile_map_file(work.tile));
+    tile.verdicts.commit(tile.summary);
+    return true;
+}
+
+}  // namespace dynamic_filter::app

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "dynamic_filter/filter.hpp"
+#include "dynamic_filter/recording.hpp"
+#include "dynamic_filter/writers.hpp"
+
+namespace dynamic_filter::app {
+
+/// static_map.pcd and dynamic_points.pcd: the original records, x y z in the world frame. The
+/// fields are those of the first frame; far from the world's origin, where a float is coarse, x y z
+/// become float64. What is no measurement (not finite, at the sensor) is no point of a map. Single
+/// caller; records_of() may run in several threads after begin().
+class MapFiles {
+public:
+    /// What one frame adds to the two files.
+    struct Records {
+        std::vector<std::byte> still, dynamic;
+    };
+    /// `in_world`: the records hold world coordinates already and are passed on as they are.
+    MapFiles(std::filesystem::path folder, bool keep_unknown, bool in_world)
+        : folder_(std::move(folder)), keep_unknown_(keep_unknown), in_world_(in_world) {}
+
+    /// Takes the fields of the first frame, and opens the files.
+    void begin(const io::Frame& first);
+    /// What Verdict::stays says belongs to the static map.
+    [[nodiscard]] Records records_of(const io::Frame& frame, const Verdict& verdict) const;
+    void append(const Records& records);
+    /// Begins if need be, and appends the records of this frame.
+    void append(const io::Frame& frame, const Verdict& verdict);
+    void commit();
+
+private:
+    std::filesystem::path folder_;
+    bool keep_unknown_, in_world_;
+    io::Cloud layout_;  ///< fields of the maps, no records
+    std::optional<io::PcdWriter> still_, dynamic_;
+};
+
+/// The frame's fields; float coordinates become double where the world's origin is so far away that
+/// a float would be off by a millimetre or more. `in_world`: as they are.
+io::Cloud layout_of(const io::Frame& frame, bool in_world);
+
+/// The frame's records in the given layout (same fields, x y z perhaps wider), x y z in the world.
+std::vector<std::byte> world_records(const io::Frame& frame, const io::Cloud& layout);
+
+}  // namespace dynamic_filter::app

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "dynamic_filter/error.hpp"
+#include "run/part_file.hpp"
+#include "run/run_state.hpp"
+#include "run/tile_file.hpp"
+#include "run/write_city.hpp"
+
+namespace dynamic_filter::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What the parts of one run have in common.
+auto key_of(const Part& part) {
+    std::vector<fs::path> recordings;
+    for (const DriveSource& source : part.sources) recordings.push_back(source.recording);
+    return std::tuple(part.number.parts, recordings, part.run.city.tile_voxels, part.run.maps,
+                      part.run.report);
+}
+
+std::vector<Part> read_parts(const std::vector<fs::path>& folders) {
+    std::vector<Part> parts;
+    for (const fs::path& folder : folders) {
+        parts.push_back(read_part(folder));
+        if (key_of(parts.back()) == key_of(parts.front())) continue;
+        throw ConfigError(folder.string() + " and " + folders.front().string() +
+                          " are not parts of the same run: their recordings or options differ");
+    }
+    return parts;
+}
+
+/// The folder that holds the files of each tile: that of its part.
+std::map<Tile, fs::path> find_tiles(const City& city, const std::vector<Part>& parts,
+                                    const std::vector<fs::path>& folders) {
+    const std::size_t count = parts.front().number.parts;
+    const std::vector<std::size_t> part_of = part_of_tiles(city.plan.tiles, count);
+    std::vector<std::size_t> order = by_cost(city.plan.tiles);  // so that the first part is named
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return part_of[a] < part_of[b]; });
+    std::map<Tile, fs::path> found;
+    for (const std::size_t t : order) {
+        const Tile& tile = city.plan.tiles[t].tile;
+        for (std::size_t p = 0; p < parts.size() && !found.contains(tile); ++p) {
+            const fs::path tiles = folders[p] / kTilesFolder;
+            const bool holds =
+                parts[p].number.part == part_of[t] && is_done(tiles / tile_file(tile), city.run);
+            if (holds) found[tile] = tiles;
+        }
+        if (found.contains(tile)) continue;
+        throw ConfigError(fmt::format(
+            "part {}/{} is missing: none of the given folders holds its tile {} undamaged; give "
+            "the folder of that part, or run it again with --resume",
+            part_of[t], count, name_of(tile)));
+    }
+    return found;
+}
+
+}  // namespace
+
+int merge(const MergeOptions& o) {
+    StageClock clock;
+    const std::vector<Part> parts = read_parts(o.parts);
+    RunOptions run = parts.front().run;
+    run.output = o.output;
+    run.threads = o.threads;
+    run.quiet = o.quiet;
+    City city = open_city(parts.front().sources, run);
+    city.plan = read_plan(o.parts.front() / kTilesFolder / "plan", city.run, city.config);
+    prepare(city.drives, city.plan);
+    tell_notes(city, true);
+    const auto folders = find_tiles(city, parts, o.parts);
+    for (const fs::path& folder : o.parts)
+        refuse_same_folder(folder, o.output, "is one of the parts");
+    const std::string state = state_of_output(city, run);
+    if (!o.overwrite && is_complete(o.output, state)) {
+        if (!o.quiet) fmt::print("complete {}\n", o.output.string());
+        return kDone;
+    }
+    // What an earlier merge of these parts began is of use to nobody else.
+    OutputFolder output(o.output, Contents::result,
+                        is_begun(o.output, state) ? Existing::resume : replaced_if(o.overwrite));
+    write_state(output, state);
+    clock.finish("prepare");
+    return conclude(
+        city, [&](const Tile& tile) { return folders.at(tile); }, false, run, output, clock);
+}
+
+}  // namespace dynamic_filter::app

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+/// The plan as a file, so that only one of many processes has to read all scans to make it.
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "base/checked_file.hpp"
+#include "run/plan.hpp"
+
+namespace dynamic_filter::app {
+
+namespace {
+
+using PlanJson = nlohmann::json;
+constexpr const char* kPlanMagic = "dynamicfilter-plan-1";
+
+/// Numbers as they are in memory, which is far smaller than an array of numbers.
+template <class T>
+PlanJson blob(const std::vector<T>& values) {
+    const auto* const first = reinterpret_cast<const std::uint8_t*>(values.data());
+    return PlanJson::binary({first, first + values.size() * sizeof(T)});
+}
+
+template <class T>
+std::vector<T> from_blob(const PlanJson& json) {
+    const auto& bytes = json.get_binary();
+    std::vector<T> values(bytes.size() / sizeof(T));
+    if (!values.empty()) std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
+    return values;
+}
+
+PlanJson json_of(const PlannedDrive& drive) {
+    std::vector<std::uint8_t> used;
+    std::vector<std::uint32_t> parts, counts, counts_around;
+    std::vector<double> positions;
+    std::vector<PlaneCell> cells, around;
+    for (const PlannedScan& scan : drive.scans) {
+        used.push_back(scan.is_used ? 1 : 0);
+        parts.push_back(scan.part);
+        for (const double x : scan.position) positions.push_back(x);
+        counts.push_back(static_cast<std::uint32_t>(scan.cells.size()));
+        counts_around.push_back(static_cast<std::uint32_t>(scan.around.size()));
+        cells.insert(cells.end(), scan.cells.begin(), scan.cells.end());
+        around.insert(around.end(), scan.around.begin(), scan.around.end());
+    }
+    PlanJson json{{"used", blob(used)},           {"parts", blob(parts)},
+                  {"positions", blob(positions)}, {"counts", blob(counts)},
+                  {"cells", blob(cells)},         {"counts_around", blob(counts_around)},
+                  {"around", blob(around)},       {"rejected", drive.rejected},
+                  {"notes", drive.notes},         {"warnings", drive.warnings},
+                  {"deskew", drive.deskew},       {"most_points", drive.most_points}};
+    if (drive.sweep) {
+        json["sweep"] = {drive.sweep->clockwise, drive.sweep->seam, drive.sweep->duration};
+    }
+    return json;
+}
+
+PlannedDrive drive_of(const PlanJson& json) {
+    PlannedDrive drive{.scans = {},
+                       .rejected = json.at("rejected"),
+                       .notes = json.at("notes"),
+                       .warnings = json.at("warnings"),
+                       .most_points = json.at("most_points"),
+                       .deskew = json.at("deskew"),
+                       .sweep = {}};
+    if (json.contains("sweep")) {
+        const PlanJson& sweep = json["sweep"];
+        drive.sweep = Sweep{.clockwise = sweep[0], .seam = sweep[1], .duration = sweep[2]};
+    }
+    const auto used = from_blob<std::uint8_t>(json.at("used"));
+    const auto parts = from_blob<std::uint32_t>(json.at("parts"));
+    const auto counts = from_blob<std::uint32_t>(json.at("counts"));
+    const auto positions = from_blob<double>(json.at("positions"));
+    const auto counts_around = from_blob<std::uint32_t>(json.at("counts_around"));
+    const auto cells = from_blob<PlaneCell>(json.at("cells"));
+    const auto around = from_blob<PlaneCell>(json.at("around"));
+    auto next = cells.begin(), next_around = around.begin();
+    for (std::size_t i = 0; i < used.size(); ++i) {
+        const auto end = next + counts[i], end_around = next_around + counts_around[i];
+        drive.scans.push_back({.is_used = used[i] != 0,
+                               .part = parts[i],
+                               .position = Eigen::Vector3d(&positions[3 * i]),
+                               .cells = {next, end},
+                               .around = {next_around, end_around}});
+        next = end;
+        next_around = end_around;
+    }
+    return drive;
+}
+
+}  // namespace
+
+void write_plan(const std::filesystem::path& file, const Plan& plan, const std::string& run) {
+    PlanJson json{{"cell", plan.cell},
+                  {"most_voxels", plan.most_voxels},
+                  {"warnings", plan.warnings},
+                  {"drives", PlanJson::array()}};
+    for (const PlannedDrive& drive : plan.drives) json["drives"].push_back(json_of(drive));
+    std::vector<PlaneCell> cells;
+    std::vector<std::uint64_t> counts;
+    for (const auto& [cell, count] : plan.voxels) {
+        cells.push_back(cell);
+        counts.push_back(count);
+    }
+    json["cells"] = blob(cells);
+    json["voxels"] = blob(counts);
+    const std::vector<std::uint8_t> bytes = PlanJson::to_cbor(json);
+    write_checked(file, kPlanMagic, fingerprint(run), std::as_bytes(std::span(bytes)));
+}
+
+Plan read_plan(const std::filesystem::path& file, const std::string& run, const Config& config) {
+    const std::vector<std::byte> bytes = read_checked(file, kPlanMagic, fingerprint(run));
+    const auto* const first = reinterpret_cast<const std::uint8_t*>(bytes.data());
+    const PlanJson json = PlanJson::from_cbor(first, first + bytes.size());
+    Plan plan{.cell = json.at("cell"),
+              .drives = {},
+              .warnings = json.at("warnings"),
+              .voxels = {},
+              .most_voxels = json.at("most_voxels"),
+              .tiles = {}};
+    for (const PlanJson& drive : json.at("drives")) plan.drives.push_back(drive_of(drive));
+    const auto cells = from_blob<PlaneCell>(json.at("cells"));
+    const auto counts = from_blob<std::uint64_t>(json.at("voxels"));
+    for (std::size_t i = 0; i < cells.size(); ++i) plan.voxels[cells[i]] = counts[i];
+    cut_into_tiles(plan, config);
+    return plan;
+}
+
+}  // namespace dynamic_filter::app

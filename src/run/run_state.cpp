@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "run/run_state.hpp"
+
+#include <fmt/format.h>
+
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/file.hpp"
+
+namespace dynamic_filter::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kComplete = "complete\n";
+
+}  // namespace
+
+std::string state_of(const io::Sequence& sequence) {
+    std::error_code ignored;
+    std::uintmax_t bytes = sequence.bag && fs::is_regular_file(sequence.root, ignored)
+                               ? fs::file_size(sequence.root, ignored)
+                               : 0;
+    for (const fs::path& file : sequence.scan_files) {
+        if (fs::is_regular_file(file, ignored)) bytes += fs::file_size(file, ignored);
+    }
+    return fmt::format("input {}\nscans {} from {} to {}, {} bytes\n",
+                       fs::absolute(sequence.root).lexically_normal().string(), sequence.size(),
+                       io::stem(sequence, 0), io::stem(sequence, sequence.size() - 1), bytes);
+}
+
+void refuse_foreign_labels(const fs::path& folder) {
+    const bool of_a_run = fs::exists(folder / kRunState) || fs::exists(folder / "config.toml");
+    if (of_a_run || !fs::exists(folder / "labels")) return;
+    throw ConfigError(
+        folder.string() +
+        ": holds labels that no run left, so --overwrite is refused; choose another -o");
+}
+
+void write_state(const OutputFolder& output, std::string_view state) {
+    io::write_file(output.path() / kRunState, state);
+}
+
+void write_complete(const OutputFolder& output, std::string_view state) {
+    write_state(output, std::string(state) + std::string(kComplete));
+}
+
+bool is_begun(const fs::path& folder, std::string_view state) {
+    const fs::path file = folder / kRunState;
+    return fs::exists(file) && io::read_file(file) == state;
+}
+
+bool is_complete(const fs::path& folder, std::string_view state) {
+    return is_begun(folder, std::string(state) + std::string(kComplete));
+}
+
+void refuse_other_run(const OutputFolder& output, std::string_view state) {
+    const fs::path& folder = output.path();
+    if (output.is_empty() || is_begun(folder, state) || is_complete(folder, state)) return;
+    if (!fs::exists(folder / kRunState)) {
+        throw ConfigError(output.name().string() +
+                          ": holds something that no run of this version began; use --overwrite "
+                          "or another -o");
+    }
+    throw ConfigError(
+        output.name().string() +
+        ": was begun with another recording, other settings, other outputs (--no-maps, "
+        "--no-report) or another version; go on "
+        "with those (see config.toml and run.log there), or start afresh with "
+        "--overwrite");
+}
+
+}  // namespace dynamic_filter::app

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+/// The file .run in the folder of a result: what the run was begun with, and whether it is
+/// complete. Whoever resumes a run must come with the same.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "base/output_folder.hpp"
+#include "dynamic_filter/recording.hpp"
+
+namespace dynamic_filter::app {
+
+/// The recording: where it is, its scans and their size.
+std::string state_of(const io::Sequence& sequence);
+
+/// Throws ConfigError if the folder holds labels that no run left: they may be somebody's ground
+/// truth, so they must not be overwritten.
+void refuse_foreign_labels(const std::filesystem::path& folder);
+
+void write_state(const OutputFolder& output, std::string_view state);
+void write_complete(const OutputFolder& output, std::string_view state);
+
+/// True if the folder holds this run, complete.
+bool is_complete(const std::filesystem::path& folder, std::string_view state);
+/// True if the folder holds this run, incomplete.
+bool is_begun(const std::filesystem::path& folder, std::string_view state);
+/// Throws ConfigError if the folder holds another run, or something else.
+void refuse_other_run(const OutputFolder& output, std::string_view state);
+
+}  // namespace dynamic_filter::app

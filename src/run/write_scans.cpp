@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "run/write_scans.hpp"
+
+#include <utility>
+
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/file.hpp"
+#include "dynamic_filter/writers.hpp"
+#include "recording/frames.hpp"
+#include "run/map_files.hpp"
+#include "run/map_gaps.hpp"
+
+namespace dynamic_filter::app {
+
+void write_scans(const io::Sequence& sequence, const std::vector<std::size_t>& scans,
+                 const Config& config, bool with_maps, const std::filesystem::path& folder,
+                 const ScanResults& results) {
+    const auto labels = folder / "labels";
+    std::filesystem::create_directories(labels);
+    MapFiles maps(folder, config.map.keep_unknown, sequence.format == io::Format::benchmark);
+    if (with_maps && !scans.empty()) {
+        try {
+            maps.begin(io::read_frame(sequence, scans.front()));
+        } catch (const InputError& error) {
+            throw changed_in_use(sequence, scans.front(), error.what());
+        }
+    }
+    std::vector<Verdict> verdicts(sequence.size());
+    std::vector<MapFiles::Records> records(sequence.size());
+    std::vector<Gaps> gaps(sequence.size());
+    const auto decide = [&](std::size_t i, MaybeFrame& maybe) {
+        const io::Frame& frame = *maybe.frame;
+        verdicts[i] = results.decide(i, frame);
+        io::write_labels(labels / (io::stem(sequence, i) + ".label"), verdicts[i].labels,
+                         io::Durable::contents);
+        if (with_maps) {
+            records[i] = maps.records_of(frame, verdicts[i]);
+            gaps[i] = gaps_of(frame.points);
+        }
+    };
+    const auto use = [&](std::size_t i, MaybeFrame& maybe) {
+        if (!maybe.frame) throw changed_in_use(sequence, i, maybe.error);
+        if (with_maps) maps.append(std::exchange(records[i], {}));
+        results.use(i, *maybe.frame, std::exchange(verdicts[i], {}));
+        return true;  // what is filtered is written even after an interruption; a second one kills
+    };
+    for_each_frame(sequence, scans, decide, use);
+    io::sync_folder(labels);
+    maps.commit();
+    std::vector<Gaps> of_scans;
+    for (const std::size_t i : scans) of_scans.push_back(std::move(gaps[i]));
+    write_gaps(folder, of_scans);
+}
+
+}  // namespace dynamic_filter::app

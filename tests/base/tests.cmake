@@ -1,0 +1,1 @@
+df_room(base LIBRARIES dynamic_filter_app)

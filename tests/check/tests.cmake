@@ -1,0 +1,1 @@
+df_room(check LIBRARIES dynamic_filter_app SHARED Check Stamps)  # on simulated recordings

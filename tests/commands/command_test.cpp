@@ -1,0 +1,835 @@
+// SPDX-License-Identifier: MIT
+// The command as a user types it: exit codes, what a run leaves behind, and what it says of bad
+// input.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "dynamic_filter/cloud.hpp"
+#include "dynamic_filter/recording.hpp"
+#include "dynamic_filter/writers.hpp"
+#include "page/page.hpp"
+#include "support/sample_map.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace fs = std::filesystem;
+
+namespace dynamic_filter {
+namespace command_test {
+
+using test::slurp;
+using test::spill;
+
+/// Leaves every third column of each scan: the tests run the command some eighty times, and need no
+/// finer sensor.
+void thin(const fs::path& recording) {
+    for (const auto& scan : fs::directory_iterator(recording / "velodyne")) {
+        const fs::path truth =
+            recording / "labels" / scan.path().filename().replace_extension(".label");
+        const std::string points = slurp(scan.path()), labels = slurp(truth);
+        std::string kept_points, kept_labels;
+        for (std::size_t i = 0; i < points.size() / 16; ++i) {
+            float xy[2];
+            std::memcpy(xy, &points[16 * i], sizeof xy);
+            if (std::lround(std::atan2(xy[1], xy[0]) / (0.2 * M_PI / 180)) % 3 != 0) continue;
+            kept_points.append(points, 16 * i, 16);
+            kept_labels.append(labels, 4 * i, 4);
+        }
+        spill(scan.path(), kept_points);
+        spill(truth, kept_labels);
+    }
+}
+
+/// A small simulated recording, made once.
+const fs::path& recording() {
+    static const test::TemporaryFolder folder;
+    static const fs::path path = folder / "recording";
+    if (!fs::exists(path)) {
+        const std::string make = std::string(COMMAND) +
+                                 " simulate crowd --frames 24 --pedestrians 30 -o " +
+                                 path.string() + " >/dev/null 2>&1";
+        EXPECT_EQ(std::system(make.c_str()), 0);
+        thin(path);
+    }
+    return path;
+}
+
+class Command : public testing::Test {
+protected:
+    /// Runs the command in the test's folder; its output goes to said().
+    int run(const std::string& arguments) {
+        const std::string line =
+            "cd " + folder_.path().string() + " && " + COMMAND + " " + arguments + " >out.txt 2>&1";
+        const int status = std::system(line.c_str());
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+    std::string said() { return slurp(folder_ / "out.txt"); }
+    void expect_said(const std::string& text) {
+        EXPECT_NE(said().find(text), std::string::npos)
+            << "expected: " << text << "\nsaid: " << said();
+    }
+    /// A copy of the recording that a test may spoil.
+    fs::path copy() {
+        fs::copy(recording(), folder_ / "data", fs::copy_options::recursive);
+        return folder_ / "data";
+    }
+    std::map<std::string, std::string> bytes_of(const std::string& output) {
+        std::map<std::string, std::string> files;
+        for (const auto& entry : fs::recursive_directory_iterator(folder_ / output)) {
+            const std::string name = entry.path().filename();
+            if (entry.is_regular_file() && name != "timing.json" && name != "run.log" &&
+                name != "report.html") {
+                files[fs::relative(entry.path(), folder_ / output)] = slurp(entry.path());
+            }
+        }
+        return files;
+    }
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(Command, RunLeavesWhatTheContractSays) {
+    ASSERT_EQ(run("run " + recording().string() + " -o out"), 0) << said();
+    const io::Sequence sequence = io::open_sequence(recording());
+    std::size_t points = 0;
+    for (std::size_t i = 0; i < sequence.size(); ++i) {
+        const auto label_file = folder_ / ("out/labels/" + io::stem(sequence, i) + ".label");
+        const std::size_t in_scan = io::read_frame(sequence, i).points.size();
+        ASSERT_EQ(fs::file_size(label_file), 4 * in_scan);
+        points += in_scan;
+    }
+    const io::Cloud still = io::read_cloud(folder_ / "out/static_map.pcd");
+    const io::Cloud dynamic = io::read_cloud(folder_ / "out/dynamic_points.pcd");
+    EXPECT_EQ(still.size() + dynamic.size(), points);
+    EXPECT_GT(dynamic.size(), 0U);
+    EXPECT_NE(still.find("intensity"), nullptr);
+
+    const auto metrics = nlohmann::json::parse(slurp(folder_ / "out/metrics.json"));
+    for (const char* reading : {"excluded", "static_wins", "majority", "erasor"}) {
+        EXPECT_GT(metrics["voxel"][reading]["f1"], 0.5) << reading;
+        EXPECT_GT(metrics["instant"]["voxel"][reading]["pr"], 0.5) << reading;
+    }
+    for (const char* score : {"sa", "da", "aa", "ha", "iou"})
+        EXPECT_GT(metrics["point"][score], 0.3);
+    const auto timing = nlohmann::json::parse(slurp(folder_ / "out/timing.json"));
+    EXPECT_GT(timing["scans_per_second"], 0);
+    EXPECT_GT(timing["judge"]["scans_per_second"], 0);
+    EXPECT_GT(timing["integrate"]["scans_per_second"], 0);
+    EXPECT_GT(timing["keyframes"], 0);
+    EXPECT_GT(timing["stages"]["judge"]["p99"], 0);
+    for (const char* of_submaps : {"front_end", "back_end", "submaps"}) {
+        EXPECT_FALSE(timing.contains(of_submaps)) << of_submaps;
+    }
+    for (const char* key : {"cpu_seconds", "voxels", "peak_rss_bytes", "threads"})
+        EXPECT_GT(timing[key], 0);
+    double wall = 0.0, cpu = 0.0;
+    for (const auto& stage : timing["process"]) {
+        wall += stage["wall_seconds"].get<double>();
+        cpu += stage["cpu_seconds"].get<double>();
+    }
+    EXPECT_NEAR(timing["wall_seconds"], wall, 1e-6);
+    EXPECT_NEAR(timing["cpu_seconds"], cpu, 1e-6);
+    EXPECT_TRUE(fs::exists(folder_ / "out/run.log"));
+    // The written configuration gives the same run again.
+    ASSERT_EQ(run("run " + recording().string() + " -o again --config out/config.toml"), 0);
+    EXPECT_EQ(bytes_of("again"), bytes_of("out"));
+}
+
+TEST_F(Command, LeavesOutMapsAndReportIfAsked) {
+    const std::string line = "run " + recording().string();
+    ASSERT_EQ(run(line + " -o all"), 0);
+    ASSERT_EQ(run(line + " -o labels --no-maps --no-report"), 0) << said();
+    auto all = bytes_of("all"), labels = bytes_of("labels");
+    for (const char* map : {"static_map.pcd", "dynamic_points.pcd"}) {
+        EXPECT_EQ(all.erase(map), 1U);
+        EXPECT_FALSE(labels.contains(map));
+    }
+    EXPECT_FALSE(fs::exists(folder_ / "labels/report.html"));
+    EXPECT_EQ(labels["metrics.json"], all["metrics.json"]);
+    EXPECT_EQ(labels.size(), all.size());
+    // What was begun without maps is not complete with them.
+    EXPECT_EQ(run(line + " -o labels --resume"), 2);
+    EXPECT_EQ(run(line + " -o labels --resume --no-maps --no-report"), 0);
+    EXPECT_EQ(run(line + " -o other --no-report --view"), 2);
+}
+
+TEST_F(Command, GivesTheSameBytesForOneAndTwoThreads) {
+    ASSERT_EQ(run("run " + recording().string() + " -o one --threads 1"), 0);
+    ASSERT_EQ(run("run " + recording().string() + " -o two --threads 2"), 0);
+    EXPECT_EQ(bytes_of("one"), bytes_of("two"));
+}
+
+TEST_F(Command, OnlineGivesTheSameBytesIfNothingIsDropped) {
+    for (const std::string preset : {"default", "paper"}) {
+        const std::string line = "run " + recording().string() + " --preset " + preset;
+        ASSERT_EQ(run(line + " -o off" + preset), 0);
+        ASSERT_EQ(run(line + " -o on" + preset + " --online --speed 0"), 0);
+        EXPECT_EQ(bytes_of("on" + preset), bytes_of("off" + preset));
+        const auto timing = nlohmann::json::parse(slurp(folder_ / ("on" + preset) / "timing.json"));
+        EXPECT_EQ(timing["online"]["processed"], 24);
+        EXPECT_EQ(timing["online"]["queued"], 0);
+        EXPECT_EQ(timing["stages"]["latency"]["count"], 24);
+    }
+}
+
+TEST_F(Command, OnlineDropsWhatItCannotKeepUpWithAndSaysSo) {
+    const int code = run("run " + recording().string() + " -o out --online --speed 1e6");
+    const auto metrics = nlohmann::json::parse(slurp(folder_ / "out" / "metrics.json"));
+    const std::size_t dropped = metrics["dropped"].size();
+    EXPECT_EQ(metrics["scans"].get<std::size_t>() + dropped, 24U);
+    EXPECT_GT(dropped, 0U);  // a million times too fast
+    EXPECT_EQ(code, 4);
+    std::size_t labels = 0;
+    for (const auto& entry : fs::directory_iterator(folder_ / "out" / "labels")) {
+        labels += entry.is_regular_file() ? 1 : 0;
+    }
+    EXPECT_EQ(labels, metrics["scans"]);
+    EXPECT_EQ(run("run " + recording().string() + " -o out2 --speed 2"), 2);  // without --online
+}
+
+// Two drives in one folder: poses jump from one to the other.
+TEST_F(Command, SaysThatPosesJump) {
+    const fs::path data = copy();
+    std::string poses, line;
+    std::istringstream lines(slurp(data / "poses.txt"));
+    for (int i = 0; std::getline(lines, line); ++i) {
+        std::istringstream words(line);
+        for (int k = 0; k < 12; ++k) {
+            double value = 0.0;
+            words >> value;
+            poses += std::to_string(value + (i >= 12 && k == 3 ? 500.0 : 0.0)) + " ";
+        }
+        poses += "\n";
+    }
+    spill(data / "poses.txt", poses);
+    ASSERT_EQ(run("run data -o out"), 0);
+    expect_said("a new map begins");
+    EXPECT_NE(slurp(folder_ / "out" / "run.log").find("000012: the pose is 500 m"),
+              std::string::npos)
+        << slurp(folder_ / "out" / "run.log");
+}
+
+TEST_F(Command, SimulatesTheSameBytesForTheSameSeed) {
+    ASSERT_EQ(run("simulate street --frames 2 --sensor vlp16 --seed 5 -o a"), 0) << said();
+    ASSERT_EQ(run("simulate street --frames 2 --sensor vlp16 --seed 5 -o b"), 0);
+    ASSERT_EQ(run("simulate street --frames 2 --sensor vlp16 --seed 6 -o c"), 0);
+    EXPECT_EQ(bytes_of("a"), bytes_of("b"));
+    EXPECT_NE(bytes_of("a"), bytes_of("c"));
+}
+
+TEST_F(Command, SimulatesDrivesAsRecordingsOfTheirOwn) {
+    ASSERT_EQ(run("simulate city --km 0.05 --drives 2 --frames 2 -q -o city"), 0) << said();
+    for (const char* drive : {"drive_1", "drive_2"}) {
+        EXPECT_TRUE(fs::exists(folder_ / "city" / drive / "velodyne/000001.bin"));
+        EXPECT_EQ(run(std::string("info city/") + drive), 0) << said();
+    }
+    EXPECT_FALSE(fs::exists(folder_ / "city/drive_3"));
+    EXPECT_NE(bytes_of("city/drive_1"), bytes_of("city/drive_2"));
+    EXPECT_EQ(run("simulate city --km 0.05 --drives 2 --frames 2 -q -o city"), 2);
+    EXPECT_EQ(run("simulate street --km 1 -o street"), 2);
+    expect_said("with drives: city");
+}
+
+TEST_F(Command, EvalOfLabelsAndOfTheMapAgreeWithTheRun) {
+    ASSERT_EQ(run("run " + recording().string() + " -o out"), 0);
+    const auto metrics = nlohmann::json::parse(slurp(folder_ / "out/metrics.json"));
+    ASSERT_EQ(run("eval --truth " + recording().string() + " --labels out --json l.json"), 0)
+        << said();
+    ASSERT_EQ(
+        run("eval --truth " + recording().string() + " --map out/static_map.pcd --json m.json"), 0);
+    const auto labels = nlohmann::json::parse(slurp(folder_ / "l.json"));
+    const auto map = nlohmann::json::parse(slurp(folder_ / "m.json"));
+    EXPECT_EQ(labels["voxel"], metrics["voxel"]);
+    EXPECT_EQ(labels["point"], metrics["point"]);
+    EXPECT_NEAR(map["voxel"]["excluded"]["f1"], labels["voxel"]["excluded"]["f1"], 0.002);
+    EXPECT_NEAR(map["point"]["aa"], labels["point"]["aa"], 0.002);
+    EXPECT_EQ(run("eval --truth " + recording().string()), 2);
+}
+
+TEST_F(Command, EvalRepeatsTheProtocolsOfOthers) {
+    ASSERT_EQ(run("run " + recording().string() + " -o out"), 0);
+    const std::string eval = "eval --truth " + recording().string() + " --labels out";
+    const auto metrics = nlohmann::json::parse(slurp(folder_ / "out/metrics.json"));
+    const auto two_digits = [](double share) { return fmt::format("{:.2f}", 100.0 * share); };
+    ASSERT_EQ(run(eval + " --protocol mos"), 0) << said();
+    expect_said("moving IoU " + two_digits(metrics["point"]["iou"]) + " %");
+    ASSERT_EQ(run(eval + " --protocol benchmark"), 0);
+    expect_said("AA " + two_digits(metrics["point"]["aa"]) + " %");
+    for (const auto& [protocol, reading] : std::map<std::string, std::string>{
+             {"voxel", "excluded"}, {"erasor", "erasor"}, {"strict", "static_wins"}}) {
+        ASSERT_EQ(run(eval + " --protocol " + protocol), 0);
+        expect_said("RR " + two_digits(metrics["voxel"][reading]["rr"]) + " %");
+    }
+    EXPECT_EQ(run(eval + " --protocol nobody"), 2);
+    ASSERT_EQ(
+        run("eval --truth " + recording().string() + " --map out/static_map.pcd --protocol erasor"),
+        0);
+    expect_said("this rule needs labels");
+}
+
+TEST_F(Command, EvalScoresWithinTheRangeAskedFor) {
+    ASSERT_EQ(run("run " + recording().string() + " -o out"), 0);
+    const std::string eval = "eval --truth " + recording().string() + " --labels out --json s.json";
+    const auto scores = [&](const std::string& options) {
+        EXPECT_EQ(run(eval + options), 0) << said();
+        return nlohmann::json::parse(slurp(folder_ / "s.json"));
+    };
+    const auto all = scores(""), same = scores(" --min-range 0 --max-range 1000");
+    EXPECT_EQ(all, same);
+    const auto near = scores(" --max-range 8");
+    expect_said("scored are points from 0 m to 8 m of the sensor");
+    EXPECT_NE(near["point"], all["point"]);
+    // Nothing is nearer than the sensor's own body: no voxel of either kind, so no score.
+    EXPECT_TRUE(scores(" --max-range 0.01")["point"]["sa"].is_null());
+    EXPECT_EQ(run(eval + " --min-range 5 --max-range 5"), 2);
+    expect_said("--min-range must be 0 or more, and less than --max-range");
+}
+
+TEST_F(Command, UsageErrorsExitWithTwo) {
+    EXPECT_EQ(run(""), 2);
+    expect_said("`dynamicfilter --help` lists the commands");
+    EXPECT_EQ(run("run"), 2);
+    expect_said("dynamicfilter: DATA is required; `dynamicfilter run --help` lists the options");
+    EXPECT_EQ(run("fly"), 2);
+    expect_said(
+        "unknown command 'fly'; the commands are: run, plan, merge, live, eval, simulate, convert");
+    EXPECT_EQ(run("rnu data"), 2);
+    expect_said("unknown command 'rnu', did you mean 'run'?");
+    EXPECT_EQ(run("eval --truth data --lables out"), 2);
+    expect_said("unknown option '--lables', did you mean '--labels'?");
+    EXPECT_EQ(run("--verson"), 2);
+    expect_said("unknown option '--verson', did you mean '--version'?");
+    EXPECT_EQ(run("--pose-fix inverse"), 2);
+    expect_said("options come after a command");
+    EXPECT_EQ(run("run data out"), 2);
+    expect_said("several recordings may be given, and -o names the output folder");
+    EXPECT_EQ(run("run " + recording().string() + " --set map.voxle_size=1"), 2);
+    expect_said("map.voxel_size");
+    EXPECT_EQ(run("run " + recording().string() + " --set map.voxel_size=-1"), 2);
+    EXPECT_EQ(run("run " + recording().string() + " --set back_end.max_submaps=20"), 2);
+    expect_said("belongs to the method 'submaps'");
+    EXPECT_EQ(run("config --preset paper --set scans.max_keyframes=9"), 2);
+    expect_said("belongs to the method 'scans'");
+    EXPECT_EQ(run("run " + recording().string() + " --preset best"), 2);
+    EXPECT_EQ(run("run " + recording().string() + " --format cloud"), 2);
+    EXPECT_EQ(run("run " + recording().string() + " --first 99"), 2);
+    EXPECT_EQ(run("run " + recording().string() + " --stride -1"), 2);
+    expect_said("'-1' is no whole number of 1 or more");
+    EXPECT_EQ(run("simulate crowd --frames 0 -o x"), 2);
+    EXPECT_EQ(run("simulate moon -o x"), 2);
+    expect_said("crowd");
+    EXPECT_FALSE(fs::exists(folder_ / "results"));
+}
+
+TEST_F(Command, NeverWritesOverARecording) {
+    const fs::path data = copy();
+    EXPECT_EQ(run("run data -o data --overwrite"), 2);
+    EXPECT_EQ(run("run data -o data/velodyne --overwrite"), 2);
+    EXPECT_EQ(run("demo -o data"), 2);
+    EXPECT_EQ(run("run data -o out"), 0);
+}
+
+TEST_F(Command, OneFileIsNotWrittenOverAnother) {
+    const fs::path copy = folder_ / "copy";
+    fs::copy(recording(), copy, fs::copy_options::recursive);
+    const std::string poses = slurp(copy / "poses.txt");
+    EXPECT_EQ(run("odometry " + copy.string() + " -o " + (copy / "poses.txt").string()), 2);
+    expect_said("poses.txt: exists; choose another -o, or --overwrite");
+    EXPECT_EQ(run("eval --truth " + copy.string() + " --labels " + copy.string() + " --json " +
+                  (copy / "poses.txt").string()),
+              2);
+    expect_said("must end in .json");
+    EXPECT_EQ(run("report " + copy.string() + " -o " + (copy / "times.txt").string()), 2);
+    expect_said("must end in .html");
+    EXPECT_EQ(slurp(copy / "poses.txt"), poses);
+}
+
+TEST_F(Command, QuietSaysOnlyWhatIsWrong) {
+    EXPECT_EQ(run("simulate crowd --frames 3 --pedestrians 5 -q -o data"), 0);
+    EXPECT_EQ(said(), "");
+    EXPECT_EQ(run("run data -q -o out"), 0);
+    EXPECT_EQ(said(), "");
+    fs::resize_file(folder_ / "data/velodyne/000001.bin", 7);
+    EXPECT_EQ(run("run data --quiet -o again"), 4);
+    expect_said("rejected 000001");
+}
+
+TEST_F(Command, EvalSaysWhatItLeftOut) {
+    ASSERT_EQ(run("run " + recording().string() + " -o out"), 0);
+    const fs::path data = copy();
+    fs::resize_file(data / "velodyne/000004.bin", 1001);
+    EXPECT_EQ(run("eval --truth data --map out/static_map.pcd"), 4);
+    expect_said("left out 1 of 24");
+    EXPECT_EQ(run("eval --truth data --labels data/velodyne"), 3);
+    fs::rename(folder_ / "out/labels/000001.label", folder_ / "out/labels/000002.label");
+    EXPECT_EQ(run("eval --truth " + recording().string() + " --labels out"), 2);
+    expect_said("another recording");
+}
+
+TEST_F(Command, ResultsThatCannotBePrintedAreAnError) { EXPECT_EQ(run("config > /dev/full #"), 1); }
+
+TEST_F(Command, HelpAndVersionExitWithZero) {
+    EXPECT_EQ(run("--help"), 0);
+    expect_said("simulate");
+    EXPECT_EQ(run("run --help"), 0);
+    EXPECT_EQ(run("--version"), 0);
+}
+
+TEST_F(Command, AnOutputFolderInUseIsLeftAlone) {
+    fs::create_directories(folder_ / "out");
+    spill(folder_ / "out/static_map.pcd", "precious");
+    EXPECT_EQ(run("run " + recording().string() + " -o out"), 2);
+    expect_said("not empty");
+    EXPECT_EQ(slurp(folder_ / "out/static_map.pcd"), "precious");
+    EXPECT_EQ(run("run " + recording().string() + " -o out --overwrite"), 0);
+}
+
+TEST_F(Command, InputThatIsNotThereOrContradictsItselfExitsWithThree) {
+    EXPECT_EQ(run("run nowhere"), 3);
+    const fs::path data = copy();
+    const std::string poses = slurp(data / "poses.txt");
+    spill(data / "poses.txt", poses.substr(0, poses.size() / 2));
+    EXPECT_EQ(run("run data -o out"), 3);
+    expect_said("poses");
+    spill(data / "poses.txt", poses + poses);
+    EXPECT_EQ(run("run data -o out"), 3);
+    expect_said("24");
+    expect_said("48");
+    spill(data / "poses.txt", "2 0 0 0 0 2 0 0 0 0 2 0\n" + poses.substr(poses.find('\n') + 1));
+    EXPECT_EQ(run("run data -o out"), 3);
+    expect_said("line 1");
+    EXPECT_FALSE(fs::exists(folder_ / "out/static_map.pcd"));
+}
+
+TEST_F(Command, BadScansAreRejectedCountedAndNamed) {
+    const fs::path data = copy();
+    fs::resize_file(data / "velodyne/000003.bin", 1001);
+    fs::resize_file(data / "velodyne/000005.bin", 0);
+    fs::resize_file(data / "labels/000007.label", 8);
+    EXPECT_EQ(run("run data -o out"), 4) << said();
+    const auto metrics = nlohmann::json::parse(slurp(folder_ / "out/metrics.json"));
+    EXPECT_EQ(metrics["rejected"].size(), 2U);
+    for (const char* stem : {"000003", "000005"}) {
+        EXPECT_FALSE(fs::exists(folder_ / "out/labels" / (std::string(stem) + ".label")));
+        EXPECT_NE(slurp(folder_ / "out/run.log").find(std::string("rejected ") + stem),
+                  std::string::npos);
+    }
+    EXPECT_TRUE(fs::exists(folder_ / "out/labels/000004.label"));
+    EXPECT_EQ(run("check data"), 4);
+    expect_said("UNUSABLE  000003");
+    expect_said("UNUSABLE  000005");
+}
+
+TEST_F(Command, GroundTruthThatDoesNotFitChangesNoLabel) {
+    const fs::path data = copy();
+    fs::resize_file(data / "labels/000007.label", 8);
+    ASSERT_EQ(run("run data -o out"), 0) << said();
+    expect_said("labels/000007.label: 2 labels but ");
+    expect_said("not scored");
+    fs::remove_all(data / "labels");
+    ASSERT_EQ(run("run data -o without"), 0) << said();
+    EXPECT_TRUE(bytes_of("out/labels") == bytes_of("without/labels"));
+}
+
+TEST_F(Command, ABagThatLostScansIsNotDone) {
+    ASSERT_EQ(run("convert " + recording().string() + " a.mcap"), 0);
+    fs::resize_file(folder_ / "a.mcap", fs::file_size(folder_ / "a.mcap") / 2);
+    EXPECT_EQ(run("run a.mcap -o out"), 4);
+    expect_said("lost     a.mcap: the record at byte ");
+    EXPECT_NE(slurp(folder_ / "out/run.log").find("lost     a.mcap"), std::string::npos);
+    EXPECT_FALSE(nlohmann::json::parse(slurp(folder_ / "out/metrics.json"))["lost"].empty());
+    EXPECT_EQ(run("check a.mcap"), 4);
+    EXPECT_EQ(run("convert a.mcap b.bag"), 4);
+}
+
+TEST_F(Command, PointsThatAreNoMeasurementsEndAsUnknown) {
+    const fs::path data = copy();
+    std::string bytes = slurp(data / "velodyne/000002.bin");
+    const float nan = std::numeric_limits<float>::quiet_NaN(), zero[3] = {0, 0, 0};
+    std::memcpy(bytes.data(), &nan, sizeof nan);
+    std::memcpy(bytes.data() + 16, zero, sizeof zero);
+    spill(data / "velodyne/000002.bin", bytes);
+    EXPECT_EQ(run("run data -o out"), 0) << said();
+    const std::string labels = slurp(folder_ / "out/labels/000002.label");
+    EXPECT_EQ(labels.substr(0, 8), std::string(8, '\0'));
+    EXPECT_NE(labels.substr(8, 4), std::string(4, '\0'));
+}
+
+TEST_F(Command, NamesNeedNotBeUtf8) {
+    const std::string odd = "d\xff\xfe";
+    fs::rename(copy(), folder_ / odd);
+    fs::resize_file(folder_ / odd / "velodyne/000003.bin", 1001);
+    for (const char* kind : {"velodyne/000004.bin", "labels/000004.label"}) {
+        const fs::path file = folder_ / odd / kind;
+        fs::rename(file, file.parent_path() / ("000004\xe9" + file.extension().string()));
+    }
+    EXPECT_EQ(run("run " + odd + " -o out"), 4) << said();
+    EXPECT_TRUE(fs::exists(folder_ / "out/labels/000004\xe9.label"));
+    EXPECT_TRUE(nlohmann::json::accept(slurp(folder_ / "out/metrics.json")));
+    EXPECT_EQ(run("info " + odd), 0);
+}
+
+TEST_F(Command, FailingToWriteExitsWithOne) {
+    spill(folder_ / "file", "");
+    EXPECT_EQ(run("run " + recording().string() + " -o file/out"), 1);
+    EXPECT_EQ(run("run " + recording().string() + " -o /proc/none"), 1);
+}
+
+TEST_F(Command, InfoDescribesFilesAndFolders) {
+    EXPECT_EQ(run("info " + recording().string()), 0) << said();
+    expect_said("kitti");
+    expect_said("intensity");
+    EXPECT_EQ(run("info " + (recording() / "velodyne/000000.bin").string()), 0);
+    EXPECT_EQ(run("info nothing.pcd"), 3);
+    spill(folder_ / "utm.xyz", "500123.25 5400000 0.123456\n500987.5 5400321 12\n");
+    EXPECT_EQ(run("info utm.xyz"), 0) << said();
+    for (const char* range : {"500123.25 .. 500987.50", "5400000 .. 5400321", "0.1235 .. 12"})
+        expect_said(range);
+    ASSERT_EQ(run("run " + recording().string() + " -o out"), 0) << said();
+    for (const char* command : {"info out", "check out", "run out -o x"}) {
+        EXPECT_EQ(run(command), 3) << command;
+        expect_said("is the output of a run, not a recording");
+    }
+    ASSERT_EQ(run("run " + recording().string() + " --part 1/1 -o part"), 0) << said();
+    for (const char* command : {"info part", "check part", "run part -o x"}) {
+        EXPECT_EQ(run(command), 3) << command;
+        expect_said("is a part of a run, not a recording");
+    }
+    ASSERT_EQ(run("convert " + recording().string() + " a.bag"), 0);
+    fs::rename(folder_ / "a.bag", folder_ / "recording.data");
+    EXPECT_EQ(run("check recording.data"), 3);
+    expect_said("is a ROS 1 bag; force --format bag");
+    EXPECT_EQ(run("check recording.data --format bag"), 0) << said();
+    EXPECT_EQ(run("convert recording.data b.mcap --format bag"), 0) << said();
+}
+
+TEST_F(Command, InfoSaysWhetherThereArePoses) {
+    EXPECT_EQ(run("info " + recording().string()), 0) << said();
+    expect_said("poses   of all scans, from " + (recording() / "poses.txt").string());
+    expect_said("path    ");
+    const fs::path data = copy();
+    fs::remove(data / "poses.txt");
+    EXPECT_EQ(run("info data"), 0) << said();
+    expect_said("poses   none: the odometry finds them");
+    expect_said("intensity");
+    ASSERT_EQ(run("convert " + recording().string() + " told.mcap"), 0);
+    EXPECT_EQ(run("info told.mcap"), 0) << said();
+    expect_said("/points");
+    expect_said("poses   of all scans");
+    ASSERT_EQ(run("convert " + recording().string() + " bench --to benchmark"), 0);
+    EXPECT_EQ(run("info bench"), 0) << said();
+    expect_said("poses   in the scans' files");
+}
+
+TEST_F(Command, ConfigPrintsWhatRunReads) {
+    EXPECT_EQ(run("config --preset paper"), 0);
+    spill(folder_ / "paper.toml", said());
+    EXPECT_EQ(run("config --config paper.toml"), 0);
+    EXPECT_EQ(said(), slurp(folder_ / "paper.toml"));
+    EXPECT_EQ(run("config --json --set map.voxel_size=0.125"), 0);
+    expect_said("0.125");
+}
+
+TEST_F(Command, NamesTheDefaultOutputByTimeAndLinksTheLatest) {
+    ASSERT_EQ(run("run " + recording().string() + " --last 3"), 0) << said();
+    EXPECT_TRUE(fs::exists(folder_ / "results/latest/static_map.pcd"));
+    EXPECT_TRUE(fs::is_symlink(folder_ / "results/latest"));
+}
+
+TEST_F(Command, FirstLastAndStrideSelectScans) {
+    ASSERT_EQ(run("run " + recording().string() + " --first 2 --last 10 --stride 4 -o out"), 0);
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder_ / "out/labels")) {
+        names.push_back(entry.path().filename());
+    }
+    std::sort(names.begin(), names.end());
+    EXPECT_EQ(names, (std::vector<std::string>{"000002.label", "000006.label", "000010.label"}));
+}
+
+TEST_F(Command, TheSameScansInEveryFormatGiveTheSameLabels) {
+    const std::string data = recording().string();
+    ASSERT_EQ(run("run " + data + " -o expected"), 0) << said();
+    const auto expected = bytes_of("expected/labels");
+    for (const std::string copy : {"copy.mcap", "copy.bag", "copy.db3", "copy"}) {
+        ASSERT_EQ(run("convert " + data + " " + copy), 0) << said();
+        ASSERT_EQ(run("run " + copy + " -o from_" + copy), 0) << said();
+        EXPECT_TRUE(bytes_of("from_" + copy + "/labels") == expected) << copy;
+        EXPECT_EQ(run("convert " + data + " " + copy), 2) << "what is there is not overwritten";
+    }
+    // The benchmark's scans are rounded in the world's frame.
+    ASSERT_EQ(run("convert " + data + " benchmark --to benchmark"), 0) << said();
+    ASSERT_EQ(run("run benchmark -o from_benchmark"), 0) << said();
+    const auto rounded = bytes_of("from_benchmark/labels");
+    ASSERT_EQ(rounded.size(), expected.size());
+    std::size_t other = 0, bytes = 0;
+    for (const auto& [name, labels] : expected) {
+        ASSERT_EQ(rounded.at(name).size(), labels.size());
+        for (std::size_t i = 0; i < labels.size(); i += 4) {
+            other += labels[i] != rounded.at(name)[i] ? 1 : 0;
+        }
+        bytes += labels.size();
+    }
+    EXPECT_LT(other * 4 * 1000, bytes);
+}
+
+TEST_F(Command, ResumeGoesOnWithTheSameOnly) {
+    const std::string data = recording().string();
+    ASSERT_EQ(run("run " + data + " -o out"), 0) << said();
+    const auto expected = bytes_of("out");
+    EXPECT_EQ(run("run " + data + " -o out --resume"), 0);
+    expect_said("complete out");
+    EXPECT_EQ(run("run " + data + " -o out --resume --set map.voxel_size=0.3"), 2);
+    expect_said("other settings");
+    const std::string state = slurp(folder_ / "out/.run");
+    for (const std::size_t at : {std::size_t{9}, state.size() / 2, state.size() - 2}) {
+        std::string damaged = state;
+        damaged[at] ^= 1;
+        spill(folder_ / "out/.run", damaged);
+        EXPECT_EQ(run("run " + data + " -o out --resume"), 2) << at;
+        expect_said("start afresh with --overwrite");
+    }
+    spill(folder_ / "out/.run", state);
+    // As a kill in the midst of it leaves it.
+    spill(folder_ / "out/.run",
+          slurp(folder_ / "out/.run").substr(0, slurp(folder_ / "out/.run").find("complete")));
+    fs::remove(folder_ / "out/static_map.pcd");
+    spill(folder_ / "out/labels/.000003.label.tmp.9.9", "half");
+    EXPECT_EQ(run("run " + data + " -o out --resume"), 0) << said();
+    EXPECT_TRUE(bytes_of("out") == expected);
+    EXPECT_EQ(run("run " + data + " --resume"), 2);
+    fs::create_directory(folder_ / "thesis");
+    spill(folder_ / "thesis/thesis.tex", "precious");
+    EXPECT_EQ(run("run " + data + " -o thesis --resume"), 2);
+    expect_said("no run of this version began");
+    EXPECT_FALSE(fs::exists(folder_ / "thesis/labels"));
+}
+
+TEST_F(Command, ResumeGoesOnWithAnOverwriteThatWasKilled) {
+    const std::string data = recording().string(), other = " --set map.voxel_size=0.3";
+    ASSERT_EQ(run("run " + data + " -o out"), 0) << said();
+    ASSERT_EQ(run("run " + data + " -o expected" + other), 0) << said();
+    const std::string state = slurp(folder_ / "expected/.run");
+    fs::create_directories(folder_ / "out/.new/labels");
+    spill(folder_ / "out/.new/.run", state.substr(0, state.find("complete")));
+    EXPECT_EQ(run("run " + data + " -o out --resume" + other), 0) << said();
+    EXPECT_TRUE(bytes_of("out") == bytes_of("expected"));
+    // Killed when all was written, and nothing put in place.
+    fs::create_directory(folder_ / "again");
+    fs::copy(folder_ / "expected", folder_ / "again/.new", fs::copy_options::recursive);
+    spill(folder_ / "again/run.log", "old");
+    EXPECT_EQ(run("run " + data + " -o again --resume" + other), 0) << said();
+    EXPECT_TRUE(bytes_of("again") == bytes_of("expected"));
+}
+
+TEST_F(Command, OverwriteLeavesGroundTruthAlone) {
+    const fs::path data = copy();
+    const auto truth = bytes_of("data/labels");
+    EXPECT_EQ(run("run " + recording().string() + " -o data --overwrite"), 2);
+    expect_said("labels that no run left");
+    EXPECT_TRUE(bytes_of("data/labels") == truth);
+    EXPECT_EQ(run("convert data data/velodyne/map.pcd"), 2);
+    EXPECT_EQ(run("convert data/velodyne/000000.bin data/velodyne/000000.bin --overwrite"), 2);
+}
+
+TEST_F(Command, WhatFailsLeavesTheOldResultWhole) {
+    const std::string data = recording().string();
+    ASSERT_EQ(run("run " + data + " -o out"), 0) << said();
+    const auto expected = bytes_of("out");
+    // No file may grow beyond 1000 blocks: the maps do not fit.
+    const std::string line = "cd " + folder_.path().string() + " && (ulimit -f 1000; " + COMMAND +
+                             " run " + data + " -o out --overwrite >out.txt 2>&1)";
+    const int status = std::system(line.c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 1) << said();
+    expect_said("cannot be written");
+    EXPECT_TRUE(bytes_of("out") == expected);
+}
+
+TEST_F(Command, ConvertWritesMapsAndSplitScans) {
+    const std::string data = recording().string();
+    ASSERT_EQ(run("run " + data + " -o out"), 0) << said();
+    ASSERT_EQ(run("convert " + data + " map.las --labels out"), 0) << said();
+    const io::Cloud map = io::read_cloud(folder_ / "map.las");
+    ASSERT_NE(map.find("dynamic"), nullptr);
+    const io::Cloud still = io::read_cloud(folder_ / "out/static_map.pcd");
+    const io::Cloud moving = io::read_cloud(folder_ / "out/dynamic_points.pcd");
+    EXPECT_EQ(map.size(), still.size() + moving.size());
+    std::size_t dynamic = 0;
+    for (const double value : io::values(map, *map.find("dynamic")))
+        dynamic += value == 1.0 ? 1 : 0;
+    EXPECT_EQ(dynamic, moving.size());
+    ASSERT_EQ(run("convert out/static_map.pcd map.ply"), 0) << said();
+    EXPECT_EQ(io::read_cloud(folder_ / "map.ply").size(), still.size());
+    ASSERT_EQ(run("convert " + data + " split.mcap --labels out"), 0) << said();
+    ASSERT_EQ(run("info split.mcap"), 0);
+    for (const char* topic :
+         {"/points ", "/points_static", "/points_dynamic", "/tf", "/static_map"}) {
+        expect_said(topic);
+    }
+    ASSERT_EQ(run("convert out/static_map.pcd tiles --to autoware"), 0) << said();
+    std::size_t in_tiles = 0, tiles = 0;
+    const std::string metadata = slurp(folder_ / "tiles/pointcloud_map_metadata.yaml");
+    for (const auto& entry : fs::directory_iterator(folder_ / "tiles/pointcloud_map")) {
+        in_tiles += io::read_cloud(entry.path()).size();
+        ++tiles;
+        EXPECT_NE(metadata.find(entry.path().filename().string() + ": ["), std::string::npos);
+    }
+    EXPECT_EQ(in_tiles, still.size());
+    EXPECT_GT(tiles, 4U);
+    ASSERT_EQ(run("convert " + data + " MAP.TXT --labels out"), 0) << said();
+    expect_said("left out: poses, stamps");
+    const io::Cloud text = io::read_cloud(folder_ / "MAP.TXT");
+    EXPECT_EQ(text.size(), map.size());
+    ASSERT_NE(text.find("dynamic"), nullptr);
+    EXPECT_EQ(io::values(text, *text.find("dynamic")), io::values(map, *map.find("dynamic")));
+    EXPECT_EQ(run("convert " + data + " out --overwrite"), 2);
+    expect_said("result of a run");
+    ASSERT_EQ(run("convert " + data + " bench --to benchmark"), 0);
+    expect_said("left out: intensity, stamps");
+    EXPECT_EQ(run("convert " + data + " x.pcx"), 2);
+    EXPECT_EQ(run("convert nothing.pcd x.pcd"), 3);
+    EXPECT_EQ(run("convert " + data + " y.mcap --labels " + data + "/velodyne"), 3);
+    EXPECT_FALSE(fs::exists(folder_ / "y.mcap"));
+    EXPECT_EQ(run("convert " + data + " half --labels " + data + "/velodyne"), 3);
+    EXPECT_FALSE(fs::exists(folder_ / "half"));
+}
+
+TEST_F(Command, TheMapOfSeveralDrivesIsConverted) {
+    const app::MapIndex index = app::write_sample_map(folder_ / "city");
+    for (const char* from : {"city", "city/map", "city/map/index.json"}) {
+        ASSERT_EQ(run(fmt::format("convert {} tiles --to 3dtiles --overwrite", from)), 0) << said();
+        expect_said("19 tiles as");
+    }
+    const std::string plain = slurp(folder_ / "tiles/tileset.json");
+    EXPECT_TRUE(fs::exists(folder_ / "tiles/tiles/0_2_2.glb"));
+    EXPECT_EQ(run("convert city tiles --to 3dtiles"), 2);
+    expect_said("not empty");
+    const std::string before = slurp(folder_ / "tiles/tiles/root.glb");
+    ASSERT_EQ(run("convert city tiles --to 3dtiles --overwrite --origin 48.1,11.6"), 0) << said();
+    EXPECT_NE(slurp(folder_ / "tiles/tileset.json"), plain);
+    EXPECT_EQ(slurp(folder_ / "tiles/tiles/root.glb"), before) << "the same bytes again";
+    ASSERT_EQ(run("convert city las --to las"), 0) << said();
+    expect_said("rounded to 1 mm");
+    EXPECT_EQ(io::read_cloud(folder_ / "las/las/0_2_2.las").size(),
+              io::read_cloud(folder_ / "city/map/0_2_2.pcd").size());
+    ASSERT_EQ(run("convert city autoware --to autoware"), 0) << said();
+    EXPECT_TRUE(fs::exists(folder_ / "autoware/pointcloud_map_metadata.yaml"));
+    ASSERT_EQ(run("info city"), 0) << said();
+    for (const char* part : {"tiles   19", "drive_2", "voxels"}) expect_said(part);
+}
+
+TEST_F(Command, OptionsForTheMapOfSeveralDrivesAreChecked) {
+    app::write_sample_map(folder_ / "city");
+    EXPECT_EQ(run("convert city x"), 2);
+    expect_said("--to 3dtiles, --to las or --to autoware");
+    EXPECT_EQ(run("convert city x --to las --origin 1,2"), 2);
+    expect_said("--origin is for --to 3dtiles only");
+    EXPECT_EQ(run("convert city x --to 3dtiles --origin north"), 2);
+    expect_said("expected LAT,LON");
+    EXPECT_EQ(run("convert city x --to 3dtiles --labels city"), 2);
+    EXPECT_EQ(run("convert " + recording().string() + " x --to 3dtiles"), 2);
+    expect_said("is for the map of several drives");
+    fs::remove(folder_ / "city/map/0_2_2.pcd");
+    EXPECT_EQ(run("convert city x --to 3dtiles"), 3);
+    expect_said("0_2_2.pcd");
+    EXPECT_FALSE(fs::exists(folder_ / "x")) << "half an export misleads";
+}
+
+TEST_F(Command, PointsThatLasLeavesOutAreNotCounted) {
+    spill(folder_ / "a.xyz", "1 2 3\n4 nan 6\n7 8 9\n");
+    EXPECT_EQ(run("convert a.xyz a.las"), 0);
+    expect_said("(2 points)");
+    expect_said("1 points that are not finite");
+    EXPECT_EQ(run("convert a.xyz a.ply"), 0);
+    expect_said("(3 points)");
+    spill(folder_ / "far.xyz", "1 2 3\n1e10 5 6\n");
+    EXPECT_EQ(run("convert far.xyz far.las"), 1);
+    expect_said("x = 1 to 1e+10 m, wider than the 4,000 km");
+}
+
+TEST_F(Command, ReportsOfRunsAndMapsAreSetSideBySide) {
+    if (app::viewer_page().empty())
+        GTEST_SKIP() << "built WITHOUT THE VIEWER: script/bootstrap fetches what it needs";
+    ASSERT_EQ(run("run " + recording().string() + " -o out"), 0);
+    const std::string report = slurp(folder_ / "out/report.html");
+    EXPECT_NE(report.find("\"scans\":24"), std::string::npos);
+    EXPECT_LT(report.size(), 30'000'000U);
+    const auto timing = nlohmann::json::parse(slurp(folder_ / "out/timing.json"));
+    EXPECT_EQ(timing["process"].back()["stage"], "report");
+
+    ASSERT_EQ(
+        run("report out out/static_map.pcd --truth " + recording().string() + " -o both.html"), 0)
+        << said();
+    const std::string both = slurp(folder_ / "both.html");
+    EXPECT_NE(both.find("id=\"run-0-map-position\""), std::string::npos);
+    EXPECT_NE(both.find("id=\"run-1-map-position\""), std::string::npos);
+    EXPECT_EQ(both.find("id=\"run-1-frame-begin\""), std::string::npos);  // a map has no scans
+    EXPECT_NE(both.find("\"name\":\"static_map.pcd\""), std::string::npos);
+
+    EXPECT_EQ(run("report out/labels"), 3);
+    expect_said("holds no report.html");
+    EXPECT_EQ(run("report out/config.toml"), 3);
+    EXPECT_EQ(run("report out -o out/report.html"), 0) << said();  // the same again
+    EXPECT_EQ(run("report out/report.html -o out/report.html"), 2);
+    EXPECT_EQ(slurp(folder_ / "out/report.html"), report);
+    EXPECT_EQ(run("serve out/labels"), 3);
+    EXPECT_EQ(run("run " + recording().string() + " -o no --port 80"), 2);
+    EXPECT_EQ(run("run " + recording().string() + " -o no --view --port 99999"), 2);
+}
+
+TEST_F(Command, CheckSaysWhatToTypeAndThatWorks) {
+    const std::string data = recording().string();
+    EXPECT_EQ(run("check " + data), 0) << said();
+    io::Sequence sequence = io::open_sequence(recording());
+    for (Pose& pose : sequence.T_world_sensor) pose = pose.inverse();
+    io::write_poses_kitti(folder_ / "inverse.txt", sequence.T_world_sensor);
+    EXPECT_EQ(run("check " + data + " --poses inverse.txt"), 4);
+    const std::string fixed = data + " --poses inverse.txt --pose-fix inverse";
+    expect_said("try       dynamicfilter run " + fixed + "\n");
+    EXPECT_EQ(run("check " + fixed), 0) << said();
+    expect_said("next      dynamicfilter run " + fixed + "\n");
+    EXPECT_EQ(run("check " + data + " --pose-fix inverse"), 4);
+    expect_said("the poses are right without --pose-fix inverse");
+    EXPECT_EQ(run("check " + data + " --poses none --pose-fix inverse"), 2);
+    expect_said("no poses to correct");
+    EXPECT_EQ(run("run " + data + " --poses inverse.txt -o out"), 0);
+    expect_said("warning: the poses are inverse");
+}
+
+TEST_F(Command, CheckComparesTheFramesOfSeveralRecordings) {
+    const std::string data = recording().string();
+    ASSERT_EQ(run("convert " + data + " monday --stride 2"), 0) << said();
+    ASSERT_EQ(run("convert " + data + " tuesday --first 1 --stride 2"), 0) << said();
+    EXPECT_EQ(run("check monday tuesday"), 0) << said();
+    expect_said("recording monday\n");
+    expect_said("recording tuesday\n");
+    expect_said("frames    monday and tuesday: their scans overlay at ");
+    expect_said("next      dynamicfilter run monday tuesday\n");
+
+    io::Sequence moved = io::open_sequence(folder_ / "tuesday");
+    for (Pose& pose : moved.T_world_sensor) pose.pretranslate(Eigen::Vector3d(0.0, 0.5, 0.0));
+    io::write_poses_kitti(folder_ / "tuesday/poses.txt", moved.T_world_sensor);
+    EXPECT_EQ(run("check monday tuesday"), 4) << said();
+    expect_said("tuesday shows things (0.00, 0.50, 0.00) m from where monday shows them");
+    expect_said("advice    add (0.00, -0.50, 0.00) m to the positions of the poses of tuesday");
+    EXPECT_EQ(run("check tuesday"), 0) << said();  // alone it is right
+    spill(folder_ / "list.txt", "monday\n# a comment\ntuesday\tmonday/poses.txt\n");
+    EXPECT_EQ(run("check list.txt"), 4) << said();
+    expect_said("monday and tuesday have the same poses");
+
+    EXPECT_EQ(run("check monday tuesday --poses none"), 4) << said();
+    expect_said("monday, tuesday have no poses");
+    EXPECT_EQ(run("check monday tuesday monday"), 2);
+    expect_said("monday: is given twice");
+    EXPECT_EQ(run("check monday tuesday --poses monday/poses.txt"), 2);
+    expect_said("belongs to one recording");
+    EXPECT_EQ(run("check monday nowhere"), 3);
+}
+
+}  // namespace command_test
+}  // namespace dynamic_filter

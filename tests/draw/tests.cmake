@@ -1,0 +1,1 @@
+df_room(draw LIBRARIES dynamic_filter_app PNG::PNG)

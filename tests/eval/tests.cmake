@@ -1,1 +1,0 @@
-df_room(eval LIBRARIES dynamic_filter_eval)

@@ -1,0 +1,1 @@
+df_room(export LIBRARIES dynamic_filter_app)

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+#include "filter/final_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace dynamic_filter {
+namespace final_map_test {
+
+const Config config;
+constexpr float kSize = 0.2F;
+
+Point middle(int x, int y, int z) { return (Cell(x, y, z).cast<float>().array() + 0.5F) * kSize; }
+
+/// A grid of one or more scans, each given by its points in the map frame.
+struct Map {
+    EvidenceGrid grid{kSize, config.scans.evidence};
+
+    /// Returns the voxels of the points.
+    PointVoxels add(const Points& points) {
+        Scan scan;
+        scan.points = points;
+        return grid.add_points(scan);
+    }
+    void see(std::uint32_t voxel, Sight sight, int times = 1) {
+        for (int i = 0; i < times; ++i) grid.record(voxel, sight, 1, true);
+        grid.update_score(voxel);
+    }
+    [[nodiscard]] LocatedScan locate(const Points& points) const {
+        LocatedScan scan;
+        to_voxels(points, kSize, scan.in_map);
+        for (const VoxelKey key : scan.in_map.keys) {
+            scan.voxels.push_back(grid.voxels().find(key).value_or(kNoVoxel));
+        }
+        return scan;
+    }
+};
+
+Verdict decide(const Map& map, const std::vector<VoxelDecision>& decided, const Points& points) {
+    Verdict verdict{0, Labels(points.size(), Label::unknown),
+                    std::vector<float>(points.size(), -1.0F)};
+    decide_points(map.locate(points), decided, map.grid, config, verdict);
+    return verdict;
+}
+
+/// Ground of 7 x 7 voxels at z = 0.1, and a leg that stands on the one in its middle.
+struct Street {
+    Map map;
+    PointVoxels ground, leg;
+
+    Street() {
+        Points points;
+        for (int x = -3; x <= 3; ++x) {
+            for (int y = -3; y <= 3; ++y) points.push_back(middle(x, y, 0));
+        }
+        for (int z = 1; z <= 5; ++z) points.push_back(middle(0, 0, z));
+        PointVoxels voxels = map.add(points);
+        leg.assign(voxels.begin() + 49, voxels.end());
+        ground.assign(voxels.begin(), voxels.begin() + 49);
+        for (const std::uint32_t v : ground) map.see(v, Sight::occupied, 40);
+        for (const std::uint32_t v : leg) map.see(v, Sight::passed, 40);
+    }
+};
+
+TEST(DecideVoxels, GroundIsStaticTheLegIsDynamicAndTheyMeetAtASurface) {
+    const Street street;
+    const auto decided = decide_voxels(street.map.grid, config);
+    ASSERT_EQ(decided.size(), 54U);
+    for (std::size_t i = 0; i < street.ground.size(); ++i) {
+        const VoxelDecision& d = decided[street.ground[i]];
+        const int x = static_cast<int>(i) / 7 - 3, y = static_cast<int>(i) % 7 - 3;
+        EXPECT_GT(d.probability.value(), 0.5F);
+        // Only the leg's lowest voxel and those beside it touch the leg.
+        EXPECT_EQ(d.contact.has_value(), std::max(std::abs(x), std::abs(y)) <= 1) << x << ' ' << y;
+        if (!d.contact) continue;
+        EXPECT_NEAR(d.contact->height({0.3F, -0.2F, 0.1F + 0.07F}), 0.07F, 1e-3);
+        EXPECT_NEAR(d.contact->roughness, 0.0F, 1e-3);
+    }
+    for (const std::uint32_t v : street.leg) {
+        EXPECT_LT(decided[v].probability.value(), 0.5F);
+        EXPECT_FALSE(decided[v].contact);
+    }
+}
+
+TEST(DecideVoxels, AVoxelThatNobodyObservedIsUnknown) {
+    Map map;
+    map.add({middle(0, 0, 0), middle(50, 0, 0)});
+    map.see(0, Sight::occupied, 10);
+    const auto decided = decide_voxels(map.grid, config);
+    EXPECT_TRUE(decided[0].probability);
+    EXPECT_FALSE(decided[1].probability);
+}
+
+TEST(DecidePoints, AFootIsDynamicOnlyAboveTheSurfaceAndOnlyWhileTheLegIsThere) {
+    const Street street;
+    const auto decided = decide_voxels(street.map.grid, config);
+    const auto height = static_cast<float>(config.scans.contact.height);
+    const Point leg = middle(0, 0, 1);
+    const Points points{leg,
+                        {0.1F, 0.1F, 0.1F + height + 0.005F},  // the foot
+                        {0.1F, 0.1F, 0.1F + height - 0.005F},  // the ground under it
+                        {0.7F, 0.1F, 0.1F + height + 0.005F},  // three voxels away
+                        {9.0F, 9.0F, 9.0F}};                   // in no voxel
+    const Verdict with_leg = decide(street.map, decided, points);
+    EXPECT_EQ(with_leg.labels, (Labels{Label::dynamic, Label::dynamic, Label::static_,
+                                       Label::static_, Label::unknown}));
+    EXPECT_LT(with_leg.probability[0], 0.5F);
+    EXPECT_GT(with_leg.probability[1], 0.5F);  // that of its voxel
+    EXPECT_EQ(with_leg.probability[4], -1.0F);
+    const Verdict without = decide(street.map, decided, {points[1], points[2]});
+    EXPECT_EQ(without.labels, (Labels{Label::static_, Label::static_}));
+}
+
+TEST(DecidePoints, OnARoughSurfaceAPointMustBeHigher) {
+    Map map;
+    map.add({middle(0, 0, 0), middle(0, 0, 2)});
+    const auto roughness = static_cast<float>(config.scans.contact.roughness);
+    const ContactSurface rough{Point::UnitZ(), 0.0F, 0.03F};
+    const std::vector<VoxelDecision> decided{{0.9F, rough}, {0.1F, {}}};
+    const auto label_at = [&](float height, const Point& leg) {
+        return decide(map, decided, {{0.1F, 0.1F, height}, leg}).labels[0];
+    };
+    const Point leg = middle(0, 0, 2);
+    EXPECT_EQ(label_at(roughness * 0.03F + 0.002F, leg), Label::dynamic);  // two cells away
+    EXPECT_EQ(label_at(roughness * 0.03F - 0.002F, leg), Label::static_);
+    EXPECT_EQ(label_at(0.19F, middle(0, 0, 4)), Label::static_);
+}
+
+TEST(DecidePoints, VoxelsThatCameAfterTheDecisionAreLeftOut) {
+    Map map;
+    map.add({middle(0, 0, 0), middle(5, 0, 0)});
+    const Verdict verdict = decide(map, {{0.5F, {}}}, {middle(0, 0, 0), middle(5, 0, 0)});
+    EXPECT_EQ(verdict.labels, (Labels{Label::static_, Label::unknown}));
+    EXPECT_EQ(decide(map, {{std::nullopt, {}}}, {middle(0, 0, 0)}).probability[0], 0.0F);
+}
+
+/// A car that parked: seen through first, then hit by the scans from number `first` to `last`.
+Map parked(int first, int last) {
+    Map map;
+    map.add({middle(0, 0, 0)});
+    map.see(0, Sight::passed);
+    for (int scan = 1; scan <= last; ++scan) {
+        map.add({scan >= first ? middle(0, 0, 0) : middle(50, 0, 0)});
+        map.see(0, scan >= first ? Sight::occupied : Sight::passed);
+    }
+    return map;
+}
+
+TEST(OccupiedSince, BeginsWithTheLastRunIfThatIsLongEnough) {
+    const int longest = config.scans.evidence.longest_run;
+    const std::vector<VoxelDecision> dynamic{{0.1F, {}}, {0.9F, {}}};
+    const auto since = [&](const Map& map) { return occupied_since(dynamic, map.grid, config)[0]; };
+    EXPECT_EQ(since(parked(7, 6 + longest)), 7U);
+    EXPECT_EQ(since(parked(7, 90)), 7U);
+    EXPECT_FALSE(since(parked(7, 5 + longest)));
+    // Keyframes see the place occupied, but too few scans have points in the voxel itself.
+    Map beside = parked(7, 5 + longest);
+    beside.see(0, Sight::occupied, 5);
+    EXPECT_FALSE(since(beside));
+    // It has left.
+    Map left = parked(7, 90);
+    left.see(0, Sight::weak_free);
+    EXPECT_FALSE(since(left));
+    Map empty = parked(7, 90);
+    empty.see(0, Sight::free);
+    empty.see(0, Sight::occupied, longest);
+    EXPECT_FALSE(since(empty));  // no point since it was seen empty
+    // A static voxel was always there, and an unknown one is no object.
+    EXPECT_FALSE(occupied_since({{0.9F, {}}}, parked(7, 90).grid, config)[0]);
+    EXPECT_FALSE(occupied_since({{std::nullopt, {}}}, parked(7, 90).grid, config)[0]);
+}
+
+}  // namespace final_map_test
+}  // namespace dynamic_filter

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT
+#include "filter/instances.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace dynamic_filter {
+namespace instances_test {
+
+/// Ground 1.8 m below the sensor, a bench, and a person at `x` who may walk into it.
+struct Glance {
+    Scan scan;
+    std::vector<bool> person, bench;
+
+    explicit Glance(double stamp) {
+        scan.stamp = stamp;
+        for (float u = -8.0F; u < 8.0F; u += 0.4F) {
+            for (float v = -8.0F; v < 8.0F; v += 0.4F) add({u, v, -1.8F});
+        }
+    }
+    Glance(double stamp, float x) : Glance(stamp) {
+        add_box({5.0F, 3.0F, -1.8F}, {6.5F, 3.4F, -1.0F}, bench);
+        add_box({x, 3.05F, -1.8F}, {x + 0.5F, 3.45F, -0.1F}, person);
+    }
+    void add(const Point& p) {
+        scan.points.push_back(p);
+        person.push_back(false);
+        bench.push_back(false);
+    }
+    void add_box(const Point& low, const Point& high, std::vector<bool>& kind) {
+        for (float x = low.x(); x <= high.x(); x += 0.1F) {
+            for (float y = low.y(); y <= high.y(); y += 0.1F) {
+                for (float z = low.z(); z <= high.z(); z += 0.1F) {
+                    add({x, y, z});
+                    kind.back() = true;
+                }
+            }
+        }
+    }
+};
+
+struct Followed {
+    EvidenceGrid grid{0.2F, ScansConfig{}.evidence};
+    Instances instances{ScansConfig{}.instances};
+    PointVoxels voxels;
+    Labels labels;
+
+    /// The instant verdicts call the person dynamic, or not.
+    void see(const Glance& sight, bool person_is_dynamic) {
+        voxels = grid.add_points(sight.scan);
+        labels.assign(sight.scan.points.size(), Label::static_);
+        for (std::size_t i = 0; i < labels.size(); ++i) {
+            if (sight.person[i] && person_is_dynamic) labels[i] = Label::dynamic;
+        }
+        instances.update(sight.scan, voxels, grid, labels);
+    }
+    /// The least and the greatest share of scans in which voxels of the points moved.
+    [[nodiscard]] std::pair<float, float> moved(const Glance& sight,
+                                                const std::vector<bool>& of) const {
+        float least = 1.0F, most = 0.0F;
+        for (std::size_t i = 0; i < of.size(); ++i) {
+            if (!of[i] || sight.scan.points[i].z() < -1.3F) continue;
+            const Evidence& e = grid[voxels[i]].evidence;
+            const float share = static_cast<float>(e.moved) / static_cast<float>(e.n_own);
+            least = std::min(least, share);
+            most = std::max(most, share);
+        }
+        return {least, most};
+    }
+};
+
+std::ptrdiff_t dynamic_points(const Followed& f, const std::vector<bool>& of) {
+    std::ptrdiff_t count = 0;
+    for (std::size_t i = 0; i < of.size(); ++i) count += of[i] && f.labels[i] == Label::dynamic;
+    return count;
+}
+
+TEST(Instances, WhoWasSeenToComeIsDynamicWhileAtRest) {
+    Followed f;
+    for (int i = 0; i < 8; ++i) f.see({0.2 * i, -4.0F + 0.3F * static_cast<float>(i)}, true);
+    for (int i = 8; i < 60; ++i) f.see({0.2 * i, -1.9F}, false);
+    const Glance last(12.0, -1.9F);
+    f.see(last, false);
+    EXPECT_GT(10 * dynamic_points(f, last.person),
+              8 * std::count(last.person.begin(), last.person.end(), true));
+    EXPECT_EQ(dynamic_points(f, last.bench), 0);
+    EXPECT_GT(f.moved(last, last.person).first, 0.9F);
+    EXPECT_EQ(f.moved(last, last.bench).second, 0.0F);
+}
+
+TEST(Instances, WhoLeavesWasDynamicBefore) {
+    Followed f;
+    for (int i = 0; i < 10; ++i) f.see({0.2 * i, -4.0F}, false);
+    const Glance there(2.0, -4.0F);
+    f.see(there, false);
+    const PointVoxels resting = f.voxels;
+    for (int i = 11; i < 20; ++i) f.see({0.2 * i, -4.0F + 0.3F * static_cast<float>(i - 10)}, true);
+    f.voxels = resting;
+    EXPECT_GT(f.moved(there, there.person).first, 0.7F);
+    EXPECT_LE(f.moved(there, there.person).second, 1.0F);
+}
+
+TEST(Instances, WhatOnlyFlickersWhereItIsDoesNotMove) {
+    Followed f;
+    for (int i = 0; i < 30; ++i) f.see({0.2 * i, -4.0F}, true);
+    const Glance last(6.0, -4.0F);
+    f.see(last, true);
+    EXPECT_EQ(f.moved(last, last.person).second, 0.0F);
+}
+
+// They are one cluster for a while; the bench was there before.
+TEST(Instances, ABenchThatAPersonBrushesStaysStatic) {
+    Followed f;
+    float x = 1.0F;
+    for (int i = 0; i < 50; ++i, x += 0.2F) f.see({0.2 * i, x}, true);
+    const Glance last(10.0, x);
+    f.see(last, true);
+    EXPECT_EQ(dynamic_points(f, last.bench), 0);
+    EXPECT_LT(f.moved(last, last.bench).second, 0.5F);
+}
+
+TEST(Instances, SurviveThatVoxelsAreForgotten) {
+    Followed whole, cut;
+    const auto walk = [](int i) { return -4.0F + 0.3F * static_cast<float>(i); };
+    for (int i = 0; i < 2; ++i) {  // not yet known to move
+        whole.see({0.2 * i, walk(i)}, true);
+        cut.see({0.2 * i, walk(i)}, true);
+    }
+    cut.instances.keep(cut.grid.keep_within(Point(-3.0F, 3.0F, -1.0F), 5.0F, SIZE_MAX));
+    EXPECT_LT(cut.grid.size(), whole.grid.size());
+    for (int i = 2; i < 9; ++i) {
+        whole.see({0.2 * i, walk(i)}, true);
+        cut.see({0.2 * i, walk(i)}, true);
+    }
+    const auto moved = [](const Followed& f) {
+        std::vector<std::pair<VoxelKey, int>> all;
+        for (std::uint32_t v = 0; v < f.grid.size(); ++v) {
+            if (f.grid[v].evidence.moved == 0) continue;
+            all.emplace_back(f.grid.voxels().key(v), f.grid[v].evidence.moved);
+        }
+        std::sort(all.begin(), all.end());
+        return all;
+    };
+    EXPECT_GT(moved(whole).size(), 100U);
+    EXPECT_EQ(moved(cut), moved(whole));
+}
+
+/// Share of the points that are dynamic.
+double dynamic_share(const Followed& f, const std::vector<bool>& of) {
+    return static_cast<double>(dynamic_points(f, of)) /
+           static_cast<double>(std::count(of.begin(), of.end(), true));
+}
+
+TEST(Instances, AScanThatFollowsTooSoonIsLeftAsItIs) {
+    Followed f;
+    for (int i = 0; i < 8; ++i) f.see({0.2 * i, -4.0F + 0.3F * static_cast<float>(i)}, true);
+    const Glance too_soon(1.5, -1.9F), in_time(1.6, -1.9F);
+    f.see(too_soon, false);
+    EXPECT_EQ(dynamic_points(f, too_soon.person), 0);
+    f.see(in_time, false);
+    EXPECT_GT(dynamic_share(f, in_time.person), 0.8);
+}
+
+TEST(Instances, AFewDynamicVoxelsDoNotMakeATrackMove) {
+    Followed f;
+    for (int i = 0; i < 30; ++i) {
+        Glance sight(0.2 * i);
+        const float x = -4.0F + 0.2F * static_cast<float>(i);
+        sight.add_box({x, 3.05F, -1.5F}, {x + 0.5F, 3.45F, -0.5F}, sight.bench);
+        sight.add_box({x, 3.05F, -0.4F}, {x + 0.5F, 3.45F, -0.1F}, sight.person);  // its head
+        f.see(sight, true);
+        EXPECT_EQ(dynamic_points(f, sight.bench), 0) << i;
+    }
+}
+
+/// A van that drives by the steps [m], one every 0.2 s, and stands after the last of them.
+Glance van(int scan, const std::vector<float>& steps) {
+    float x = -6.0F;
+    for (int i = 0; i < scan && i < static_cast<int>(steps.size()); ++i) {
+        x += steps[static_cast<std::size_t>(i)];
+    }
+    Glance sight(0.2 * scan);
+    sight.add_box({x, 3.0F, -1.8F}, {x + 3.5F, 4.6F, -0.2F}, sight.person);
+    return sight;
+}
+
+// It goes farther in a scan than a center may jump; only its speed tells where to expect it. Then
+// it stops at once, and only its last place fits.
+TEST(Instances, AVanIsFollowedAsItSpeedsUpAndAsItStops) {
+    const std::vector<float> steps{0.5F, 0.7F, 0.9F, 1.1F, 1.2F, 1.2F, 1.2F, 1.2F};
+    Followed f;
+    for (int i = 0; i <= 8; ++i) f.see(van(i, steps), true);
+    for (int i = 9; i < 30; ++i) f.see(van(i, steps), false);
+    EXPECT_GT(dynamic_share(f, van(29, steps).person), 0.8);
+}
+
+// Without the first steps there is no speed, and each scan begins a track of its own.
+TEST(Instances, WhatJumpsIsNotFollowed) {
+    const std::vector<float> steps(6, 1.2F);
+    Followed f;
+    for (int i = 0; i <= 6; ++i) f.see(van(i, steps), true);
+    for (int i = 7; i < 20; ++i) f.see(van(i, steps), false);
+    EXPECT_EQ(dynamic_share(f, van(19, steps).person), 0.0);
+}
+
+/// Something of 3 voxels, or of 12, with a point in the middle of each.
+Glance few_voxels(double stamp, int step, bool is_large) {
+    Glance sight(stamp);
+    for (const int x : {0, 1, 2}) {
+        for (const int y : {0, 1}) {
+            for (const int z : {0, 1}) {
+                if (!is_large && (y == 1 || z == 1)) continue;
+                const Cell cell(step - 20 + x, 10 + y, z - 5);
+                const Point p = (cell.cast<float>().array() + 0.5F) * 0.2F;
+                sight.add_box(p, p, sight.person);
+            }
+        }
+    }
+    return sight;
+}
+
+TEST(Instances, SmallObjectsMayChangeTheirSizeByTheToleranceToo) {
+    Followed f;
+    for (int i = 0; i < 10; ++i) f.see(few_voxels(0.2 * i, i, i % 2 == 0), true);
+    for (int i = 10; i < 30; ++i) f.see(few_voxels(0.2 * i, 9, false), false);
+    EXPECT_EQ(dynamic_share(f, few_voxels(0, 9, false).person), 1.0);
+}
+
+// A bag is left behind where the track was; the person takes the track along.
+TEST(Instances, TheClusterThatSharesMostContinuesTheTrack) {
+    const auto sight_of = [](int i) {
+        Glance sight(0.2 * i);
+        const float x = -6.0F + 0.4F * static_cast<float>(std::min(i, 10));
+        sight.add_box({x, 3.05F, -1.8F}, {x + 0.5F, 3.45F, -0.1F}, sight.person);
+        if (i >= 10) sight.add_box({-2.9F, 3.05F, -1.5F}, {-2.7F, 3.45F, -0.5F}, sight.bench);
+        return sight;
+    };
+    Followed f;
+    for (int i = 0; i < 11; ++i) f.see(sight_of(i), true);
+    for (int i = 11; i < 30; ++i) f.see(sight_of(i), false);
+    EXPECT_GT(dynamic_share(f, sight_of(29).person), 0.8);
+    EXPECT_EQ(dynamic_share(f, sight_of(29).bench), 0.0);
+}
+
+}  // namespace instances_test
+}  // namespace dynamic_filter

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include "dynamic_filter/poses.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace dynamic_filter::io {
+namespace pose_fix_test {
+
+TEST(PoseFix, EachHasAName) {
+    std::set<std::string> names{to_string(PoseFix::none)};
+    for (const PoseFix fix : pose_fixes()) names.insert(to_string(fix));
+    EXPECT_EQ(names,
+              (std::set<std::string>{"none", "inverse", "camera", "lidar", "wxyz", "xyzw", "mm"}));
+}
+
+TEST(PoseFix, EachUndoesItsMistake) {
+    const Pose pose = Pose(Eigen::Translation3d(1, 2, 3)) *
+                      Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, -1).normalized());
+    Pose millimetres = pose;
+    millimetres.translation() *= 1000.0;
+    EXPECT_TRUE(fixed(PoseFix::millimetres, millimetres).isApprox(pose, 1e-12));
+    EXPECT_TRUE(fixed(PoseFix::inverse, pose.inverse()).isApprox(pose, 1e-12));
+    EXPECT_TRUE(fixed(PoseFix::camera, fixed(PoseFix::lidar, pose)).isApprox(pose, 1e-12));
+    EXPECT_TRUE(fixed(PoseFix::wxyz, fixed(PoseFix::xyzw, pose)).isApprox(pose, 1e-12));
+    EXPECT_TRUE(fixed(PoseFix::none, pose).isApprox(pose, 0.0));
+}
+
+/// Ahead, z for a camera, is x for a LiDAR.
+TEST(PoseFix, ACameraLooksAhead) {
+    const Pose ahead = fixed(PoseFix::camera, Pose(Eigen::Translation3d(0, 0, 1)));
+    EXPECT_TRUE(ahead.translation().isApprox(Eigen::Vector3d::UnitX(), 1e-12));
+}
+
+}  // namespace pose_fix_test
+}  // namespace dynamic_filter::io

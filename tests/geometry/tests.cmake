@@ -1,0 +1,5 @@
+df_room(geometry LIBRARIES dynamic_filter)
+# Which kernels exist.
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  target_compile_definitions(geometry_test PRIVATE DYNAMIC_FILTER_X86_LEVELS)
+endif()

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "online/scan_queue.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace dynamic_filter {
+namespace scan_queue_test {
+
+Scan scan(double stamp, double x = 0.0, std::size_t index = 0) {
+    Scan s{{Point(1, 0, 0)}, Pose::Identity(), stamp, index};
+    s.T_world_sensor.translation().x() = x;
+    return s;
+}
+
+void add(ScanQueue& queue, const Scan& s) {
+    ASSERT_FALSE(queue.refusal(s)) << s.stamp;
+    queue.add({.scan = s, .reply = nullptr});
+}
+
+std::optional<NoticeKind> refused(const ScanQueue& queue, const Scan& s) {
+    const auto notice = queue.refusal(s);
+    return notice ? std::optional(notice->kind) : std::nullopt;
+}
+
+TEST(ScanQueue, GivesScansInTheOrderOfTheirStamps) {
+    ScanQueue queue;
+    for (const double stamp : {0.3, 0.1, 0.4, 0.2}) add(queue, scan(stamp));
+    for (const double stamp : {0.1, 0.2, 0.3, 0.4}) EXPECT_EQ(queue.take().scan.stamp, stamp);
+}
+
+TEST(ScanQueue, WhatIsOlderThanAScanInWorkIsLate) {
+    ScanQueue queue;
+    add(queue, scan(0.2));
+    queue.take();
+    EXPECT_EQ(refused(queue, scan(0.1)), NoticeKind::late);
+    EXPECT_FALSE(refused(queue, scan(0.3)));
+}
+
+TEST(ScanQueue, ADroppedScanMakesNothingLate) {
+    ScanQueue queue;
+    add(queue, scan(0.2));
+    queue.drop();
+    EXPECT_FALSE(refused(queue, scan(0.1)));
+}
+
+TEST(ScanQueue, TheSameStampTwiceIsADuplicateButForAnotherSensor) {
+    ScanQueue queue;
+    add(queue, scan(0.1));
+    EXPECT_EQ(refused(queue, scan(0.1)), NoticeKind::duplicate);
+    add(queue, scan(0.1, 0.5));  // another pose at the same time: another sensor
+    queue.take();
+    EXPECT_EQ(refused(queue, scan(0.1)), NoticeKind::duplicate);
+    queue.take();
+    EXPECT_EQ(refused(queue, scan(0.1, 0.5)), NoticeKind::duplicate);
+}
+
+TEST(ScanQueue, StampsThatGoBackByMoreThanASecondBeginAnew) {
+    ScanQueue queue;
+    add(queue, scan(100.0));
+    add(queue, scan(100.1));
+    add(queue, scan(3.0));
+    add(queue, scan(3.1));
+    const QueuedScan first = queue.take();
+    EXPECT_EQ(first.scan.stamp, 100.0);
+    EXPECT_EQ(queue.take().run, first.run);
+    const QueuedScan anew = queue.take();
+    EXPECT_EQ(anew.scan.stamp, 3.0);
+    EXPECT_EQ(anew.run, first.run + 1);
+    EXPECT_EQ(queue.take().run, anew.run);
+    EXPECT_EQ(refused(queue, scan(3.05)), NoticeKind::late);
+}
+
+TEST(ScanQueue, RefusesWhatIsNoPoseOrNoTime) {
+    const ScanQueue queue;
+    EXPECT_EQ(refused(queue, scan(std::nan(""))), NoticeKind::invalid);
+    EXPECT_EQ(refused(queue, scan(INFINITY)), NoticeKind::invalid);
+    EXPECT_EQ(refused(queue, scan(0.0, std::nan(""))), NoticeKind::invalid);
+    Scan scaled = scan(0.0);
+    scaled.T_world_sensor.linear() *= 1.1;
+    EXPECT_EQ(refused(queue, scaled), NoticeKind::invalid);
+    Scan mirrored = scan(0.0);
+    mirrored.T_world_sensor.linear()(0, 0) = -1.0;
+    EXPECT_EQ(refused(queue, mirrored), NoticeKind::invalid);
+}
+
+}  // namespace scan_queue_test
+}  // namespace dynamic_filter

@@ -1,0 +1,1 @@
+df_room(online LIBRARIES dynamic_filter)

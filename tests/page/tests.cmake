@@ -1,0 +1,1 @@
+df_room(page LIBRARIES dynamic_filter_app)

@@ -1,0 +1,1 @@
+df_room(paper LIBRARIES dynamic_filter)

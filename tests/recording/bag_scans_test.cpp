@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: MIT
+#include "recording/bag_scans.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "dynamic_filter/bag.hpp"
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/writers.hpp"
+#include "support/recording.hpp"
+
+namespace dynamic_filter::io {
+namespace bag_scans_test {
+
+Pose moved(double x, double y = 0.0, double z = 0.0) { return Pose(Eigen::Translation3d(x, y, z)); }
+
+/// A bag that a test fills; scans of two points, (5 + i, 0, 0) and (0, 5, 0).
+class BagScansTest : public Recording {
+protected:
+    static constexpr double kStart = 1000.0;  // [s]
+    static double stamp(std::size_t i) { return kStart + 0.1 * static_cast<double>(i); }
+
+    void scans(std::size_t count, const std::string& frame, const std::string& topic = "/points",
+               double shift = 0.0) {
+        for (std::size_t i = 0; i < count; ++i) scan(i, frame, topic, stamp(i) + shift);
+    }
+    void scan(std::size_t i, const std::string& frame, const std::string& topic, double at) {
+        Cloud cloud;
+        for (const char* axis : {"x", "y", "z", "time"}) add_field(cloud, axis, FieldType::f32);
+        const std::string bytes =
+            floats({5.0F + static_cast<float>(i), 0, 0, 0.0F, 0, 5, 0, 0.05F});
+        const auto raw = std::as_bytes(std::span(bytes));
+        cloud.data.assign(raw.begin(), raw.end());
+        write(topic, "sensor_msgs/PointCloud2", at,
+              cloud_message(cloud, at, frame, MessageEncoding::cdr));
+    }
+    void transform(const std::string& parent, const std::string& child, const Pose& pose, double at,
+                   const std::string& topic = "/tf") {
+        write(topic, "tf2_msgs/TFMessage", at,
+              transform_message(parent, child, pose, at, MessageEncoding::cdr));
+    }
+    void odometry(const std::string& parent, const std::string& child, const Pose& pose, double at,
+                  const std::string& topic = "/odom") {
+        write(topic, "nav_msgs/Odometry", at,
+              odometry_message(parent, child, pose, at, MessageEncoding::cdr));
+    }
+    /// Odometry every 50 ms, 1 m a second along x.
+    void drive(const std::string& parent, const std::string& child, double from = -1.0,
+               double to = 2.0) {
+        for (double t = from; t < to; t += 0.05) odometry(parent, child, moved(t), kStart + t);
+    }
+    void write(const std::string& topic, const std::string& type, double at,
+               const std::vector<std::byte>& message) {
+        writer_->write({topic, type, MessageEncoding::cdr}, to_nanoseconds(at), message);
+    }
+    Sequence opened(const OpenOptions& options = {}) {
+        if (writer_) writer_->commit();
+        writer_.reset();
+        return open_sequence(data / "a.mcap", options);
+    }
+    template <class E = InputError>
+    std::string failure(const OpenOptions& options = {}) {
+        return error_of<E>([&] { (void)opened(options); });
+    }
+    std::unique_ptr<BagWriter> writer_ = BagWriter::create(data / "a.mcap");
+};
+
+TEST_F(BagScansTest, PosesComeThroughTheFramesAtTheStampOfTheScan) {
+    scans(5, "lidar");
+    transform("base", "lidar", moved(0, 0, 1.5), kStart, "/tf_static");
+    transform("map", "odom", moved(100, 0, 0), kStart - 1.0);
+    transform("map", "odom", moved(100, 0, 0), kStart + 2.0);
+    transform("map", "odom", moved(100, 0, 0), kStart + 0.5);
+    for (double t = -0.93; t < 2.0; t += 0.07) transform("odom", "base", moved(t), kStart + t);
+    transform("map", "odom", moved(100, 0, 0), kStart - 0.2);
+    const Sequence sequence = opened();
+    EXPECT_EQ(sequence.format, Format::bag);
+    ASSERT_EQ(sequence.size(), 5U);
+    EXPECT_TRUE(has_note(sequence, "'lidar' in 'map'"));
+    for (std::size_t i = 0; i < 5; ++i) {
+        const Frame frame = read_frame(sequence, i);
+        EXPECT_NEAR(frame.stamp, stamp(i), 1e-6);
+        const Eigen::Vector3d expected(100.0 + 0.1 * static_cast<double>(i), 0, 1.5);
+        EXPECT_TRUE(frame.T_world_sensor.translation().isApprox(expected, 1e-6));
+        EXPECT_FLOAT_EQ(frame.points[0].x(), 5.0F + static_cast<float>(i));
+        EXPECT_EQ(stem(sequence, i), "00000" + std::to_string(i));
+    }
+}
+
+TEST_F(BagScansTest, OdometryReachesTheSensorByTheFrames) {
+    scans(3, "lidar");
+    transform("base", "lidar", moved(0, 0.5, 0), kStart, "/tf_static");
+    drive("odom", "base");
+    const Sequence sequence = opened();
+    EXPECT_TRUE(has_note(sequence, "'base' to 'lidar' by /tf"));
+    const Eigen::Vector3d expected(0.2, 0.5, 0);
+    EXPECT_TRUE(read_frame(sequence, 2).T_world_sensor.translation().isApprox(expected, 1e-6));
+}
+
+TEST_F(BagScansTest, FramesThatNothingLinksAreTakenForTheSameAndThatIsSaid) {
+    scans(3, "lidar");
+    drive("odom", "base");
+    const Sequence sequence = opened();
+    EXPECT_TRUE(has_note(sequence, "no transform links"));
+    EXPECT_NEAR(read_frame(sequence, 2).T_world_sensor.translation().x(), 0.2, 1e-6);
+}
+
+TEST_F(BagScansTest, PointsInTheFrameOfTheOdometryAreTakenBack) {
+    scans(3, "camera_init");
+    drive("camera_init", "body");
+    const Sequence sequence = opened();
+    EXPECT_TRUE(sequence.points_in_world);
+    const Frame frame = read_frame(sequence, 2);
+    EXPECT_NEAR(frame.T_world_sensor.translation().x(), 0.2, 1e-6);
+    EXPECT_NEAR(frame.points[0].x(), 7.0 - 0.2, 1e-5);
+}
+
+TEST_F(BagScansTest, TopicsToChooseFromAreNamed) {
+    scans(2, "lidar", "/front");
+    scans(3, "lidar", "/rear");
+    drive("odom", "lidar");
+    EXPECT_HAS(failure<ConfigError>(), "/front (2 scans), /rear (3 scans)");
+    OpenOptions options;
+    options.topic = "/rear";
+    EXPECT_EQ(opened(options).size(), 3U);
+    options.topic = "/side";
+    EXPECT_HAS(failure<ConfigError>(options), "there are: /front, /rear");
+    options.topic = "/rear";
+    options.pose_topic = "/pose";
+    EXPECT_HAS(failure<ConfigError>(options), "there are: /odom");
+}
+
+TEST_F(BagScansTest, WhatConvertSplitIsNoChoice) {
+    for (const char* topic : {"/points", "/points_static", "/points_dynamic", "/static_map"}) {
+        scans(2, "lidar", topic);
+    }
+    drive("odom", "lidar");
+    EXPECT_TRUE(has_note(opened(), "scans from /points"));
+}
+
+TEST_F(BagScansTest, PosesMayComeFromAFile) {
+    scans(5, "lidar");
+    OpenOptions options;
+    options.poses = data.put("poses.tum", tum_rows(30, kStart - 1.0));  // 1 m in 0.2 s
+    const Sequence sequence = opened(options);
+    EXPECT_NEAR(read_frame(sequence, 3).T_world_sensor.translation().x(), 5.0 + 1.5, 1e-6);
+    options.poses = data.put("five.txt", kitti_rows(5));
+    EXPECT_EQ(read_frame(opened(options), 3).T_world_sensor.translation().x(), 3.0);
+    options.poses = data.put("four.txt", kitti_rows(4));
+    EXPECT_HAS(failure(options), "4 poses without stamps for 5 scans");
+    options.poses = data.put("other.tum", tum_rows(30, 5e5));
+    EXPECT_HAS(failure(options), "another clock");
+    options.poses.reset();
+    EXPECT_FALSE(opened(options).has_poses);
+    EXPECT_TRUE(has_note(opened(options), "no poses of the frame 'lidar'"));
+}
+
+TEST_F(BagScansTest, ScansBeyondThePosesAreRejectedOneByOne) {
+    scans(5, "lidar");
+    drive("odom", "lidar", -1.0, 0.05);
+    const Sequence sequence = opened();
+    EXPECT_EQ(sequence.size(), 5U);
+    EXPECT_FLOAT_EQ(read_frame(sequence, 0).points.at(0).x(), 5.0F);
+    EXPECT_HAS(error_of([&] { (void)read_frame(sequence, 4); }), "no pose is known at its time");
+}
+
+TEST_F(BagScansTest, ScansThatCannotBeReadAreLossesAndOtherMessagesAreNot) {
+    scans(2, "lidar");
+    drive("odom", "lidar");
+    write("/odom", "nav_msgs/Odometry", stamp(0), std::vector<std::byte>(3));
+    EXPECT_TRUE(opened().losses.empty());
+    EXPECT_TRUE(has_note(opened(), "1 messages cannot be read"));
+    writer_ = BagWriter::create(data / "a.mcap");
+    scans(2, "lidar");
+    drive("odom", "lidar");
+    write("/points", "sensor_msgs/PointCloud2", stamp(2), std::vector<std::byte>(3));
+    ASSERT_EQ(opened().losses.size(), 1U);
+    EXPECT_HAS(opened().losses[0], "the first is of /points");
+}
+
+TEST_F(BagScansTest, ScansAreInTheOrderOfTheirStamps) {
+    for (const std::size_t i : {2U, 0U, 1U, 3U}) scan(i, "lidar", "/points", stamp(i));
+    drive("odom", "lidar");
+    OpenOptions options;
+    options.first = 1;
+    options.stride = 2;
+    const Sequence sequence = opened(options);
+    ASSERT_EQ(sequence.size(), 2U);
+    EXPECT_FLOAT_EQ(read_frame(sequence, 0).points[0].x(), 6.0F);
+    EXPECT_FLOAT_EQ(read_frame(sequence, 1).points[0].x(), 8.0F);
+    EXPECT_EQ(stem(sequence, 1), "000003");
+}
+
+TEST_F(BagScansTest, MessagesThatAreNoneAreCountedAndTheOthersGoOn) {
+    scans(3, "lidar");
+    write("/points", "sensor_msgs/PointCloud2", stamp(3), std::vector<std::byte>(7));
+    write("/odom", "nav_msgs/Odometry", stamp(3), {});
+    Cloud cloud;
+    for (const char* axis : {"x", "y", "z"}) add_field(cloud, axis, FieldType::f32);
+    cloud.data.resize(4 * cloud.point_bytes);
+    auto cut = cloud_message(cloud, stamp(3), "lidar", MessageEncoding::cdr);
+    cut.resize(cut.size() - 20);
+    write("/points", "sensor_msgs/PointCloud2", stamp(3), cut);
+    drive("odom", "lidar");
+    const Sequence sequence = opened();
+    ASSERT_EQ(sequence.losses.size(), 1U);
+    EXPECT_HAS(sequence.losses[0],
+               "2 messages cannot be read and are left out; the first is of /p");
+    ASSERT_EQ(sequence.size(), 4U);
+    EXPECT_FLOAT_EQ(read_frame(sequence, 2).points.at(0).x(), 7.0F);
+    EXPECT_HAS(error_of([&] { (void)read_frame(sequence, 3); }), "a.mcap (scan 3 of /points)");
+}
+
+TEST_F(BagScansTest, HeadersWithoutStampsHaveTheTimeOfRecording) {
+    Cloud cloud;
+    for (const char* axis : {"x", "y", "z"}) add_field(cloud, axis, FieldType::f32);
+    cloud.data.resize(cloud.point_bytes);
+    for (std::size_t i = 0; i < 3; ++i) {
+        write("/points", "sensor_msgs/PointCloud2", stamp(i),
+              cloud_message(cloud, 0.0, "lidar", MessageEncoding::cdr));
+    }
+    drive("odom", "lidar");
+    const Sequence sequence = opened();
+    EXPECT_TRUE(has_note(sequence, "times of recording"));
+    EXPECT_NEAR(sequence.stamps[2], stamp(2), 1e-6);
+}
+
+TEST_F(BagScansTest, OfSeveralPosesTheFirstIsTakenAndThatIsSaid) {
+    scans(3, "lidar");
+    drive("odom", "lidar");
+    odometry("map", "lidar", moved(9), kStart, "/slam");
+    EXPECT_TRUE(has_note(opened(), "(of /odom, /slam; choose with --pose-topic)"));
+}
+
+TEST_F(BagScansTest, MotionIsUndoneWhenAsked) {
+    scans(3, "lidar");
+    drive("odom", "lidar");
+    OpenOptions options;
+    options.deskew = true;
+    const Sequence sequence = opened(options);
+    EXPECT_TRUE(sequence.deskew);
+    // The second point was measured 50 ms later, 5 cm farther along x.
+    EXPECT_NEAR(read_frame(sequence, 1).points[1].x(), 0.05, 1e-4);
+    EXPECT_NEAR(read_frame(sequence, 1).points[0].x(), 6.0, 1e-4);
+}
+
+TEST_F(BagScansTest, ABagWithoutScansSaysWhatWasLookedFor) {
+    drive("odom", "lidar");
+    EXPECT_HAS(failure(), "holds no point clouds");
+}
+
+}  // namespace bag_scans_test
+}  // namespace dynamic_filter::io

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "recording/frame_tree.hpp"
+
+#include "support/bytes.hpp"
+#include "support/random.hpp"
+
+namespace dynamic_filter::io {
+namespace frame_tree_test {
+
+Pose along(double x) { return Pose(Eigen::Translation3d(x, 0, 0)); }
+
+/// map -> odom -> base -> lidar; odom -> base moves 1 m/s, from 0 to 10 s.
+FrameTree vehicle() {
+    FrameTree frames;
+    for (int i = 10; i >= 0; --i) frames.add({double(i), "odom", "base", along(i)}, false);
+    frames.add({0.0, "map", "odom", along(100)}, true);
+    frames.add({0.0, "base", "lidar", Pose(Eigen::Translation3d(0, 0, 2))}, true);
+    frames.put_in_order();
+    return frames;
+}
+
+TEST(FrameTree, Chain) {
+    const FrameTree frames = vehicle();
+    EXPECT_EQ(frames.above("lidar"), (std::vector<std::string>{"lidar", "base", "odom", "map"}));
+    EXPECT_EQ(frames.above("stranger"), std::vector<std::string>{"stranger"});
+    const auto pose = frames.pose("lidar", "map", 2.5);
+    ASSERT_TRUE(pose);
+    EXPECT_TRUE(pose->translation().isApprox(Eigen::Vector3d(102.5, 0, 2)));
+    const auto back = frames.pose("map", "lidar", 2.5);
+    ASSERT_TRUE(back);
+    EXPECT_TRUE((*back * *pose).isApprox(Pose::Identity(), 1e-12));
+    EXPECT_TRUE(frames.pose("lidar", "lidar", 2.5)->isApprox(Pose::Identity(), 1e-12));
+}
+
+TEST(FrameTree, TimesThatAreNotKnown) {
+    const FrameTree frames = vehicle();
+    EXPECT_FALSE(frames.pose("lidar", "map", 11.0));
+    EXPECT_FALSE(frames.pose("lidar", "map", -1.0));
+    EXPECT_TRUE(frames.pose("odom", "map", 1e9));  // static links have no time
+    EXPECT_FALSE(frames.pose("lidar", "stranger", 5.0));
+}
+
+TEST(FrameTree, WhatMoves) {
+    const FrameTree frames = vehicle();
+    EXPECT_TRUE(frames.moves("lidar"));
+    EXPECT_TRUE(frames.moves("base"));
+    EXPECT_FALSE(frames.moves("odom"));
+    EXPECT_FALSE(frames.moves("stranger"));
+    EXPECT_EQ(frames.stamps_above("lidar").size(), 11U);
+}
+
+TEST(FrameTree, TwoFramesOfOneRoot) {
+    FrameTree frames = vehicle();
+    frames.add({0.0, "base", "rear", along(-3)}, true);
+    const auto pose = frames.pose("rear", "lidar", 4.0);
+    ASSERT_TRUE(pose);
+    EXPECT_TRUE(pose->translation().isApprox(Eigen::Vector3d(-3, 0, -2)));
+}
+
+TEST(FrameTree, KeepsTheFirstParent) {
+    FrameTree frames = vehicle();
+    frames.add({0.0, "elsewhere", "base", along(7)}, true);
+    frames.put_in_order();
+    EXPECT_EQ(frames.above("base").at(1), "odom");
+    EXPECT_TRUE(frames.pose("base", "odom", 0.0)->isApprox(along(0)));
+}
+
+TEST(FrameTree, CirclesEnd) {
+    FrameTree frames;
+    frames.add({0.0, "a", "b", along(1)}, true);
+    frames.add({0.0, "b", "a", along(1)}, true);
+    frames.add({0.0, "c", "c", along(1)}, true);
+    frames.put_in_order();
+    EXPECT_EQ(frames.above("a"), (std::vector<std::string>{"a", "b"}));
+    EXPECT_EQ(frames.above("c"), std::vector<std::string>{"c"});
+    EXPECT_FALSE(frames.pose("a", "b", 0.0));  // there is no root to compare them in
+    EXPECT_FALSE(frames.moves("a"));
+}
+
+TEST(FrameTree, TurningLinksCompose) {
+    test::Random random(2);
+    FrameTree frames;
+    const Pose a = random.pose(5.0, 3.0), b = random.pose(5.0, 3.0), c = random.pose(5.0, 3.0);
+    frames.add({0.0, "root", "a", a}, true);
+    frames.add({0.0, "a", "b", b}, true);
+    frames.add({0.0, "root", "c", c}, true);
+    frames.put_in_order();
+    EXPECT_TRUE(frames.pose("b", "root", 0.0)->isApprox(a * b, 1e-12));
+    EXPECT_TRUE(frames.pose("b", "c", 0.0)->isApprox(c.inverse() * a * b, 1e-12));
+}
+
+}  // namespace frame_tree_test
+}  // namespace dynamic_filter::io

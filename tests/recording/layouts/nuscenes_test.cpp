@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "recording/layouts/layouts.hpp"
+#include "support/recording.hpp"
+
+namespace dynamic_filter::io {
+namespace nuscenes_test {
+
+std::string entry(const std::string& token, const std::string& rest) {
+    return R"({"token": ")" + token + "\", " + rest + "}";
+}
+
+std::string pose_entry(const std::string& token, const std::string& x, const std::string& q) {
+    return entry(token, "\"translation\": [" + x + ", 0, 0], \"rotation\": [" + q + "]");
+}
+
+std::string sweep(const std::string& file, const std::string& time, const std::string& sample,
+                  const std::string& ego) {
+    return entry(file, R"("filename": ")" + file + R"(", "timestamp": )" + time +
+                           R"(, "sample_token": ")" + sample + R"(", "ego_pose_token": ")" + ego +
+                           R"(", "calibrated_sensor_token": "top")");
+}
+
+class Nuscenes : public Recording {
+protected:
+    void SetUp() override {
+        table("scene", entry("s1", R"("name": "scene-0001")") + "," +
+                           entry("s2", R"("name": "scene-0002")"));
+        table("sample",
+              entry("k1", R"("scene_token": "s1")") + "," + entry("k2", R"("scene_token": "s2")"));
+        table("sample_data", sweep("sweeps/LIDAR_TOP/a__2.pcd.bin", "1500000", "k1", "e2") + "," +
+                                 sweep("samples/LIDAR_TOP/b__1.pcd.bin", "1000000", "k1", "e1") +
+                                 "," + sweep("samples/CAM_FRONT/c.jpg", "1000000", "k1", "e1") +
+                                 "," + sweep("samples/LIDAR_TOP/d.pcd.bin", "1000000", "k2", "e1"));
+        table("ego_pose", pose_entry("e1", "1", "1, 0, 0, 0") + "," +
+                              pose_entry("e2", "2", "0, 0, 0, 1") + "," +
+                              pose_entry("unused", "2", "0, 0, 0, 0"));
+        table("calibrated_sensor", pose_entry("top", "0.5", "1, 0, 0, 0"));
+        data.put("samples/LIDAR_TOP/b__1.pcd.bin", floats({1, 2, 3, 4, 5}));
+        data.put("sweeps/LIDAR_TOP/a__2.pcd.bin", floats({1, 2, 3, 4, 5, 6}));
+    }
+    void table(const std::string& name, const std::string& entries) const {
+        data.put("v1.0-mini/" + name + ".json", "[" + entries + "]");
+    }
+    [[nodiscard]] std::string scene_error() const {
+        return error_of([&] { (void)open_sequence(data / "scene-0001"); });
+    }
+};
+
+TEST_F(Nuscenes, OneScene) {
+    const Sequence sequence = open_sequence(data / "scene-0001");
+    ASSERT_EQ(sequence.size(), 2U);
+    EXPECT_EQ(sequence.stamps, (std::vector<double>{1.0, 1.5}));
+    EXPECT_DOUBLE_EQ(sequence.T_world_sensor[0].translation().x(), 1.5);
+    EXPECT_DOUBLE_EQ(sequence.T_world_sensor[1].translation().x(), 1.5);  // half a turn about z
+    const Frame frame = read_frame(sequence, 0);
+    EXPECT_EQ(frame.points, (Points{{1, 2, 3}}));
+    EXPECT_EQ(column(frame.cloud, "ring"), std::vector<double>{5});
+    EXPECT_HAS(error_of([&] { (void)read_frame(sequence, 1); }), "multiple of 20");
+}
+
+TEST_F(Nuscenes, Faults) {
+    EXPECT_HAS(open_error(), "scene-0001, scene-0002");
+    EXPECT_HAS(error_of([&] { (void)open_sequence(data / "scene-9"); }),
+               "has no scene-9; choose a scene");
+    for (const char* given : {"v1.0-mini", "samples", "samples/LIDAR_TOP", "sweeps/LIDAR_TOP/"}) {
+        EXPECT_HAS(error_of([&] { (void)open_sequence(data / given); }),
+                   (data / "scene-0061").string() + "; there are: scene-0001, scene-0002");
+    }
+    table("ego_pose", pose_entry("e1", "1", "1, 0, 0, 0"));
+    EXPECT_HAS(scene_error(), "1 of the 2");
+    table("ego_pose", pose_entry("e1", "1", "9, 0, 0, 0"));
+    EXPECT_HAS(scene_error(), "length 9");
+    table("ego_pose", entry("e1", R"("translation": "none")"));
+    EXPECT_HAS(scene_error(), "no table");
+    for (const char* file : {"../x/LIDAR_TOP/a.pcd.bin", "/x/LIDAR_TOP/a.pcd.bin"}) {
+        table("sample_data", sweep(file, "1", "k1", "e1"));
+        EXPECT_HAS(scene_error(), "elsewhere");
+    }
+    table("sample_data", "");
+    EXPECT_HAS(scene_error(), "no scan");
+    data.put("v1.0-mini/sample.json", "{");
+    EXPECT_HAS(scene_error(), "sample.json");
+    data.put("v1.0-test/sample_data.json", "[]");
+    EXPECT_HAS(scene_error(), "v1.0-test");
+}
+
+}  // namespace nuscenes_test
+}  // namespace dynamic_filter::io

@@ -1,0 +1,1 @@
+df_room(recording LIBRARIES dynamic_filter_app)

@@ -1,0 +1,5 @@
+if(TARGET dynamic_filter_ros1)
+  df_test_program(ros1_bus_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/ros1_bus_test.cpp LIBRARIES dynamic_filter_ros1)
+  df_add_suites(ros1/ros1_bus ros1_bus_test ros1 "*")
+  target_compile_definitions(ros1_bus_test PRIVATE ROS1_PEER="${CMAKE_CURRENT_LIST_DIR}/ros1_peer.py")
+endif()

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include "run/map_files.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+
+#include "support/temporary_folder.hpp"
+
+namespace dynamic_filter::app {
+namespace map_files_test {
+
+/// x y z in the given type and a ring per point; points (i, 0, 0).
+template <class T>
+io::Frame frame_of(io::FieldType type, std::size_t points) {
+    io::Frame frame;
+    for (const char* axis : {"x", "y", "z"}) io::add_field(frame.cloud, axis, type);
+    io::add_field(frame.cloud, "ring", io::FieldType::u16);
+    for (std::size_t i = 0; i < points; ++i) {
+        const T xyz[3] = {static_cast<T>(i + 1), 0, 0};
+        const auto ring = static_cast<std::uint16_t>(100 + i);
+        const auto* bytes = reinterpret_cast<const std::byte*>(xyz);
+        frame.cloud.data.insert(frame.cloud.data.end(), bytes, bytes + sizeof xyz);
+        bytes = reinterpret_cast<const std::byte*>(&ring);
+        frame.cloud.data.insert(frame.cloud.data.end(), bytes, bytes + sizeof ring);
+        frame.points.emplace_back(static_cast<float>(i + 1), 0.0F, 0.0F);
+    }
+    frame.T_world_sensor.translation() = Eigen::Vector3d(10, 20, 30);
+    frame.T_world_sensor.linear() = Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitZ()).matrix();
+    return frame;
+}
+
+Verdict with(Labels labels) { return {.labels = std::move(labels), .probability = {}}; }
+
+template <class T>
+void expect_split(io::FieldType type) {
+    const test::TemporaryFolder folder;
+    MapFiles maps(folder.path(), true, false);
+    maps.append(frame_of<T>(type, 4),
+                with({Label::static_, Label::dynamic, Label::unknown, Label::static_}));
+    maps.commit();
+    const io::Cloud still = io::read_cloud(folder / "static_map.pcd");
+    const io::Cloud dynamic = io::read_cloud(folder / "dynamic_points.pcd");
+    ASSERT_EQ(still.size(), 3U);
+    ASSERT_EQ(dynamic.size(), 1U);
+    EXPECT_EQ(io::values(still, *still.find("ring")), (std::vector<double>{100, 102, 103}));
+    EXPECT_EQ(io::values(dynamic, *dynamic.find("ring")), (std::vector<double>{101}));
+    EXPECT_NEAR((io::positions(still)[2] - Point(10, 24, 30)).norm(), 0, 1e-5);
+    EXPECT_EQ(still.find("x")->type, type);
+}
+
+TEST(MapFiles, KeepOriginalPointsWithAllFieldsInTheWorldFrame) {
+    expect_split<float>(io::FieldType::f32);
+    expect_split<double>(io::FieldType::f64);
+}
+
+TEST(MapFiles, LeaveOutUnknownIfAskedAndPointsThatAreNotFinite) {
+    const test::TemporaryFolder folder;
+    MapFiles maps(folder.path(), false, false);
+    io::Frame frame = frame_of<float>(io::FieldType::f32, 3);
+    frame.points[0].x() = std::numeric_limits<float>::quiet_NaN();
+    maps.append(frame, with({Label::static_, Label::unknown, Label::static_}));
+    frame.points[2].setZero();
+    maps.append(frame, with({Label::static_, Label::unknown, Label::static_}));
+    maps.commit();
+    EXPECT_EQ(io::read_cloud(folder / "static_map.pcd").size(), 1U);
+    EXPECT_EQ(io::read_cloud(folder / "dynamic_points.pcd").size(), 0U);
+}
+
+TEST(MapFiles, WhatStaysBelongsToTheStaticMap) {
+    const test::TemporaryFolder folder;
+    MapFiles maps(folder.path(), true, false);
+    Verdict verdict = with({Label::static_, Label::dynamic, Label::dynamic});
+    verdict.stays = {false, true, false};
+    maps.append(frame_of<float>(io::FieldType::f32, 3), verdict);
+    maps.commit();
+    const io::Cloud still = io::read_cloud(folder / "static_map.pcd");
+    EXPECT_EQ(io::values(still, *still.find("ring")), (std::vector<double>{100, 101}));
+    EXPECT_EQ(io::read_cloud(folder / "dynamic_points.pcd").size(), 1U);
+}
+
+TEST(MapFiles, FarFromTheOriginCoordinatesAreDoubles) {
+    const test::TemporaryFolder folder;
+    MapFiles maps(folder.path(), true, false);
+    io::Frame frame = frame_of<float>(io::FieldType::f32, 2);
+    frame.T_world_sensor.translation() = Eigen::Vector3d(5e5, 5e6 + 0.125, 30);
+    maps.append(frame, with({Label::static_, Label::static_}));
+    maps.commit();
+    const io::Cloud still = io::read_cloud(folder / "static_map.pcd");
+    EXPECT_NEAR(io::values(still, *still.find("y"))[1], 5e6 + 2.125, 1e-6);
+    EXPECT_EQ(io::values(still, *still.find("ring")), (std::vector<double>{100, 101}));
+}
+
+TEST(MapFiles, RecordsInTheWorldFrameArePassedOnUnchanged) {
+    const test::TemporaryFolder folder;
+    MapFiles maps(folder.path(), true, true);
+    const io::Frame frame = frame_of<float>(io::FieldType::f32, 3);
+    maps.append(frame, with(Labels(3, Label::static_)));
+    maps.commit();
+    EXPECT_EQ(io::read_cloud(folder / "static_map.pcd").data, frame.cloud.data);
+}
+
+TEST(MapFiles, LeaveNothingWithoutCommit) {
+    const test::TemporaryFolder folder;
+    {
+        MapFiles maps(folder.path(), true, false);
+        maps.append(frame_of<float>(io::FieldType::f32, 1), with({Label::static_}));
+    }
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+}  // namespace map_files_test
+}  // namespace dynamic_filter::app

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "run/piece.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "support/random.hpp"
+
+namespace dynamic_filter::app {
+namespace piece_test {
+
+constexpr double kEdge = 12.8;
+
+io::Frame some_frame() {
+    test::Random random(5);
+    io::Frame frame;
+    frame.T_world_sensor = Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitZ());
+    frame.T_world_sensor.translation() = Eigen::Vector3d(30.0, -20.0, 1.0);
+    for (int i = 0; i < 20000; ++i) {
+        const auto at = [&] { return static_cast<float>(random.below(20000)) / 100.0F - 100.0F; };
+        frame.points.emplace_back(at(), at(), at());
+        frame.truth.push_back(i % 3 == 0 ? Label::dynamic : Label::static_);
+    }
+    frame.points[7].x() = std::numeric_limits<float>::quiet_NaN();
+    frame.points[8] = Point::Zero();
+    frame.points[9].y() = 1e30F;
+    return frame;
+}
+
+TEST(Piece, HoldsThePointsInAndAroundTheTileInOrder) {
+    const io::Frame frame = some_frame();
+    const Tile tile{.level = 1, .x = 0, .y = -1};
+    const Piece piece = cut(frame, tile, kEdge);
+    std::size_t next = 0;
+    each_measured(frame, [&](std::size_t i, const Eigen::Vector3d& world) {
+        const PlaneCell cell = cell_at(world, kEdge);
+        const bool is_around = cell.x >= -1 && cell.x <= 4 && cell.y >= -5 && cell.y <= 0;
+        if (!is_around) return;
+        ASSERT_LT(next, piece.indices.size());
+        EXPECT_EQ(piece.indices[next], i);
+        EXPECT_EQ(piece.inside[next], tile_at(cell, 1) == tile);
+        EXPECT_EQ(piece.points[next], frame.points[i]);
+        EXPECT_EQ(piece.truth[next], frame.truth[i]);
+        ++next;
+    });
+    EXPECT_EQ(next, piece.indices.size());
+    EXPECT_GT(next, 100U);
+}
+
+TEST(Piece, OfTheOnlyTileIsAllThatWasMeasured) {
+    const io::Frame frame = some_frame();
+    const Piece piece = cut(frame, {.is_whole = true}, kEdge);
+    EXPECT_EQ(piece.points.size(), frame.points.size() - 3);
+    EXPECT_EQ(labels_of(piece, frame.truth), piece.truth);
+}
+
+TEST(Piece, OutsideOfTheTileNothingIsScored) {
+    const io::Frame frame = some_frame();
+    const Piece piece = cut(frame, {.level = 0, .x = 1, .y = -1}, kEdge);
+    const auto scan = labelled_inside(piece, frame.T_world_sensor, {10.0, 0.0, 0.0});
+    for (std::size_t i = 0; i < scan.points.size(); ++i) {
+        EXPECT_EQ(scan.truth[i], piece.inside[i] ? piece.truth[i] : Label::unknown);
+        const Eigen::Vector3d world = frame.T_world_sensor * piece.points[i].cast<double>();
+        EXPECT_NEAR(world.x() - 10.0, scan.points[i].x(), 1e-4);
+        EXPECT_NEAR(world.y(), scan.points[i].y(), 1e-4);
+    }
+}
+
+}  // namespace piece_test
+}  // namespace dynamic_filter::app

@@ -1,0 +1,1 @@
+df_room(settings LIBRARIES dynamic_filter_app)

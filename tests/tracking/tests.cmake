@@ -1,0 +1,1 @@
+df_room(tracking LIBRARIES dynamic_filter)
