@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
-
 #include <csignal>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
 
+#include "base/exit_code.hpp"
 #include "commands/failure.hpp"
 #include "commands/freed_memory.hpp"
+#include "commands/live.hpp"
 #include "live/live_config.hpp"
-#include "live/live_options.hpp"
 #include "ros1/ros1_bus.hpp"
-#include "run/commands.hpp"
 
 namespace {
 
@@ -20,17 +20,17 @@ using namespace dynamic_filter::app;
 constexpr double kLongestStart = 10.0;  // [s] that a master may need, which roslaunch starts, too
 
 struct Arguments {
-    std::vector<std::string> own;                   ///< in reverse, as CLI11 takes them
+    std::vector<char*> own;
     std::map<std::string, std::string> remappings;  ///< of ROS: "name:=value"
 };
 
 Arguments split(int argc, char** argv) {
     Arguments arguments;
-    for (int i = argc - 1; i > 0; --i) {
-        const std::string word = argv[i];
+    for (char* const argument : std::span(argv, static_cast<std::size_t>(argc))) {
+        const std::string word = argument;
         const auto sign = word.find(":=");
         if (sign == std::string::npos) {
-            arguments.own.push_back(word);
+            arguments.own.push_back(argument);
         } else {
             arguments.remappings.emplace(word.substr(0, sign), word.substr(sign + 2));
         }
@@ -38,31 +38,22 @@ Arguments split(int argc, char** argv) {
     return arguments;
 }
 
-/// What CLI11 says of wrong arguments, in the form of all other errors.
-std::string usage_error(const CLI::App*, const CLI::Error& error) {
-    return fmt::format("dynamicfilter_ros1: {}; `dynamicfilter_ros1 --help` lists the options\n",
-                       error.what());
-}
-
 int filter(int argc, char** argv) {
-    CLI::App app("Removes moving objects from the LiDAR scans of ROS 1, as they come.",
-                 "dynamicfilter_ros1");
-    app.set_version_flag("--version", DYNAMIC_FILTER_VERSION);
-    app.failure_message(usage_error);
-    app.footer(
+    const Arguments arguments = split(argc, argv);
+    Program program("dynamicfilter_ros1",
+                    "Removes moving objects from the LiDAR scans of ROS 1, as they come.");
+    program.footer(
         "Arguments of ROS such as points:=/velodyne_points and __name:=filter may be added. "
         "Private\n"
         "parameters of the node are settings, too: ~output/map_rate is output.map_rate.");
+    Command command = program.options();
     live::LiveOptions options;
-    live::add_live_options(app, options);
-    Arguments arguments = split(argc, argv);
-    try {
-        app.parse(std::move(arguments.own));
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? kDone : kUsage;
-    }
-    live::Ros1Bus bus(arguments.remappings, live::changing_settings(), kLongestStart);
-    return live::live(bus, options);
+    add_live_options(command, options);
+    command.action([&] {
+        live::Ros1Bus bus(arguments.remappings, live::changing_settings(), kLongestStart);
+        return live::live(bus, options);
+    });
+    return program.run(arguments.own);
 }
 
 }  // namespace

@@ -6,7 +6,8 @@
 #include <fmt/format.h>
 #include <pybind11/pybind11.h>
 
-#include "run/commands.hpp"
+#include "recording/data_options.hpp"
+#include "settings/config_file.hpp"
 
 namespace dynamic_filter::python {
 

@@ -8,13 +8,16 @@
 #include <csignal>
 #include <nlohmann/json.hpp>
 
+#include "base/exit_code.hpp"
 #include "base/output_folder.hpp"
 #include "base/progress.hpp"
+#include "commands/evaluate.hpp"
 #include "commands/write_simulation.hpp"
 #include "dynamic_filter/check.hpp"
 #include "dynamic_filter/file.hpp"
 #include "python/src/module.hpp"
 #include "recording/frames.hpp"
+#include "run/run.hpp"
 #include "score/report.hpp"
 
 namespace dynamic_filter::python {

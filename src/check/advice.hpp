@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "dynamic_filter/check.hpp"
-#include "run/commands.hpp"
+#include "recording/data_options.hpp"
 
 namespace dynamic_filter::app {
 

@@ -11,7 +11,6 @@
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/writers.hpp"
 #include "recording/frames.hpp"
-#include "run/commands.hpp"
 #include "settings/config_file.hpp"
 
 namespace dynamic_filter::app {
@@ -172,24 +171,6 @@ void write_poses(const std::filesystem::path& path, const io::Sequence& sequence
     } else {
         io::write_poses_kitti(path, sequence.T_world_sensor);
     }
-}
-
-int odometry(const OdometryOptions& o) {
-    const Config config = load_config(o.config);
-    if (!o.overwrite && std::filesystem::exists(o.output)) {
-        throw ConfigError(o.output.string() + ": exists; choose another -o, or --overwrite");
-    }
-    DataOptions without_poses = o.data;
-    without_poses.open.poses = "none";
-    io::Sequence sequence = open(without_poses);
-    catch_interrupts();
-    ensure_poses(sequence, config, o.data.deskew, o.quiet);
-    if (interrupted()) return kInterrupted;
-    write_poses(o.output, sequence);
-    if (o.quiet) return kDone;
-    for (const std::string& note : sequence.notes) fmt::print("note     {}\n", note);
-    fmt::print("written  {}\n", o.output.string());
-    return kDone;
 }
 
 }  // namespace dynamic_filter::app

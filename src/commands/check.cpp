@@ -1,16 +1,24 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include "base/exit_code.hpp"
 #include "check/advice.hpp"
 #include "check/motion.hpp"
+#include "commands/all.hpp"
+#include "commands/shared_options.hpp"
 #include "dynamic_filter/check.hpp"
 #include "dynamic_filter/error.hpp"
+#include "recording/data_options.hpp"
 #include "recording/drives.hpp"
 #include "recording/frames.hpp"
-#include "run/commands.hpp"
 
 namespace dynamic_filter::app {
 namespace {
+
+struct CheckOptions {
+    std::vector<std::filesystem::path> recordings;  ///< or lists of them
+    DataOptions how;  ///< how to read each of them; its `data` is not used
+};
 
 void print_overlays(const io::Preflight& preflight) {
     if (preflight.overlays.empty()) return;
@@ -110,6 +118,19 @@ int check(const CheckOptions& options) {
     fmt::print("nothing suspicious\nnext      {}\n",
                next_command(options.recordings, options.how, ""));
     return kDone;
+}
+
+void add_check(Program& program) {
+    Command c =
+        program.command("check", "Look for mistakes in poses, frames and stamps of recordings");
+    const auto o = std::make_shared<CheckOptions>();
+    c.paths("DATA", o->recordings,
+            "recording; or several in one world frame, or a list of them (.txt), which are then "
+            "compared")
+        .required();
+    add_reading_options(c, o->how);
+    add_selection_options(c, o->how);
+    c.action([o] { return check(*o); });
 }
 
 }  // namespace dynamic_filter::app

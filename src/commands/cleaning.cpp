@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/progress.hpp"
+#include "commands/render.hpp"
 #include "draw/animation.hpp"
 #include "draw/canvas.hpp"
 #include "dynamic_filter/error.hpp"

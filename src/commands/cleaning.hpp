@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "commands/render.hpp"
 #include "draw/canvas.hpp"
 #include "dynamic_filter/settings.hpp"
-#include "run/commands.hpp"
 
 namespace dynamic_filter::app {
 

@@ -3,18 +3,28 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/exit_code.hpp"
+#include "commands/all.hpp"
+#include "commands/shared_options.hpp"
 #include "dynamic_filter/cloud.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
 #include "formats/voxel_map/map_index.hpp"
 #include "page/run_view.hpp"
+#include "recording/data_options.hpp"
 #include "recording/frames.hpp"
-#include "run/commands.hpp"
 #include "score/report.hpp"
 
 namespace dynamic_filter::app {
 
 namespace {
+
+struct ReportOptions {
+    std::vector<std::filesystem::path> results;  ///< folders of runs, their reports, clouds
+    std::filesystem::path output = "report.html";
+    DataOptions truth;
+    double voxel = eval::kVoxelSize;
+};
 
 namespace fs = std::filesystem;
 
@@ -80,6 +90,21 @@ int report(const ReportOptions& o) {
     io::write_file(o.output, page_with(runs));
     fmt::print("written    {}\n", o.output.string());
     return kDone;
+}
+
+void add_report(Program& program) {
+    Command c = program.command("report", "Show runs and maps side by side on one page");
+    const auto o = std::make_shared<ReportOptions>();
+    c.paths("RESULT", o->results,
+            "output folders of runs, or clean maps of other programs (.pcd, .ply, ...) in the "
+            "world frame; at most four",
+            4)
+        .required();
+    c.path("-o,--output", o->output, "file of the page");
+    c.path("--truth", o->truth.data, "recording with ground truth, by which maps are scored");
+    add_reading_options(c, o->truth);
+    c.number("--voxel", o->voxel, {0.01, 10.0}, "edge of a voxel for the scores [m]");
+    c.action([o] { return report(*o); });
 }
 
 }  // namespace dynamic_filter::app

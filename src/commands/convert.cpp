@@ -5,18 +5,21 @@
 #include <map>
 #include <numeric>
 
+#include "base/exit_code.hpp"
 #include "base/output_folder.hpp"
 #include "base/progress.hpp"
 #include "check/motion.hpp"
+#include "commands/all.hpp"
+#include "commands/shared_options.hpp"
 #include "dynamic_filter/bag.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/writers.hpp"
 #include "export/autoware_tiles.hpp"
 #include "export/convert_map.hpp"
+#include "export/convert_options.hpp"
 #include "export/sinks.hpp"
 #include "formats/voxel_map/map_index.hpp"
 #include "recording/frames.hpp"
-#include "run/commands.hpp"
 
 namespace fs = std::filesystem;
 
@@ -148,6 +151,31 @@ int convert(const ConvertOptions& o) {
     const bool recording = !o.data.format.empty() || fs::is_directory(o.data.data, ignored) ||
                            io::Bag::recognises(o.data.data);
     return recording ? convert_recording(o) : convert_cloud(o);
+}
+
+void add_convert(Program& program) {
+    Command c = program.command("convert", "Write a recording or a cloud in another format");
+    const auto o = std::make_shared<ConvertOptions>();
+    c.path("IN", o->data.data, "recording or cloud file").required();
+    c.path("OUT", o->output,
+           "bag (.mcap, .bag, .db3), folder, or cloud file (.pcd, .ply, .las, .npy, .bin): of a "
+           "recording, all its points "
+           "in the world's frame")
+        .required();
+    c.choice("--to", o->to, {"kitti", "benchmark", "autoware", "3dtiles", "las"},
+             "layout of the output folder: kitti (default), benchmark, or autoware (map tiles); of "
+             "the map of several "
+             "drives: 3dtiles, las or autoware");
+    c.text("--origin", o->origin,
+           "with --to 3dtiles: LAT,LON[,HEIGHT] of the world's origin, whose x points to the east "
+           "(default: the tiles stay "
+           "in the world frame)");
+    c.path("--labels", o->labels,
+           "output folder of a run, or its labels (default: the ground truth of the recording)");
+    add_reading_options(c, o->data);
+    add_selection_options(c, o->data);
+    c.flag("--overwrite", o->overwrite, "replace an existing output");
+    c.action([o] { return convert(*o); });
 }
 
 }  // namespace dynamic_filter::app

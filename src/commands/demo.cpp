@@ -1,17 +1,24 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include "base/exit_code.hpp"
 #include "base/progress.hpp"
+#include "commands/all.hpp"
 #include "commands/picture.hpp"
+#include "commands/render.hpp"
+#include "commands/shared_options.hpp"
 #include "commands/write_simulation.hpp"
 #include "recording/frames.hpp"
-#include "run/commands.hpp"
 #include "run/run_reports.hpp"
 #include "score/report.hpp"
 
 namespace dynamic_filter::app {
 
 namespace {
+
+struct DemoOptions {
+    std::filesystem::path output = "demo";
+};
 
 constexpr int kPedestrians = 100;
 
@@ -73,6 +80,14 @@ int demo(const DemoOptions& o) {
         "  build/release/dynamicfilter run YOUR_RECORDING -o out\n",
         o.output.string());
     return kDone;
+}
+
+void add_demo(Program& program) {
+    Command c = program.command(
+        "demo", "Simulate a crowd, remove it, score and draw the result; needs no data");
+    const auto o = std::make_shared<DemoOptions>();
+    c.path("-o,--output", o->output, "output folder");
+    c.action([o] { return demo(*o); });
 }
 
 }  // namespace dynamic_filter::app

@@ -6,12 +6,17 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/exit_code.hpp"
+#include "commands/all.hpp"
+#include "commands/evaluate.hpp"
+#include "commands/shared_options.hpp"
 #include "dynamic_filter/cloud.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
+#include "recording/data_options.hpp"
 #include "recording/frames.hpp"
-#include "run/commands.hpp"
 #include "score/protocols.hpp"
+#include "score/range_limits.hpp"
 #include "score/report.hpp"
 
 namespace dynamic_filter::app {
@@ -105,6 +110,31 @@ int evaluate(const EvalOptions& o) {
     fmt::print(stderr, "left out {} of {} scans: unreadable, or without labels\n", e.left_out,
                e.scans);
     return kRejected;
+}
+
+void add_eval(Program& program) {
+    Command c = program.command("eval", "Score labels or a map against ground truth");
+    const auto o = std::make_shared<EvalOptions>();
+    c.path("--truth", o->truth.data, "recording with ground truth").required();
+    const Option labels =
+        c.path("--labels", o->labels, "folder with label files, or the output folder of a run");
+    c.path("--map", o->map, "clean map (.pcd or .ply) in the world frame").excludes(labels);
+    add_reading_options(c, o->truth);
+    c.number("--voxel", o->voxel, {0.01, 10.0}, "edge of a voxel [m]");
+    c.choice("--protocol", o->protocol, protocol_names(),
+             "rules by which to score: voxel is this project's, strict FreeDOM's, benchmark "
+             "DynamicMap_Benchmark's, mos "
+             "SemanticKITTI-MOS'");
+    c.number("--min-range", o->ranges.min, {0.0, 1e6},
+             "leave out points nearer to the sensor than this [m]");
+    c.number("--max-range", o->ranges.max, {0.0, 1e6},
+             "leave out points farther from the sensor [m]");
+    c.path("--json", o->json, "also write all scores to this file");
+    c.action([o] {
+        if (!o->labels && !o->map)
+            throw ConfigError("give what is to be scored: --labels or --map");
+        return evaluate(*o);
+    });
 }
 
 }  // namespace dynamic_filter::app

@@ -6,8 +6,8 @@
 
 #include <functional>
 
+#include "base/exit_code.hpp"
 #include "dynamic_filter/error.hpp"
-#include "run/commands.hpp"
 
 namespace dynamic_filter::app {
 

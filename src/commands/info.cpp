@@ -7,12 +7,14 @@
 #include <cmath>
 #include <map>
 
+#include "base/exit_code.hpp"
+#include "commands/all.hpp"
+#include "commands/shared_options.hpp"
 #include "dynamic_filter/bag.hpp"
 #include "dynamic_filter/cloud.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/recording.hpp"
 #include "formats/voxel_map/map_index.hpp"
-#include "run/commands.hpp"
 
 namespace dynamic_filter::app {
 
@@ -197,6 +199,14 @@ int info(const std::filesystem::path& file) {
         describe_sequence(file);  // also a scene that is named behind its folder
     }
     return kDone;
+}
+
+void add_info(Program& program) {
+    Command c = program.command(
+        "info", "Describe a point cloud file, a recording, or the map of several drives");
+    const auto file = std::make_shared<std::filesystem::path>();
+    c.path("FILE", *file, "point cloud file, bag or folder").required();
+    c.action([file] { return info(*file); });
 }
 
 }  // namespace dynamic_filter::app

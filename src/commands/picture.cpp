@@ -2,6 +2,7 @@
 #include "commands/picture.hpp"
 
 #include "commands/cleaning.hpp"
+#include "commands/render.hpp"
 #include "draw/canvas.hpp"
 #include "dynamic_filter/cloud.hpp"
 #include "recording/frames.hpp"

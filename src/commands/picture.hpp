@@ -2,8 +2,8 @@
 /// A picture of a run's maps or of a cloud.
 #pragma once
 
+#include "commands/render.hpp"
 #include "draw/png.hpp"
-#include "run/commands.hpp"
 
 namespace dynamic_filter::app {
 

@@ -3,16 +3,26 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/exit_code.hpp"
 #include "base/progress.hpp"
+#include "commands/all.hpp"
+#include "commands/shared_options.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/parallel.hpp"
 #include "run/city.hpp"
 #include "run/filter_tiles.hpp"
+#include "run/run.hpp"
 #include "score/report.hpp"
 
 namespace dynamic_filter::app {
 
 namespace {
+
+struct PlanOptions {
+    RunOptions run;         ///< of the run that is planned
+    std::size_t parts = 1;  ///< into which the tiles are divided
+    bool json = false;
+};
 
 namespace fs = std::filesystem;
 
@@ -94,6 +104,25 @@ int plan(const PlanOptions& options) {
     fmt::print("{}",
                options.json ? plan_json(city, options.parts) : plan_text(city, options.parts));
     return kDone;
+}
+
+void add_plan(Program& program) {
+    Command c = program.command(
+        "plan", "Show the tiles, the time and the memory that a run over large recordings takes");
+    const auto o = std::make_shared<PlanOptions>();
+    add_recordings(c, o->run);
+    c.path("-o,--output", o->run.output, "also write the plan to this file, for run --plan");
+    add_reading_options(c, o->run.data);
+    add_config_options(c, o->run.config);
+    add_selection_options(c, o->run.data);
+    add_tile_voxels(c, o->run);
+    c.whole("--parts", o->parts, {.low = 1, .high = 100000},
+            "number of parts into which the tiles are divided");
+    c.flag("--json", o->json, "print every tile, as JSON");
+    add_threads(c, o->run.threads);
+    c.flag("--overwrite", o->run.overwrite, "replace the file of -o");
+    c.flag("-q,--quiet", o->run.quiet, "print only the plan, warnings and errors");
+    c.action([o] { return plan(*o); });
 }
 
 }  // namespace dynamic_filter::app

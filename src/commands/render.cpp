@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <cctype>
 
+#include "base/exit_code.hpp"
 #include "check/motion.hpp"
+#include "commands/all.hpp"
 #include "commands/cleaning.hpp"
 #include "commands/picture.hpp"
+#include "commands/render.hpp"
+#include "commands/shared_options.hpp"
 #include "dynamic_filter/error.hpp"
 #include "recording/frames.hpp"
-#include "run/commands.hpp"
 #include "settings/config_file.hpp"
 
 namespace dynamic_filter::app {
@@ -49,6 +52,32 @@ int render(const RenderOptions& o) {
     }
     fmt::print("written {}\n", o.output.string());
     return kDone;
+}
+
+void add_render(Program& program) {
+    Command c = program.command("render", "Draw a map, or animate how a recording is cleaned");
+    const auto o = std::make_shared<RenderOptions>();
+    c.path("IN", o->data.data, "output folder of a run, cloud file, or a recording to animate")
+        .required();
+    c.path("-o,--output", o->output,
+           "picture to write: .png of a run or cloud, .webp of a recording")
+        .required();
+    const Option above = c.flag("--top", o->from_above, "look straight down");
+    c.flag("--clean", o->clean, "leave out the removed points");
+    c.whole("--width", o->width, {16, 16384}, "[pixels]");
+    c.whole("--height", o->height, {16, 16384}, "[pixels]");
+    c.number("--azimuth", o->azimuth_deg, {-360.0, 360.0},
+             "where the camera stands, as an angle from the x axis [deg]")
+        .excludes(above);
+    c.number("--elevation", o->elevation_deg, {1.0, 89.0},
+             "how far the camera looks down from the horizon [deg]")
+        .excludes(above);
+    c.number("--point-size", o->point_size, {0.5, 50.0}, "size of a point [pixels]");
+    c.whole("--pictures", o->pictures, {2, 1000}, "number of pictures of an animation");
+    add_reading_options(c, o->data);
+    add_selection_options(c, o->data);
+    add_config_options(c, o->config);
+    c.action([o] { return render(*o); });
 }
 
 }  // namespace dynamic_filter::app

@@ -6,16 +6,24 @@
 #include <optional>
 #include <thread>
 
+#include "base/exit_code.hpp"
 #include "base/progress.hpp"
+#include "commands/all.hpp"
 #include "commands/edit_server.hpp"
+#include "commands/shared_options.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
 #include "page/http_server.hpp"
-#include "run/commands.hpp"
 
 namespace dynamic_filter::app {
 
 namespace {
+
+struct ServeOptions {
+    std::filesystem::path folder;
+    std::uint16_t port = 0;
+    bool edit = false;  ///< corrections by hand, of one run
+};
 
 namespace fs = std::filesystem;
 
@@ -133,6 +141,17 @@ int serve(const ServeOptions& o) {
     std::fflush(stdout);
     while (!interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
     return kDone;
+}
+
+void add_serve(Program& program) {
+    Command c = program.command("serve", "Show reports in a browser, on this machine");
+    const auto o = std::make_shared<ServeOptions>();
+    c.path("DIR", o->folder, "output folder of a run, or a folder that holds several").required();
+    c.whole("--port", o->port, {.high = 65535}, "port (default: any free one)");
+    c.flag("--edit", o->edit,
+           "correct the labels of this run by hand in the page; the corrections are kept in "
+           "DIR/edits.json");
+    c.action([o] { return serve(*o); });
 }
 
 }  // namespace dynamic_filter::app

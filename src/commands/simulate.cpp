@@ -6,15 +6,23 @@
 #include <span>
 #include <utility>
 
+#include "base/exit_code.hpp"
 #include "base/output_folder.hpp"
 #include "base/progress.hpp"
+#include "commands/all.hpp"
+#include "commands/shared_options.hpp"
 #include "commands/write_simulation.hpp"
 #include "dynamic_filter/writers.hpp"
-#include "run/commands.hpp"
 
 namespace dynamic_filter::app {
 
 namespace {
+
+struct SimulateOptions {
+    sim::SimulationOptions simulation;
+    std::filesystem::path output;
+    bool overwrite = false, quiet = false;
+};
 
 /// x y z intensity t.
 io::Cloud timed_cloud(const sim::SimulatedScan& scan) {
@@ -116,6 +124,37 @@ int simulate(const SimulateOptions& o) {
         if (!o.quiet) fmt::print("written  {} ({} points)\n", output.name().string(), points);
     }
     return interrupted() ? kInterrupted : kDone;
+}
+
+void add_simulate(Program& program) {
+    Command c = program.command("simulate", "Simulate a recording with exact labels");
+    const auto o = std::make_shared<SimulateOptions>();
+    auto& s = o->simulation;
+    c.choice("SCENE", s.scene, sim::scene_names(), "what to simulate").required();
+    c.path("-o,--output", o->output, "output folder").required();
+    c.whole("--pedestrians", s.pedestrians, {.high = 1e6},
+            "number of pedestrians (default: the scene's own number)");
+    c.whole("--seed", s.seed, {}, "seed of the random numbers; the same seed gives the same bytes");
+    c.choice("--sensor", s.sensor, sim::sensor_names(), "LiDAR to simulate");
+    c.whole("--frames", s.frames, {.low = 1}, "number of scans (default: the whole scene)");
+    c.number("--rate", s.rate_hz, {0.0, 100.0}, "scans per second (default: the scene's own)");
+    c.whole("--rounds", s.rounds, {1, 100},
+            "rounds that the robot drives in the scene crowd (default: 2)");
+    c.number("--km", s.km, {0.01, 80.0},
+             "length of each drive [km], in the scene city: up to 80 (default: 1)");
+    c.whole("--drives", s.drives, {1, 1000},
+            "drives on different days, in the scene city (default: 3); they become OUTPUT/drive_1 "
+            "and so on");
+    c.flag("--sweep", s.sweep,
+           "measure the points of a scan one after the other while everything moves, as a real "
+           "sensor does; the scans are "
+           "then PCD files with the time of each point");
+    c.number("--pose-noise", s.pose_noise_m, {0.0, 10.0}, "standard deviation of each axis [m]");
+    c.number("--pose-noise-deg", s.pose_noise_deg, {0.0, 90.0},
+             "standard deviation of each axis [deg]");
+    c.flag("--overwrite", o->overwrite, "replace an earlier recording in the output folder");
+    add_quiet(c, o->quiet);
+    c.action([o] { return simulate(*o); });
 }
 
 }  // namespace dynamic_filter::app

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/exit_code.hpp"
 #include "base/output_folder.hpp"
 #include "dynamic_filter/error.hpp"
 #include "export/autoware_tiles.hpp"

@@ -2,7 +2,7 @@
 /// What `convert` makes of the map of many drives.
 #pragma once
 
-#include "run/commands.hpp"
+#include "export/convert_options.hpp"
 
 namespace dynamic_filter::app {
 

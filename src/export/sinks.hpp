@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "dynamic_filter/recording.hpp"
-#include "run/commands.hpp"
+#include "export/convert_options.hpp"
 
 namespace dynamic_filter::app {
 

@@ -5,13 +5,13 @@
 #include <fmt/ranges.h>
 
 #include "base/edit_distance.hpp"
+#include "base/exit_code.hpp"
 #include "base/progress.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/poses.hpp"
 #include "formats/messages/packets.hpp"
 #include "live/outputs.hpp"
 #include "live/subscriptions.hpp"
-#include "run/commands.hpp"
 
 namespace dynamic_filter::live {
 

@@ -5,13 +5,13 @@
 
 #include <sstream>
 
+#include "base/exit_code.hpp"
 #include "base/progress.hpp"
 #include "dynamic_filter/error.hpp"
 #include "live/diagnosis.hpp"
 #include "live/dry_run.hpp"
 #include "live/foxglove_server.hpp"
 #include "live/subscriptions.hpp"
-#include "run/commands.hpp"
 
 namespace dynamic_filter::live {
 

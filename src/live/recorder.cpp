@@ -8,7 +8,7 @@
 
 #include "dynamic_filter/bag.hpp"
 #include "dynamic_filter/error.hpp"
-#include "run/commands.hpp"
+#include "run/run.hpp"
 
 namespace dynamic_filter::live {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "dynamic_filter/recording.hpp"
-#include "run/commands.hpp"
+#include "recording/data_options.hpp"
 
 namespace dynamic_filter::app {
 

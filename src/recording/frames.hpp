@@ -11,7 +11,8 @@
 #include "dynamic_filter/recording.hpp"
 #include "dynamic_filter/scores.hpp"
 #include "dynamic_filter/types.hpp"
-#include "run/commands.hpp"
+#include "recording/data_options.hpp"
+#include "score/range_limits.hpp"
 
 namespace dynamic_filter::app {
 

@@ -8,8 +8,8 @@
 
 #include "dynamic_filter/settings.hpp"
 #include "recording/drives.hpp"
-#include "run/commands.hpp"
 #include "run/plan.hpp"
+#include "run/run.hpp"
 
 namespace dynamic_filter::app {
 

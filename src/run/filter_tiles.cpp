@@ -14,6 +14,7 @@
 #include "base/progress.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/parallel.hpp"
+#include "run/run.hpp"
 #include "run/tile_file.hpp"
 
 namespace dynamic_filter::app {

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <map>
 
+#include "base/exit_code.hpp"
 #include "dynamic_filter/error.hpp"
 #include "run/part_file.hpp"
+#include "run/run.hpp"
 #include "run/run_state.hpp"
 #include "run/tile_file.hpp"
 #include "run/write_city.hpp"

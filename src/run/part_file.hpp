@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "recording/drives.hpp"
-#include "run/commands.hpp"
+#include "run/run.hpp"
 
 namespace dynamic_filter::app {
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include "base/exit_code.hpp"
 #include "base/progress.hpp"
 #include "check/advice.hpp"
 #include "check/motion.hpp"
@@ -8,7 +9,7 @@
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/parallel.hpp"
 #include "recording/frames.hpp"
-#include "run/commands.hpp"
+#include "run/run.hpp"
 #include "run/run_city.hpp"
 #include "run/run_edits.hpp"
 #include "run/run_reports.hpp"

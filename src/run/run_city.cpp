@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "base/exit_code.hpp"
 #include "base/progress.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"

@@ -3,7 +3,7 @@
 /// cut into tiles, and each is filtered on its own. docs/city.md explains it.
 #pragma once
 
-#include "run/commands.hpp"
+#include "run/run.hpp"
 
 namespace dynamic_filter::app {
 

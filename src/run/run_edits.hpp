@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "dynamic_filter/settings.hpp"
-#include "run/commands.hpp"
 #include "run/edits.hpp"
+#include "run/run.hpp"
 
 namespace dynamic_filter::app {
 

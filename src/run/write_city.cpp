@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "base/exit_code.hpp"
 #include "base/progress.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
@@ -15,6 +16,7 @@
 #include "page/city_report.hpp"
 #include "page/page.hpp"
 #include "recording/frames.hpp"
+#include "run/run.hpp"
 #include "run/run_reports.hpp"
 #include "run/run_state.hpp"
 #include "run/tile_file.hpp"

@@ -166,10 +166,4 @@ std::string to_json(const Config& config) {
     return list.dump(2) + '\n';
 }
 
-int show_config(const ConfigOptions& options, bool json) {
-    const Config config = load_config(options);
-    fmt::print("{}", json ? to_json(config) : to_toml(config));
-    return kDone;
-}
-
 }  // namespace dynamic_filter::app

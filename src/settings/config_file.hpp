@@ -7,9 +7,15 @@
 #include <vector>
 
 #include "dynamic_filter/settings.hpp"
-#include "run/commands.hpp"
 
 namespace dynamic_filter::app {
+
+struct ConfigOptions {
+    std::string preset = "default";
+    std::optional<std::filesystem::path> file;
+    std::vector<std::string> assignments;  ///< "a.b=v"
+    std::string assigned_by = "--set ";    ///< what errors call them
+};
 
 /// Preset, then file, then --set; checked. Throws ConfigError, also for a setting that has no
 /// effect with the method in force.

@@ -7,20 +7,20 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 COVERED = {  # test -> the units that it covers
-    "commands/command_test.cpp": "check/motion commands/check commands/cleaning commands/compare commands/convert "
-        "commands/demo commands/evaluate commands/info commands/main commands/picture commands/render commands/serve "
-        "commands/simulate draw/animation draw/canvas export/convert_map export/sinks recording/frames run/run "
+    "commands/command_test.cpp": "check/motion commands/check commands/cleaning commands/compare commands/config commands/convert "
+        "commands/demo commands/evaluate commands/info commands/main commands/odometry commands/options commands/picture commands/render commands/run "
+        "commands/serve commands/shared_options commands/simulate draw/animation draw/canvas export/convert_map export/sinks recording/frames run/run "
         "run/run_reports run/run_sequence run/run_state run/write_scans",
     "export/tileset_test.cpp": "export/glb",
     "formats/clouds/las_test.cpp": "formats/clouds/las_header formats/clouds/las_writer",
     "live/dds_bus_test.cpp": "live/dds_log live/dds_type",
     "live/dds_peer_test.cpp": "live/dds_configuration",
     "live/foxglove_server_test.cpp": "live/foxglove_socket",
-    "live/live_test.sh": "live/dry_run live/live live/live_command",
+    "live/live_test.sh": "live/dry_run live/live commands/live",
     "live/session_test.cpp": "live/recorder",
     "page/page_test.cpp": "page/viewer_page",
     "recording/bag_scans_test.cpp": "recording/bag_contents recording/pose_source",
-    "run/city_test.sh": "commands/plan run/city run/filter_tile run/filter_tiles run/merge run/run_city "
+    "run/city_test.sh": "commands/merge commands/plan run/city run/filter_tile run/filter_tiles run/merge run/run_city "
         "run/write_city",
     "run/edits_test.cpp": "run/apply_edits run/edit_lookup run/map_gaps run/run_edits",
     "run/mpi/mpi_workers_test.cpp": "run/mpi/plugin",

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "dynamic_filter/scores.hpp"
+#include "recording/data_options.hpp"
+#include "score/range_limits.hpp"
+
+namespace dynamic_filter::app {
+
+struct EvalOptions {
+    DataOptions truth;
+    std::optional<std::filesystem::path> labels, map, json;
+    double voxel = eval::kVoxelSize;
+    RangeLimits ranges;
+    std::string protocol = "all";  ///< of protocol_names()
+};
+
+struct Evaluation {
+    eval::Scores scores;
+    std::size_t scans = 0, left_out = 0;  ///< left out: unreadable, or without labels
+};
+
+/// What `eval` prints. Throws what it does.
+Evaluation scores_of(const EvalOptions& options);
+
+}  // namespace dynamic_filter::app

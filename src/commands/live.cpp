@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "commands/live.hpp"
+
+#include "commands/all.hpp"
+#include "live/dds_bus.hpp"
+#include "live/live_config.hpp"
+
+namespace dynamic_filter::app {
+
+namespace {
+
+int live_on_dds(const live::LiveOptions& options) {
+    const live::LiveConfig config = live::load_live_config(options, {});  // for the bus alone
+    live::DdsBus bus({.domain = config.bus.domain, .network = config.bus.network});
+    return live::live(bus, options);
+}
+
+}  // namespace
+
+void add_live_options(Command& command, live::LiveOptions& options) {
+    command.path("LIVE", options.file,
+                 "TOML file with settings of live and of the filter (default: none)");
+    command.words("--set", options.assignments,
+                  "change one setting, for instance input.cloud=/points");
+    command.choice("--preset", options.preset, {"default", "paper"},
+                   "which settings of the filter to begin with");
+    const Option dry_run =
+        command.flag("--dry-run", options.dry_run,
+                     "publish nothing; say what there is, what fits, and what is missing");
+    command.number("--look", options.look, {0.1, 3600.0}, "with --dry-run: how long to listen [s]")
+        .needs(dry_run);
+    Option record = command.path(
+        "--record", options.record,
+        "also write the drive to a bag beside this folder and, after Ctrl-C, the result of `run` "
+        "to the folder");
+    record.excludes(dry_run);
+    command.flag("--overwrite", options.overwrite, "replace an earlier --record").needs(record);
+    command.flag("--settings", options.settings, "print the settings of live as TOML, and end");
+    command.flag("-q,--quiet", options.quiet, "print only warnings and errors");
+}
+
+void add_live(Program& program) {
+    Command c = program.command(
+        "live", "Filter what a robot's LiDAR publishes by ROS 2, and publish the result");
+    const auto o = std::make_shared<live::LiveOptions>();
+    add_live_options(c, *o);
+    c.action([o] { return live_on_dds(*o); });
+}
+
+}  // namespace dynamic_filter::app

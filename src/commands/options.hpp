@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+/// Commands and their options: a thin front over CLI11. Only options.cpp includes CLI11, because
+/// each file that does takes long to compile.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "run/run.hpp"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace dynamic_filter::app {
+
+/// An option of a command, to say more of it.
+class Option {
+public:
+    explicit Option(CLI::Option& option) : option_(&option) {}
+    Option& required();
+    Option& needs(const Option& other);
+    Option& excludes(const Option& other);
+
+private:
+    CLI::Option* option_;
+};
+
+/// Smallest and largest number that an option takes; both are included.
+struct Bounds {
+    double low = 0.0;
+    double high = 0.0;  ///< of whole numbers, 0: any
+};
+
+/// A command. Each option is written to its variable when it is given; the variable must live as
+/// long as the command. Names are written as "-o,--output", or "DATA" for an argument without a
+/// name.
+class Command {
+public:
+    Command(CLI::App& app, std::function<int()>& chosen) : app_(&app), chosen_(&chosen) {}
+
+    Option text(const char* names, std::string& value, const std::string& what);
+    Option text(const char* names, std::optional<std::string>& value, const std::string& what);
+    Option path(const char* names, std::filesystem::path& value, const std::string& what);
+    Option path(const char* names, std::optional<std::filesystem::path>& value,
+                const std::string& what);
+    /// At most `most` paths; 0: any number.
+    Option paths(const char* names, std::vector<std::filesystem::path>& values,
+                 const std::string& what, int most = 0);
+    /// One word each time that the option is given.
+    Option words(const char* names, std::vector<std::string>& values, const std::string& what);
+    Option choice(const char* names, std::string& value, const std::vector<std::string>& choices,
+                  const std::string& what);
+    /// The same, but the option may also stand without a word, which is then `alone`.
+    Option choice_or(const char* names, std::string& value, const std::vector<std::string>& choices,
+                     const std::string& alone, const std::string& what);
+    /// Names that begin with "!" switch the flag off.
+    Option flag(const char* names, bool& value, const std::string& what);
+    Option number(const char* names, double& value, Bounds bounds, const std::string& what);
+    Option number(const char* names, std::optional<double>& value, Bounds bounds,
+                  const std::string& what);
+    /// A whole number of 0 or more; `Whole` is any type that holds one.
+    template <class Whole>
+    Option whole(const char* names, Whole& value, Bounds bounds, const std::string& what) {
+        return whole(
+            names, [&value](std::uint64_t given) { value = static_cast<Plain<Whole>>(given); },
+            default_of(value), bounds, what);
+    }
+
+    /// Does the command; returns the exit code.
+    void action(std::function<int()> work);
+
+private:
+    template <class T>
+    struct Value {
+        using Type = T;
+    };
+    template <class T>
+    struct Value<std::optional<T>> {
+        using Type = T;
+    };
+    template <class T>
+    using Plain = typename Value<T>::Type;
+    template <class T>
+    static std::optional<std::uint64_t> default_of(const T& value) {
+        return static_cast<std::uint64_t>(value);
+    }
+    template <class T>
+    static std::optional<std::uint64_t> default_of(const std::optional<T>&) {
+        return {};
+    }
+    Option whole(const char* names, const std::function<void(std::uint64_t)>& set,
+                 std::optional<std::uint64_t> standard, Bounds bounds, const std::string& what);
+
+    CLI::App* app_;
+    std::function<int()>* chosen_;  // of the program: what to do
+};
+
+/// A program with commands, or with options alone.
+class Program {
+public:
+    Program(const char* name, const char* what);
+    ~Program();
+    Program(const Program&) = delete;
+    Program& operator=(const Program&) = delete;
+
+    Command command(const char* name, const char* what);
+    /// The program itself, if it has no commands.
+    Command options();
+    void footer(const char* text);
+
+    /// Reads the arguments and does what they say. Returns the exit code. Throws ConfigError for an
+    /// unknown command or option.
+    int run(std::span<char* const> arguments);
+
+private:
+    std::unique_ptr<CLI::App> app_;
+    std::function<int()> chosen_;
+};
+
+}  // namespace dynamic_filter::app

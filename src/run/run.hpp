@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+/// From recordings to a result.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "recording/data_options.hpp"
+#include "settings/config_file.hpp"
+
+namespace dynamic_filter::app {
+
+inline constexpr std::size_t kFewestTileVoxels = 1000;  ///< smaller tiles are mostly halo
+
+/// Several recordings of one world, or one that is larger than memory; see docs/city.md.
+struct CityOptions {
+    std::vector<std::filesystem::path> recordings;  ///< or lists of them
+    std::string part;                               ///< "I/N", or empty: all tiles, and the merge
+    std::string memory;                             ///< "1.5G", or empty
+    std::optional<std::filesystem::path> plan;      ///< left by `plan -o`
+    std::size_t tile_voxels = 1'500'000;            ///< most in a tile
+    bool mpi = false;
+};
+
+struct RunOptions {
+    DataOptions data;
+    CityOptions city;
+    std::optional<std::filesystem::path> output;
+    ConfigOptions config;
+    int threads = 0;
+    std::string refine = "auto";  ///< auto, on or off
+    bool online = false;
+    double speed = 1.0;  ///< of online: times the sensor's rate; 0: as fast as it can
+    bool overwrite = false, resume = false;
+    std::optional<std::filesystem::path> edits;  ///< empty: those in the output folder, if any
+    bool maps = true, report = true;             ///< left beside the labels
+    bool view = false;
+    std::uint16_t port = 0;  ///< of the view; 0: any
+    bool quiet = false;      ///< says only what is wrong
+    bool catches = true;     ///< interrupts; otherwise the caller does
+    std::string after;       ///< stage of timing.json for what the process did before; may be empty
+};
+
+struct MergeOptions {
+    std::vector<std::filesystem::path> parts;  ///< output folders of `run --part`
+    std::filesystem::path output;
+    int threads = 0;
+    bool overwrite = false, quiet = false;
+};
+
+/// Filters one recording or several. Returns the exit code; throws an Error.
+int run(const RunOptions& options);
+/// Puts the parts of a run together. Returns the exit code; throws an Error.
+int merge(const MergeOptions& options);
+
+}  // namespace dynamic_filter::app
