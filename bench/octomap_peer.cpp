@@ -14,6 +14,7 @@
 
 #include "dynamic_filter/error.hpp"
 #include "recording/frames.hpp"
+#include "run/scored_scans.hpp"
 #include "score/report.hpp"
 
 namespace {

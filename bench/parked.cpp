@@ -25,6 +25,7 @@
 #include <string>
 #include <vector>
 
+#include "base/natural_order.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/recording.hpp"
 

@@ -25,10 +25,10 @@
 #include <string>
 #include <vector>
 
+#include "dynamic_filter/motion.hpp"
 #include "dynamic_filter/range_image.hpp"
 #include "dynamic_filter/settings.hpp"
 #include "dynamic_filter/stage_times.hpp"
-#include "dynamic_filter/tracking.hpp"
 #include "dynamic_filter/types.hpp"
 
 namespace dynamic_filter {

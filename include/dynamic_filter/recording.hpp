@@ -20,7 +20,6 @@
 #include "dynamic_filter/cloud.hpp"
 #include "dynamic_filter/motion.hpp"
 #include "dynamic_filter/poses.hpp"
-#include "dynamic_filter/tracking.hpp"
 #include "dynamic_filter/types.hpp"
 
 namespace dynamic_filter::io {
@@ -140,8 +139,5 @@ std::string stem(const Sequence& sequence, std::size_t i);
 /// Reads ground-truth labels in the format of SemanticKITTI. The low 16 bits count: 251-259 are
 /// dynamic, 0 and 1 unknown, all others static. Throws InputError.
 Labels read_labels(const std::filesystem::path& file);
-
-/// Natural order of names: "a2" is before "a10".
-bool natural_less(const std::string& a, const std::string& b);
 
 }  // namespace dynamic_filter::io

@@ -14,7 +14,6 @@
 ///
 /// - Units: the Setting that visit() passes with each field names its unit; bounds are in this
 ///   unit. Keyframes: [m], [s].
-/// - Frames: is_keyframe() takes two scans in any frame, but the same for both.
 /// - Ownership: the texts of a Setting are string literals and stay valid for the whole program;
 ///   all else are values.
 /// - Shapes: violations() returns one sentence per fault.
@@ -25,8 +24,6 @@
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "dynamic_filter/types.hpp"
 
 namespace dynamic_filter {
 
@@ -61,10 +58,6 @@ struct KeyframeConfig {
     double interval = 0.25;  ///< [s] after the last keyframe
     double distance = 0.5;   ///< [m] from the last keyframe
 };
-
-/// True if `scan` is at least `interval` later than the last keyframe, or at least `distance` away
-/// from it.
-bool is_keyframe(const Scan& last, const Scan& scan, const KeyframeConfig& config);
 
 /// Settings of the odometry. visit_odometry() explains each of them.
 struct OdometryConfig {

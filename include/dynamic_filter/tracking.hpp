@@ -21,27 +21,6 @@
 
 namespace dynamic_filter {
 
-/// How reliable a pose is.
-enum class TrackStatus {
-    good,
-    /// The scan leaves one direction undetermined; there, the previous motion is extrapolated.
-    weak,
-    lost  ///< too few points lie on the map; the pose extrapolates the previous motion
-};
-
-/// Estimated pose and motion of the sensor at one scan.
-struct Tracked {
-    Pose T_world_sensor = Pose::Identity();  ///< at the stamp of the scan
-    Twist velocity = Twist::Zero();          ///< during the scan, in the sensor frame, per second
-    TrackStatus status = TrackStatus::good;  ///< how reliable the pose is
-    /// Covariance of the displacement since the previous scan, in the sensor frame, [m] and [rad].
-    Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
-    double inliers = 1.0;  ///< 0..1: share of the points that lie on the map
-    /// True if many scans were lost: a new map begins with this scan, and its pose relative to the
-    /// previous map is not known.
-    bool begins_anew = false;
-};
-
 /// Call track() and learn() in turn for each scan. The same scans give bit-identical results.
 class Odometry {
 public:

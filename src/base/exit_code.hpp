@@ -3,7 +3,7 @@
 
 namespace dynamic_filter::app {
 
-/// With what the programs end.
+/// Exit codes of the programs.
 enum ExitCode {
     kDone = 0,
     kInternal = 1,

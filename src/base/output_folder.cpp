@@ -110,7 +110,7 @@ void move_into(const fs::path& from, const fs::path& to) {
     }
 }
 
-/// What a process that was killed left half-written.
+/// Removes files that a killed process left half-written.
 void remove_stale(const fs::path& path, Contents contents) {
     remove_files(path, is_stale);
     for (const auto& [name, suffix] : written_by(contents).folders) {
@@ -144,7 +144,8 @@ bool is_of_use_in_part(Contents contents) {
     return contents == Contents::result || contents == Contents::demo;
 }
 
-/// What one command leaves is not replaced by another's: the rest of it would stay and mislead.
+/// Refuses to replace the result of a run by the output of another command. Some of its files would
+/// stay and mislead.
 void refuse_result_of_a_run(const fs::path& folder, Contents contents) {
     if (contents == Contents::result || !fs::exists(folder / kRunState)) return;
     throw ConfigError(folder.string() +

@@ -12,9 +12,9 @@ enum class Contents { result, recording, benchmark, tiles, tiles_3d, las_tiles, 
 /// What becomes of an earlier result in the folder.
 enum class Existing {
     refuse,   ///< ConfigError
-    replace,  ///< it stays until commit(), and then goes: what such a command leaves, nothing else
-    resume,   ///< it is written over, file by file; or, where a killed process was replacing it,
-              ///< what that one left beside it
+    replace,  ///< keeps it until commit(), then removes what such a command writes, nothing else
+    resume,   ///< goes on in the folder. If a killed run was replacing an older result, goes on
+              ///< with the files that it had begun beside it.
 };
 
 /// The mark of a run: what it was begun with.
@@ -32,13 +32,13 @@ public:
     OutputFolder& operator=(const OutputFolder&) = delete;
     ~OutputFolder();
 
-    /// Where to write: beside an earlier result, as long as there is one. What is of no use in
-    /// part is written beside in any case, and without commit() nothing of it is left.
+    /// Where to write: beside an earlier result, as long as there is one. Outputs that are useless
+    /// in part are always written beside. Without commit() nothing of them is left.
     [[nodiscard]] const std::filesystem::path& path() const {
         return beside_.empty() ? path_ : beside_;
     }
     [[nodiscard]] const std::filesystem::path& name() const { return path_; }
-    /// Puts what was written in the place of the earlier result. Without it, that one stays.
+    /// Replaces the earlier result by the new files. Without this call, the earlier result stays.
     void commit();
     /// Creates and returns a folder inside.
     [[nodiscard]] std::filesystem::path subfolder(const char* name) const;

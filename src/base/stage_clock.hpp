@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// What each stage of the process takes, from its start on.
+/// Measures the time of each stage of the process, from the start of the process.
 #pragma once
 
 #include <string>

@@ -14,7 +14,7 @@ struct CommonOffset {
     Eigen::Vector3d pivot = Eigen::Vector3d::Zero();  ///< [m] world: the middle of the places
     Eigen::Vector3d shift = Eigen::Vector3d::Zero();  ///< [m] world
     double yaw = 0.0;                                 ///< [rad] counterclockwise
-    /// [m] What the correction of each place differs by from this one, in the directions that the
+    /// [m] Difference between the correction of each place and this one, in the directions that the
     /// place shows. A turn counts as the shift that is as unlikely.
     std::vector<double> differences;
 

@@ -75,7 +75,7 @@ void set_offset(DriveOffset& offset, const CommonOffset& correction,
     }
 }
 
-/// What two drives are to each other before their scans are looked at.
+/// Two drives and where they meet, before their scans are compared.
 struct DrivePair {
     DriveOffset offset;
     Meeting meeting;

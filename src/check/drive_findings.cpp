@@ -38,7 +38,7 @@ std::string vector_text(const Eigen::Vector3d& v) {
     return fmt::format("({:.2f}, {:.2f}, {:.2f}) m", v.x(), v.y(), v.z());
 }
 
-/// Without the minus of numbers that are printed as zero.
+/// Rounds to centimetres, and takes the minus from zeros.
 Eigen::Vector3d rounded(const Eigen::Vector3d& v) {
     Eigen::Vector3d cm = (100.0 * v).array().round().matrix() / 100.0;
     for (double& along : cm) along = along == 0.0 ? 0.0 : along;
@@ -50,7 +50,7 @@ std::string distance_text(double metres) {
                            : fmt::format("{:.1f} km", metres / 1000.0);
 }
 
-/// What such an offset often comes from.
+/// Names a frequent cause of such an offset.
 std::string likely_cause(const DriveOffset& offset) {
     constexpr double kSmall = 0.05;  // [m]
     const double flat = offset.shift.head<2>().norm(), height = std::abs(offset.shift.z());

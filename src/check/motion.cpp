@@ -34,7 +34,8 @@ std::string error_text(const io::MotionQuality& quality) {
                        last.turn * 180.0 / std::numbers::pi, last.apart);
 }
 
-/// By the times of the points, or by their azimuths.
+/// Chooses how the motion within scans is undone: by the times of the points, else by their
+/// azimuths. Returns a note, or "".
 std::string choose_deskew(io::Sequence& sequence, const OdometryConfig& config,
                           const MotionChoice& choice, bool timed, bool is_distorted) {
     sequence.wants_times = false;

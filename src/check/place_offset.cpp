@@ -147,7 +147,7 @@ Registration best_registration(const SurfaceMap& map, const Points& points,
     return best;
 }
 
-/// What the points say about x, y, z and the turn, whatever the tilt is.
+/// Information of the points about x, y, z and the turn, for any tilt.
 FlatInformation flat_information(const Information& of_points) {
     Information regular = of_points;
     regular.diagonal().array() += 1e-6;

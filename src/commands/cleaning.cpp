@@ -41,7 +41,7 @@ Sample sample_of(const io::Frame& frame, std::size_t index, const Eigen::Vector3
     return sample;
 }
 
-/// What both halves show, and how.
+/// The view that both halves of the picture share.
 struct Stage {
     Camera camera;
     Eigen::AlignedBox3f box;
@@ -59,7 +59,7 @@ Stage stage_for(const std::vector<Sample>& samples, const RenderOptions& o) {
     return stage;
 }
 
-/// Of each sample, the points that are not dynamic by the evidence so far.
+/// Returns the points of each sample that are not dynamic by the evidence so far.
 std::vector<Points> kept_of(const std::vector<Sample>& samples, std::size_t count,
                             const DynamicFilter& filter) {
     std::vector<Points> kept(count);

@@ -13,6 +13,7 @@
 #include "page/run_view.hpp"
 #include "recording/data_options.hpp"
 #include "recording/frames.hpp"
+#include "run/scored_scans.hpp"
 #include "score/report.hpp"
 
 namespace dynamic_filter::app {

@@ -27,12 +27,12 @@ namespace dynamic_filter::app {
 
 namespace {
 
-/// What a format could not hold, or what was wrong with its source.
+/// Prints what a format could not hold, or what was wrong with its source.
 void say(const std::string& note) {
     if (!note.empty()) fmt::print(stderr, "note: {}\n", note);
 }
 
-/// Of a run, or the recording's own truth.
+/// Reads the labels of a run if --labels is given, else the recording's own ground truth.
 Labels labels_of(const ConvertOptions& o, const io::Sequence& sequence, std::size_t i,
                  const io::Frame& frame) {
     if (!o.labels) {
@@ -49,7 +49,7 @@ Labels labels_of(const ConvertOptions& o, const io::Sequence& sequence, std::siz
                     folder.string(), labels.size(), frame.points.size(), io::stem(sequence, i)));
 }
 
-/// Of options that are for the map of several drives only.
+/// Refuses options that are for the map of several drives only.
 void refuse_map_options(const ConvertOptions& o) {
     if (o.to != "3dtiles" && o.to != "las" && o.origin.empty()) return;
     throw ConfigError(fmt::format(

@@ -25,7 +25,7 @@ std::string random_token() {
     return token;
 }
 
-/// In a time that does not tell how much of it was right.
+/// Compares in a time that does not tell how many bytes were right.
 bool same(const std::string& a, const std::string& b) {
     if (a.size() != b.size()) return false;
     unsigned difference = 0;

@@ -15,6 +15,7 @@
 #include "dynamic_filter/file.hpp"
 #include "recording/data_options.hpp"
 #include "recording/frames.hpp"
+#include "run/scored_scans.hpp"
 #include "score/protocols.hpp"
 #include "score/range_limits.hpp"
 #include "score/report.hpp"
@@ -52,7 +53,7 @@ std::string ranges_text(const RangeLimits& ranges) {
     return fmt::format("scored are points from {:g} m{} of the sensor\n", ranges.min, far);
 }
 
-/// Where the recording has no poses, those that the run found.
+/// Opens the recording. If it has no poses, uses those that the run found.
 io::Sequence with_poses(const EvalOptions& o) {
     io::Sequence sequence = open(o.truth);
     if (sequence.has_poses) return sequence;

@@ -24,7 +24,7 @@ struct Evaluation {
     std::size_t scans = 0, left_out = 0;  ///< left out: unreadable, or without labels
 };
 
-/// What `eval` prints. Throws what it does.
+/// Computes what `eval` prints, and throws the same errors.
 Evaluation scores_of(const EvalOptions& options);
 
 }  // namespace dynamic_filter::app

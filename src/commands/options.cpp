@@ -110,7 +110,6 @@ std::string known_elsewhere(const std::string& name) {
         {"--voxel_size", "the size of a voxel is a setting: --set map.voxel_size=0.1"},
         {"--resolution", "the size of a voxel is a setting: --set map.voxel_size=0.1"},
         {"--leaf-size", "the size of a voxel is a setting: --set map.voxel_size=0.1"},
-        {"--max-range", "the farthest point that is used is a setting: --set map.max_range=60"},
         {"--input", "the recording is given without an option: dynamicfilter run RECORDING"},
         {"-i", "the recording is given without an option: dynamicfilter run RECORDING"},
         {"--data", "the recording is given without an option: dynamicfilter run RECORDING"},
@@ -222,7 +221,7 @@ Option Command::paths(const char* names, std::vector<std::filesystem::path>& val
     CLI::Option& option = add_many(*app_, names, "PATH", what, [&values](const Words& words) {
         values.assign(words.begin(), words.end());
     });
-    option.expected(1, most > 0 ? most : CLI::detail::expected_max_vector_size);
+    option.expected(1, most > 0 ? most : CLI::detail::expected_max_vector_size)->allow_extra_args();
     return Option(option);
 }
 

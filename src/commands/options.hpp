@@ -90,6 +90,7 @@ private:
     using Plain = typename Value<T>::Type;
     template <class T>
     static std::optional<std::uint64_t> default_of(const T& value) {
+        if (value <= T{0}) return {};  // "any", or that of the scene; the text says it
         return static_cast<std::uint64_t>(value);
     }
     template <class T>

@@ -27,7 +27,7 @@ struct ServeOptions {
 
 namespace fs = std::filesystem;
 
-/// What can be asked for: only what was there at the start, by the paths made here.
+/// The pages that are served, by their paths. Only pages that were there at the start are served.
 using Pages = std::map<std::string, fs::path>;
 
 Pages reports_in(const fs::path& folder) {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "commands/shared_options.hpp"
-#include "recording/data_options.hpp"
-#include "run/run.hpp"
-#include "settings/config_file.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include "recording/data_options.hpp"
+#include "run/run.hpp"
+#include "settings/config_file.hpp"
 
 namespace dynamic_filter::app {
 

@@ -19,12 +19,12 @@ struct Camera {
     float height = 1.0F;         ///< [m] over the picture's height, if orthographic
 };
 
-/// From straight above, x to the right.
+/// Looks down from straight above, x to the right.
 Camera from_above(const Eigen::AlignedBox3f& box, float aspect);
-/// Down on the box's middle along a direction: azimuth from x, elevation below the horizon [rad].
+/// Looks at the box's middle along a direction: azimuth from x, elevation below the horizon [rad].
 Camera from_aside(const Eigen::AlignedBox3f& box, float aspect, float azimuth, float elevation);
 
-/// Where all but the outermost points of each axis lie (`share` at either end).
+/// The box of the points without the outermost ones of each axis (`share` at either end).
 Eigen::AlignedBox3f box_of(const Points& points, float share);
 
 /// Draws twice as fine, and shades edges by the depth around them, so that shapes can be told.
@@ -48,7 +48,7 @@ private:
 
 /// Dark blue at the ground to light grey-green above; none of it near red.
 io::Color height_color(float share);
-/// By where the point lies between the bottom and the top of the box.
+/// Colours a point by its height between the bottom and the top of the box.
 io::Color height_color(const Point& point, const Eigen::AlignedBox3f& box);
 constexpr io::Color kRemovedColor{214, 39, 40}, kUnknownColor{148, 64, 150};
 

@@ -6,8 +6,8 @@
 
 namespace dynamic_filter::app {
 
-/// By --to: 3dtiles, las or autoware. Returns the exit code. Throws ConfigError, InputError and
-/// OutputError; then nothing is left in the output folder.
+/// Writes the output that --to names: 3dtiles, las or autoware. Returns the exit code. Throws
+/// ConfigError, InputError and OutputError; then nothing is left in the output folder.
 int convert_map(const ConvertOptions& options);
 
 }  // namespace dynamic_filter::app

@@ -13,7 +13,7 @@
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/writers.hpp"
 #include "recording/frames.hpp"
-#include "run/map_files.hpp"
+#include "recording/world_records.hpp"
 
 namespace fs = std::filesystem;
 
@@ -101,7 +101,7 @@ public:
         truth_.data.insert(truth_.data.end(), cloud.data.begin(), cloud.data.end());
         labelled_ = labelled_ && !labels.empty();
     }
-    /// With labels, the map that the benchmark scores against.
+    /// Writes the map that the benchmark scores against, if there are labels.
     std::string commit() override {
         truth_.fields = layout_.fields;
         truth_.point_bytes = layout_.point_bytes;

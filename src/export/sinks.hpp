@@ -21,12 +21,12 @@ public:
     virtual ~Sink() = default;
     /// `labels` are verdicts or ground truth, empty if there are none.
     virtual void append(const io::Frame& frame, const Labels& labels) = 0;
-    /// Returns what the format could not hold, as a sentence; empty if it held all. Without it
-    /// nothing is left.
+    /// Returns what the format could not hold, as a sentence; empty if it held all. Without this
+    /// call, no file is left.
     virtual std::string commit() = 0;
 };
 
-/// By the output's name and --to. Throws ConfigError before any work is done.
+/// Chooses the sink by the output's name and --to. Throws ConfigError before any work is done.
 std::unique_ptr<Sink> make_sink(const ConvertOptions& options);
 
 /// Throws ConfigError if the output is no cloud file that can be written, or is there already.

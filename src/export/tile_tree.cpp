@@ -13,7 +13,7 @@ namespace {
 using TileList = std::vector<const MapTile*>;
 using TilesBySquare = std::map<std::pair<std::int64_t, std::int64_t>, TileList>;
 
-/// By the square of a level that each tile lies in.
+/// Groups the tiles by the square of a level in which they lie.
 TilesBySquare squares_of(const TileList& tiles, int level) {
     TilesBySquare squares;
     for (const MapTile* tile : tiles) {
@@ -40,8 +40,8 @@ TreeNode node_of(const TileList& tiles, int level) {
     return {tile_name(level, first.x >> up, first.y >> up), level, nullptr, std::move(children)};
 }
 
-/// Two squares in a row and in a column at most: what is around the origin never has a square of
-/// its own, as x = -1 and x = 0 are in different squares of every level.
+/// Allows two squares side by side in x and in y, because squares left and right of the origin have
+/// no common parent: x = -1 and x = 0 are in different squares of every level.
 bool are_close(const TilesBySquare& squares) {
     const auto y = std::minmax_element(
         squares.begin(), squares.end(),

@@ -31,7 +31,7 @@ constexpr double kErrorsPerSide = 16.0;
 /// Voxels in one file: what a viewer loads in one piece.
 constexpr std::size_t kMostTogether = 300'000;
 
-/// What all nodes are written with.
+/// The values that all nodes share while they are written.
 struct Writer {
     const MapIndex& index;
     const fs::path& folder;
@@ -104,8 +104,8 @@ struct TreeSquare {
     TilePoints points;
 };
 
-/// By the squares of this side. `parent`: the square that all lie in; voxels on its border count as
-/// within, so that no file has the name of another tile's.
+/// Groups the points by squares of this side. `parent`: the square that contains all of them.
+/// Voxels on its border count as within, so that no two tiles write a file of the same name.
 std::vector<TreeSquare> squares_of(const TilePoints& points, double side,
                                    const TreeSquare* parent) {
     std::map<std::pair<std::int64_t, std::int64_t>, TilePoints> squares;

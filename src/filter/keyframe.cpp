@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "dynamic_filter/settings.hpp"
+#include "filter/keyframe.hpp"
 
 namespace dynamic_filter {
 

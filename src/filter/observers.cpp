@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "filter/keyframe.hpp"
+
 namespace dynamic_filter {
 
 bool Observers::is_reliable(const BeamPattern& beams, const Scan& scan) const {

@@ -8,7 +8,7 @@
 
 namespace dynamic_filter::app {
 
-/// Of a verdict or of the truth, as the viewer counts: 0 unknown, 1 static, 2 dynamic.
+/// Number of a label in the viewer's arrays: 0 unknown, 1 static, 2 dynamic.
 inline std::uint8_t verdict_code(Label label) {
     return label == Label::dynamic ? 2 : label == Label::static_ ? 1 : 0;
 }

@@ -8,6 +8,7 @@
 #include "formats/byte_reader.hpp"
 #include "formats/messages/messages.hpp"
 #include "recording/frame.hpp"
+#include "tracking/pose_jump.hpp"
 
 namespace dynamic_filter::live {
 
@@ -17,7 +18,6 @@ constexpr std::size_t kMostClouds = 20, kMostPoses = 4096;  // that wait to be r
 constexpr std::size_t kMostFrames = 1000;                   // of /tf; more are ignored
 constexpr double kKept = 10.0;               // [s] poses are kept behind the newest scan
 constexpr double kEndOfTime = 2147483647.0;  // [s] what the stamps of all messages can hold
-constexpr double kClockBack = 1.0;  // [s] a stamp that goes back farther is a clock set back
 
 double seconds_between(SteadyTime from, SteadyTime to) {
     return std::chrono::duration<double>(to - from).count();
@@ -164,7 +164,7 @@ void Intake::add_transforms(const std::vector<io::StampedPose>& transforms, bool
 
 /// Poses of later times do not belong to the scans that follow.
 void Intake::note_clock(double stamp, double& newest, const std::string& of) {
-    const bool back = stamp < newest - kClockBack;
+    const bool back = stamp < newest - kRestart;
     newest = back ? stamp : std::max(newest, stamp);
     if (!back) return;
     tell(fmt::format("the stamps of {} went back to {:.3f} s, so earlier poses are forgotten", of,

@@ -167,7 +167,8 @@ private:
                       next_dropped_ = start_;
 };
 
-/// The folders that `run` makes of the bags; not for a supervisor that wants the process to end.
+/// Runs `run` on each recorded bag. After SIGTERM it only names the bags, because a supervisor is
+/// waiting.
 int finish(Recorder& recorder, const LiveOptions& o, const LiveConfig& config, bool own_poses) {
     int worst = app::kDone;
     const std::vector<fs::path> folders = recorder.commit();

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "dynamic_filter/cloud.hpp"
+#include "geometry/kept.hpp"
 
 namespace dynamic_filter::live {
 
@@ -173,8 +174,7 @@ void Outputs::publish_part(const Output& output, const LiveScan& scan, const Lab
     if (!is_wanted(output)) return;
     const bool keeps_unknown = config_.filter.map.keep_unknown;
     const auto takes = [&](std::size_t i) {
-        if (dynamic || labels[i] == Label::dynamic) return dynamic && labels[i] == Label::dynamic;
-        return labels[i] == Label::static_ || keeps_unknown;
+        return where(labels[i], false, keeps_unknown) == (dynamic ? Kept::removed : Kept::in_map);
     };
     auto message =
         io::cloud_message(selected(scan.cloud, takes), scan.stamp, scan.frame, encoding_);

@@ -6,12 +6,11 @@
 #include <cstdio>
 #include <utility>
 
+#include "tracking/pose_jump.hpp"
+
 namespace dynamic_filter {
 
 namespace {
-
-// [s] back in time; no scan is that late, so the recording began again.
-constexpr double kRestart = 1.0;
 
 std::string seconds(double value) {
     char text[32];

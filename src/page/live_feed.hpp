@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "dynamic_filter/tracking.hpp"
+#include "dynamic_filter/motion.hpp"
 #include "dynamic_filter/types.hpp"
 
 namespace dynamic_filter::app {

@@ -93,7 +93,7 @@ private:
     std::vector<std::uint64_t> places_;
 };
 
-/// From indices in the recording to rows of path.
+/// Row of the path that belongs to an index in the recording.
 std::uint32_t row_of(const std::vector<ScanNote>& scans, std::size_t index) {
     const auto it = std::lower_bound(scans.begin(), scans.end(), index,
                                      [](const ScanNote& n, std::size_t i) { return n.index < i; });

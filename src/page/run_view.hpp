@@ -15,7 +15,7 @@
 
 namespace dynamic_filter::app {
 
-/// What writing noted about a scan.
+/// Counts of a scan, made while its labels are written.
 struct ScanNote {
     std::size_t index = 0;                               ///< in the sequence
     Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] of the sensor, in the world
@@ -41,10 +41,10 @@ struct ViewInput {
 /// Arrays of the run, and the part of its `info` that goes with them. Reads the scans again.
 PageRun view_of(const ViewInput& input);
 
-/// Whether the page plays this one of `scans` scans.
+/// True if the page plays scan `index` of `scans` scans.
 bool is_shown(std::size_t index, std::size_t scans);
 
-/// Of a cloud in the world's frame, all of it static.
+/// Arrays of a cloud in the world frame, all points static.
 PageRun view_of(const io::Cloud& cloud);
 
 }  // namespace dynamic_filter::app

@@ -17,7 +17,7 @@ inline bool is_sampled(std::size_t scan, std::size_t point, double share) {
     return static_cast<double>(x >> 32U) < share * 4294967296.0;
 }
 
-/// So that every beginning of a cloud is a fair sample of it.
+/// Shuffles, so that the first n items are a fair sample for every n.
 template <class T>
 std::vector<T> shuffled(std::vector<T> items) {
     std::mt19937 random(1);

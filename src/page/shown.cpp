@@ -18,7 +18,7 @@ std::uint8_t code_at(const Labels& labels, std::size_t i) {
     return labels.empty() ? std::uint8_t{3} : verdict_code(labels[i]);
 }
 
-/// Of a scan's measured points, about `most` at random: what moves fills up to half of it.
+/// Chooses about `most` measured points of a scan at random. Up to half of them are dynamic.
 std::vector<std::uint32_t> drawn(const io::Frame& frame, const Labels& labels, std::size_t scan,
                                  std::size_t most) {
     const auto moving =

@@ -20,8 +20,9 @@ struct ShownPoint {
     std::uint64_t place = 0;         ///< OnlineFilter::places_of
 };
 
-/// What is left of a cloud where only so many points can be shown: at most one for each final
-/// verdict in a cube, whose edge grows until they fit. The first to come stays. Single caller.
+/// Thins a cloud to a number of points that can be shown. Keeps at most one point of each final
+/// verdict in a cube, and the edge of the cubes grows until the points fit. The first point of a
+/// cube stays. Single caller.
 class ThinnedCloud {
 public:
     explicit ThinnedCloud(std::size_t most) : most_(most) {}

@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// In units of level 0, so that tiles of all levels compare exactly.
+/// The square of a tile in units of level 0, so that tiles of all levels compare exactly.
 struct GridSquare {
     std::int64_t west, south, east, north;
 };
@@ -26,7 +26,7 @@ GridSquare units_of(const MapTile& tile) {
     return {tile.x * side, tile.y * side, (tile.x + 1) * side, (tile.y + 1) * side};
 }
 
-/// Where `other` touches the side of `tile`: "" if it does not.
+/// The side of `tile` that `other` touches; "" if it touches none.
 std::string direction_of(const GridSquare& tile, const GridSquare& other) {
     const bool beside = other.south < tile.north && other.north > tile.south;
     const bool above = other.west < tile.east && other.east > tile.west;
@@ -46,7 +46,8 @@ ordered_json neighbours_of(const MapIndex& index, const MapTile& tile) {
     return list;
 }
 
-/// With as few left out as possible; the edge of the cubes [m] is 0 if none is.
+/// Thins the points to at most `most`, and leaves out as few as possible. `spacing` becomes the
+/// edge of the cubes [m] by which they are thinned; 0: all points are kept.
 TilePoints shown_of(const TilePoints& points, double voxel_size, std::size_t most,
                     double& spacing) {
     constexpr double kGrowth = 1.4;
@@ -59,8 +60,7 @@ TilePoints shown_of(const TilePoints& points, double voxel_size, std::size_t mos
     return shown;
 }
 
-/// Of the greatest but for a hundredth: a few voxels beside a standing sensor are seen far more
-/// often.
+/// The 99th percentile. A few voxels near a sensor at rest have far higher counts.
 double usual_most(const std::vector<std::uint32_t>& values) {
     if (values.empty()) return 1.0;
     std::vector<std::uint32_t> sorted = values;

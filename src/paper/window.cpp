@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "filter/keyframe.hpp"
+
 namespace dynamic_filter {
 
 std::optional<Window> WindowCutter::push(Scan scan) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/natural_order.hpp"
 #include "base/text.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/recording.hpp"

@@ -8,6 +8,7 @@
 #include "base/input.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/recording.hpp"
+#include "formats/clouds/cloud_size.hpp"
 #include "recording/bag_scans.hpp"
 #include "recording/folders.hpp"
 #include "recording/frame.hpp"

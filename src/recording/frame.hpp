@@ -19,7 +19,4 @@ Points into_sensor(const Cloud& cloud, const Pose& T_world_sensor);
 /// number or has a wrong unit.
 bool is_absurdly_far(const Pose& T_world_sensor);
 
-/// Throws InputError if the size of the file alone shows that it holds no cloud.
-void refuse_bad_size(const std::filesystem::path& file);
-
 }  // namespace dynamic_filter::io

@@ -9,10 +9,8 @@
 
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/recording.hpp"
-#include "dynamic_filter/scores.hpp"
 #include "dynamic_filter/types.hpp"
 #include "recording/data_options.hpp"
-#include "score/range_limits.hpp"
 
 namespace dynamic_filter::app {
 
@@ -59,16 +57,5 @@ Eigen::Vector3d origin_of(const io::Cloud& cloud);
 
 /// A whole number of voxels near the first usable pose; the world's origin if there is none.
 Eigen::Vector3d scoring_origin(const io::Sequence& sequence, double voxel_size);
-
-/// A frame with ground truth as the scores take it, without a verdict. Points outside of `limits`
-/// get an unknown truth, so that every score leaves them out.
-eval::LabelledScan labelled(const io::Frame& frame, const Eigen::Vector3d& origin,
-                            const RangeLimits& limits = {});
-
-/// For the scores: scans with ground truth, verdicts from `labels_of` (may be empty).
-/// Rejected scans (unreadable, or without labels) give nothing.
-eval::ScanSource scan_source(const io::Sequence& sequence, const Eigen::Vector3d& origin,
-                             std::function<std::optional<Labels>(std::size_t)> labels_of,
-                             const RangeLimits& limits = {});
 
 }  // namespace dynamic_filter::app

@@ -5,11 +5,13 @@
 #include <span>
 #include <vector>
 
+#include "base/natural_order.hpp"
 #include "dynamic_filter/cloud.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
 #include "dynamic_filter/recording.hpp"
 #include "dynamic_filter/writers.hpp"
+#include "geometry/kept.hpp"
 #include "run/edit_lookup.hpp"
 #include "run/map_gaps.hpp"
 #include "settings/config_file.hpp"
@@ -140,11 +142,9 @@ Applied rewrite(const fs::path& run, const EditLookup& lookup, bool keep_unknown
             const auto record = (from == Label::dynamic ? dynamic : still).next();
             labels[i] = lookup.label_of(record.world, from, row);
             if (labels[i] != from) ++applied.changed;
-            if (labels[i] == Label::dynamic) {
-                append(records_dynamic, record.bytes);
-            } else if (labels[i] == Label::static_ || keep_unknown) {
-                append(records_still, record.bytes);
-            }
+            const Kept kept = where(labels[i], false, keep_unknown);
+            if (kept == Kept::removed) append(records_dynamic, record.bytes);
+            if (kept == Kept::in_map) append(records_still, record.bytes);
         }
         applied.points += labels.size();
         new_still.append(records_still);

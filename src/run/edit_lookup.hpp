@@ -12,8 +12,8 @@
 
 namespace dynamic_filter::app {
 
-/// What edits make of a point: one look-up, however many edits there are. Immutable once built;
-/// thread-safe.
+/// Finds the label that the edits give a point, by one look-up for any number of edits. Immutable
+/// once built; thread-safe.
 class EditLookup {
 public:
     explicit EditLookup(const Edits& edits);
@@ -28,8 +28,7 @@ private:
         std::size_t operator()(const Key& key) const;
     };
     static constexpr std::uint32_t kNone = UINT32_MAX;
-    /// An edit of a cell, and the entry of the one before it, which counts where this one's range
-    /// of scans does not reach.
+    /// An edit of a cell. `before`: the earlier edit, used for scans outside of this one's range.
     struct Entry {
         std::uint32_t first, last, before;
         Label label;

@@ -18,11 +18,11 @@ using nlohmann::ordered_json;
 constexpr const char* kFormat = "dynamicfilter edits";
 constexpr int kVersion = 1;
 constexpr std::uint64_t kMostCells = 20'000'000;  ///< of a file: about 1 GB of memory
-/// By verdict_code().
+/// Names of labels, indexed by verdict_code().
 constexpr std::array<const char*, 3> kNames = {"unknown", "static", "dynamic"};
 constexpr std::array<Label, 3> kLabels = {Label::unknown, Label::static_, Label::dynamic};
 
-/// What the parser knows of where it is.
+/// The place in the file that the parser reads, for its messages.
 struct EditsPlace {
     const std::filesystem::path& file;
     std::string where;

@@ -31,7 +31,7 @@ struct Edit {
     bool operator==(const Edit&) const = default;
 };
 
-/// In the order in which they were made; where two meet, the later one holds.
+/// Edits in the order in which they were made. If two concern the same point, the later one holds.
 struct Edits {
     double cell_size = 0.2;  ///< [m]
     std::vector<Edit> edits;

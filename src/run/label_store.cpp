@@ -63,7 +63,7 @@ void LabelStore::put(std::size_t scan, const Labels& labels) {
     end_ += bytes.size();
 }
 
-/// Of no labels, if none were put.
+/// The place of a scan's labels; empty if none were put.
 LabelStore::Place LabelStore::place_of(std::size_t scan) const {
     const std::lock_guard hold(lock_);
     const auto place = places_.find(scan);

@@ -25,7 +25,7 @@ public:
 
     /// Takes the fields of the first frame, and opens the files.
     void begin(const io::Frame& first);
-    /// What Verdict::stays says belongs to the static map.
+    /// Splits the points of a frame. Points with Verdict::stays belong to the static map.
     [[nodiscard]] Records records_of(const io::Frame& frame, const Verdict& verdict) const;
     void append(const Records& records);
     /// Begins if need be, and appends the records of this frame.
@@ -38,12 +38,5 @@ private:
     io::Cloud layout_;  ///< fields of the maps, no records
     std::optional<io::PcdWriter> still_, dynamic_;
 };
-
-/// The frame's fields; float coordinates become double where the world's origin is so far away that
-/// a float would be off by a millimetre or more. `in_world`: as they are.
-io::Cloud layout_of(const io::Frame& frame, bool in_world);
-
-/// The frame's records in the given layout (same fields, x y z perhaps wider), x y z in the world.
-std::vector<std::byte> world_records(const io::Frame& frame, const io::Cloud& layout);
 
 }  // namespace dynamic_filter::app

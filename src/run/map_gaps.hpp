@@ -18,8 +18,8 @@ Gaps gaps_of(const Points& points);
 
 inline constexpr const char* kGapsFile = "map_gaps.bin";
 
-/// Of all scans in order: uint32 number of pairs, then the pairs as uint32, little endian. No file
-/// is written where no scan has any. Throws OutputError.
+/// Writes for each scan in order: uint32 number of pairs, then the pairs as uint32, little endian.
+/// Writes no file if no scan has gaps. Throws OutputError.
 void write_gaps(const std::filesystem::path& folder, const std::vector<Gaps>& scans);
 /// Empty where there is no file. Throws InputError if it is damaged.
 std::vector<Gaps> read_gaps(const std::filesystem::path& folder);

@@ -84,7 +84,7 @@ int merge(const MergeOptions& o) {
         if (!o.quiet) fmt::print("complete {}\n", o.output.string());
         return kDone;
     }
-    // What an earlier merge of these parts began is of use to nobody else.
+    // Goes on in the folder of an interrupted merge of the same parts, also without --overwrite.
     OutputFolder output(o.output, Contents::result,
                         is_begun(o.output, state) ? Existing::resume : replaced_if(o.overwrite));
     write_state(output, state);

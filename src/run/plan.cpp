@@ -118,8 +118,8 @@ public:
         before_last_ = std::exchange(last_, now);
     }
 
-    /// Gives the scans their cells. Not before all are read: small arrays between the large buffers
-    /// of scans would keep these from being used again.
+    /// Gives the scans their cells. Done after all scans are read. Otherwise small arrays would
+    /// fragment the memory of the scans.
     void finish() {
         auto next = cells_.begin();
         for (const Counts& counts : counts_) {
@@ -141,7 +141,6 @@ private:
     }
     /// False if the scan comes too late.
     bool begin_part(std::size_t i, const StampedPose& now) {
-        constexpr double kRestart = 1.0;  // [s] back in time; no scan is that late
         const std::string name = io::stem(sequence_, i);
         if (last_ && now.stamp < last_->stamp) {
             if (now.stamp >= last_->stamp - kRestart) {

@@ -34,6 +34,18 @@ void tell(const std::vector<std::string>& notes, bool quiet) {
     for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
 }
 
+void tell_written(const RunSummary& summary, std::size_t scans, const fs::path& folder,
+                  bool quiet) {
+    if (summary.interrupted) {
+        fmt::print(
+            "interrupted: {} of {} scans are written to {}; the same command with -o {} --resume "
+            "goes on\n",
+            summary.scans, scans, folder.string(), folder.string());
+    } else if (!quiet) {
+        fmt::print("written  {}\n", folder.string());
+    }
+}
+
 }  // namespace
 
 int run(const RunOptions& o) {
@@ -56,6 +68,7 @@ int run(const RunOptions& o) {
         live.emplace(o.port, folder.filename().string(), o.data.data.string(), sequence.size());
         fmt::print(stderr, "view     {}\n", live->url());
     }
+    if (o.catches) catch_interrupts();  // from here on there is a folder
     OutputFolder output(folder, Contents::result,
                         o.resume ? Existing::resume : replaced_if(o.overwrite));
     std::vector<std::string> chosen;
@@ -71,13 +84,15 @@ int run(const RunOptions& o) {
         if (!o.quiet) fmt::print("complete {}\n", output.name().string());
         return kDone;
     }
-    write_state(output, state);
     tell(sequence.notes, o.quiet);
     for (const io::Finding& found : io::check_recording(sequence, io::Depth::quick).findings) {
         fmt::print(stderr, "warning: {}\n", warning_of(found, o.data));
     }
-
-    if (o.catches) catch_interrupts();
+    if (interrupted()) {
+        fmt::print("interrupted before the first scan was filtered; nothing was written\n");
+        return kInterrupted;
+    }
+    write_state(output, state);
     clock.finish("prepare");
     const Pace pace{.threads = o.threads,
                     .online = o.online ? std::optional(o.speed) : std::nullopt};
@@ -97,7 +112,8 @@ int run(const RunOptions& o) {
     }
     output.commit();
     if (live) live->finish(output.name() / "report.html");
-    if (!o.quiet) fmt::print("{}written  {}\n", to_text(summary), output.name().string());
+    if (!o.quiet) fmt::print("{}", to_text(summary));
+    tell_written(summary, sequence.size(), output.name(), o.quiet);
     if (!named && !link_latest(output.name())) fmt::print(stderr, "note: no link results/latest\n");
     if (2 * summary.unknown > summary.points) {
         fmt::print(stderr,

@@ -40,8 +40,8 @@ void take_plan(City& city, const fs::path& file) {
     prepare(city.drives, city.plan);
 }
 
-/// The plan of the run: the given one; or that of the file, if there is one; otherwise it is made.
-/// It is in the file afterwards.
+/// Takes the plan from --plan, else from the file in the folder, else makes it. Saves it in the
+/// file.
 void find_plan(City& city, const RunOptions& o, const fs::path& file) {
     if (o.city.plan) {
         write_plan(file, city.plan, city.run);
@@ -135,10 +135,9 @@ int run_city(const RunOptions& o) {
         return kDone;
     }
     if (o.city.plan) take_plan(city, *o.city.plan);  // before anything is left in the folder
-    if (leads) open_output(place, city, o);
-
-    catch_interrupts();
+    catch_interrupts();                              // from here on there is a folder
     if (leads) {
+        open_output(place, city, o);
         find_plan(city, o, place.tiles() / kPlan);
         tell_notes(city, o.quiet);
     }

@@ -16,6 +16,7 @@
 #include "dynamic_filter/parallel.hpp"
 #include "recording/frames.hpp"
 #include "run/run_reports.hpp"
+#include "run/scored_scans.hpp"
 #include "run/write_scans.hpp"
 #include "settings/config_file.hpp"
 
@@ -37,7 +38,7 @@ void reject(Pass& pass, std::size_t i, const std::string& why) {
     pass.summary.rejected.push_back(fmt::format("{}: {}", io::stem(pass.sequence, i), why));
 }
 
-/// What the filter said about scans, into the summary.
+/// Puts the filter's notices about scans into the summary.
 void take_notices(Pass& pass) {
     for (const Notice& notice : pass.notices) {
         const std::string line =

@@ -25,7 +25,7 @@ struct RunSummary {
     std::size_t points = 0, still = 0, dynamic = 0, unknown = 0;
     MapContents contents;  ///< of the filter's maps
     Seconds seconds;       ///< of the whole process, until the reports were written
-    /// Of each main stage: items per second of its busy wall time, in their order.
+    /// Items per second of busy wall time, for each main stage in order.
     struct Rate {
         std::string stage, item;
         double per_second = 0.0;
@@ -35,13 +35,13 @@ struct RunSummary {
     bool interrupted = false;
 };
 
-/// Who looks on, if anybody.
+/// Receivers of progress while a run goes on.
 struct Watchers {
     LiveView* live = nullptr;  ///< is told of every scan
     bool quiet = false;        ///< no progress on stderr
 };
 
-/// What a run leaves beside labels and figures.
+/// Outputs of a run beside labels and figures.
 struct Extras {
     bool maps = true, report = true;
 };

@@ -37,7 +37,7 @@ struct TileSummary {
     std::size_t keyframes = 0;
     Eigen::Vector3d low = Eigen::Vector3d::Zero(), high = Eigen::Vector3d::Zero();  ///< of the map
     std::vector<DriveCounts> drives;
-    /// Of the file with the voxels beside it, see file_mark_of(); empty: there is no such file.
+    /// Mark of the file of voxels beside it, see file_mark_of(); empty: there is no such file.
     std::string map_mark;
 };
 

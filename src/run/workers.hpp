@@ -9,11 +9,11 @@
 namespace dynamic_filter::app {
 
 /// One process of a run that several processes may share. All of them must make the same calls of
-/// all_done in the same order. If the object is destroyed by an exception, or before the others
-/// have made their next call of all_done, that call returns false on the others; so nobody waits
-/// forever for a process that failed. The destructor waits for the destructors of the others: keep
-/// the object until all output is written, because mpirun kills every process as soon as one of
-/// them ends with an exit code other than 0.
+/// all_done in the same order. If one process fails, all_done() returns false in all others, so
+/// that none waits for it. A process fails if an exception destroys the object, or if the object is
+/// destroyed before the others call all_done() again. The destructor waits for the destructors of
+/// the others. Keep the object until all output is written, because mpirun kills every process as
+/// soon as one of them ends with an exit code other than 0.
 class Workers {
 public:
     Workers() = default;

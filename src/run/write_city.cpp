@@ -253,7 +253,7 @@ CitySummary count(const City& city, const Tiles& tiles) {
     return summary;
 }
 
-/// Of a single drive, its own; of several, those of each.
+/// Metrics of the only drive, or of each of several drives.
 Json metrics_of_all(const City& city, const CitySummary& summary) {
     Json drives = Json::object();
     for (std::size_t d = 0; d < city.drives.size(); ++d) {

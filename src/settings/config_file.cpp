@@ -95,7 +95,8 @@ void note_without_effect(const Config& config, const std::vector<Assigned>& assi
     }
 }
 
-/// The method is known only when all is read: then what was set without an effect can be named.
+/// Settings without an effect are reported last, because the method may be set in any of the
+/// sources.
 Config load_config(const ConfigOptions& options) {
     Config config = preset(options.preset);
     std::vector<Assigned> assigned;

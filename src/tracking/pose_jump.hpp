@@ -9,6 +9,9 @@
 
 namespace dynamic_filter {
 
+/// [s] A stamp that goes back farther is not late: the recording, or the clock, began again.
+inline constexpr double kRestart = 1.0;
+
 /// A pose and the time at which the sensor had it.
 struct StampedPose {
     Pose T_world_sensor = Pose::Identity();

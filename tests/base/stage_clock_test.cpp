@@ -26,7 +26,7 @@ TEST(StageClock, StagesFollowEachOtherFromTheBeginningOfTheProcess) {
     EXPECT_NEAR(clock.total().cpu, sum.cpu, 1e-9);
 }
 
-// Of two clocks, the later one counts what was before it, too.
+// A clock also counts the time before it was made.
 TEST(StageClock, CountsTheWholeProcess) {
     StageClock early, late;
     early.finish("all");

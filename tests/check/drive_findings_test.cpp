@@ -13,7 +13,7 @@ protected:
             drives_.emplace_back().root = name;
         }
     }
-    /// Of the first `count` drives.
+    /// Findings about the first `count` drives.
     std::vector<Finding> of(std::size_t count, const std::vector<DriveOffset>& offsets) {
         std::vector<const Sequence*> all;
         for (std::size_t i = 0; i < count; ++i) all.push_back(&drives_[i]);

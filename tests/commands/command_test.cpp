@@ -153,7 +153,7 @@ TEST_F(Command, LeavesOutMapsAndReportIfAsked) {
     EXPECT_FALSE(fs::exists(folder_ / "labels/report.html"));
     EXPECT_EQ(labels["metrics.json"], all["metrics.json"]);
     EXPECT_EQ(labels.size(), all.size());
-    // What was begun without maps is not complete with them.
+    // A run that was begun without maps cannot be resumed with them.
     EXPECT_EQ(run(line + " -o labels --resume"), 2);
     EXPECT_EQ(run(line + " -o labels --resume --no-maps --no-report"), 0);
     EXPECT_EQ(run(line + " -o other --no-report --view"), 2);

@@ -23,6 +23,7 @@ for signal in INT TERM; do
     wait "$process" || code=$?
     [ "$code" = 130 ] || fail "exit code $code"
     grep -q '^interrupted' out/run.log || fail "the log does not say it"
+    grep -q '^interrupted: .* of 24 scans are written to out; .*--resume goes on' said.txt || fail "it does not say how to go on"
     "$command" info out/static_map.pcd > /dev/null || fail "the map cannot be read"
     labels=$(ls out/labels | wc -l)
     [ "$labels" -ge 6 ] && [ "$labels" -lt 24 ] || fail "$labels label files"
@@ -31,3 +32,16 @@ for signal in INT TERM; do
         diff -r "expected/$file" "out/$file" || fail "$file differs"
     done
 done
+
+# In the first moment, too, it says that it was interrupted, and leaves no lock behind.
+"$command" run data -o early > said.txt 2>&1 &
+process=$!
+until [ -e early ]; do
+    kill -0 "$process" || fail "ended before it made its folder"
+done
+kill -s INT "$process"
+code=0
+wait "$process" || code=$?
+[ "$code" = 130 ] || fail "exit code $code in the first moment"
+grep -q '^interrupted' said.txt || fail "it does not say that it was interrupted"
+[ -z "$(find . -name '*.lock')" ] || fail "a lock is left"

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "filter/keyframe.hpp"
 #include "filter/vote.hpp"
 #include "support/filled_map.hpp"
 
@@ -19,7 +20,7 @@ using test::every_scan;
 using test::filled;
 using test::probability_of;
 
-/// What asking all keyframes about a place, oldest first, gives.
+/// Asks all keyframes about a place, oldest first.
 Evidence brute_force(const std::vector<test::RoomScan>& scans, const Point& place,
                      const BeamPattern& beams, const Config& config) {
     Evidence e;
@@ -124,7 +125,7 @@ TEST(EvidenceMap, ForgetsOnlyTheKeyframesBeyondItsMemory) {
     EXPECT_EQ(map.observers().total(), scans.size());
 }
 
-// Keyframes that are not asked are stood for by those that are: the counts come out much the same.
+// A keyframe that is asked also counts for those that are skipped. The counts hardly change.
 TEST(EvidenceMap, ANewVoxelAsksASelectionOfManyKeyframes) {
     auto scans = drive(2, false);
     for (std::size_t i = 2; i < 200; ++i) {  // a sensor at rest, that sees one more thing at last

@@ -147,8 +147,8 @@ std::vector<Scan> small_scans() {
     return scans;
 }
 
-/// In batches, on several threads. Opened before: listing a folder, libstdc++ 12 ends the program
-/// where there is no memory for a name.
+/// Reads in batches, on several threads. The recording is opened before, because libstdc++ 12 ends
+/// the program if it has no memory for a name while it lists a folder.
 TEST(Allocation, ReadingScansSurvivesEveryFailure) {
     const test::TemporaryFolder folder;
     fs::create_directories(folder / "velodyne");
@@ -173,7 +173,7 @@ TEST(Allocation, ReadingScansSurvivesEveryFailure) {
     });
 }
 
-/// From a failure on a filter is of no use; the next one is.
+/// A filter is of no use after a failure, but a new one works.
 TEST(Allocation, TheFilterSurvivesEveryFailure) {
     const std::vector<Scan> scans = small_scans();
     for (const std::string name : {"default", "paper"}) {
@@ -191,7 +191,7 @@ TEST(Allocation, TheFilterSurvivesEveryFailure) {
     }
 }
 
-/// What fails in its threads is told to the caller.
+/// A failure in one of its threads is reported to the caller.
 TEST(Allocation, TheOnlineFilterSurvivesEveryFailure) {
     const std::vector<Scan> scans = small_scans();
     expect_survives(

@@ -49,7 +49,7 @@ Window random_window(test::Random& random) {
     return window;
 }
 
-/// What one image says of a point: true dynamic, false no evidence, empty too close to call.
+/// Judges a point by one image: true dynamic, false no evidence, empty too close to call.
 std::optional<bool> by_hand(const Eigen::Vector3d& p, const RangeImage& image,
                             const RemovalMargin& margin) {
     const ImageGrid& g = image.grid;

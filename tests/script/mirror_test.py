@@ -9,8 +9,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 COVERED = {  # test -> the units that it covers
     "commands/command_test.cpp": "check/motion commands/check commands/cleaning commands/compare commands/config commands/convert "
         "commands/demo commands/evaluate commands/info commands/main commands/odometry commands/options commands/picture commands/render commands/run "
-        "commands/serve commands/shared_options commands/simulate draw/animation draw/canvas export/convert_map export/sinks recording/frames run/run "
-        "run/run_reports run/run_sequence run/run_state run/write_scans",
+        "commands/serve commands/shared_options commands/simulate draw/animation draw/canvas export/convert_map export/sinks recording/frames recording/world_records run/run "
+        "run/run_reports run/run_sequence run/run_state run/scored_scans run/write_scans",
     "export/tileset_test.cpp": "export/glb",
     "formats/clouds/las_test.cpp": "formats/clouds/las_header formats/clouds/las_writer",
     "live/dds_bus_test.cpp": "live/dds_log live/dds_type",

@@ -32,8 +32,8 @@ inline Twist off_between(const Drive& drive, const std::vector<Tracked>& tracked
     return log(moved.inverse() * tracked[i].T_world_sensor.inverse() * tracked[k].T_world_sensor);
 }
 
-/// Of the way, over pieces of so many metres: how far their ends are off, on average. Negative: the
-/// drive is shorter.
+/// Mean error of position at the end of each piece of so many metres, divided by its length.
+/// Negative: the drive is shorter than a piece.
 inline double drift(const Drive& drive, const std::vector<Tracked>& tracked, double piece = 10.0) {
     std::vector<double> way(drive.truth.size(), 0.0);
     for (std::size_t i = 1; i < way.size(); ++i) {

@@ -35,7 +35,7 @@ function uniforms({ low, step }) {
 }
 
 export class Cloud {
-  /** `positions` are low + step * p, drawn in this order. `shares`: a cloud of the same arrays, of which only a range is drawn. */
+  /** Position = low + step * p, drawn in this order. `shares`: another cloud whose GPU arrays are used; this one draws a range of them. */
   constructor({ positions, verdicts, low, step, shares = null }) {
     this.positions = positions;
     this.verdicts = verdicts;

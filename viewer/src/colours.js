@@ -28,8 +28,8 @@ const SCALES = {
 const SCALE_ORDER = Object.keys(SCALES);
 
 /**
- * Colourings in the order in which the shader knows them. `needs`: the array without which there is none;
- * `flag`: what the run must say of itself.
+ * Colourings in the order in which the shader knows them. `needs`: the array that this colouring uses;
+ * `flag`: a property that the run must have.
  */
 export const COLOURINGS = [
   { id: "verdict", label: "Verdict" },

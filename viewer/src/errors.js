@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From one wrong point to the next, where there is ground truth.
+// Steps from one wrong point to the next, if there is ground truth.
 import { DYNAMIC, finalOf, STATIC, truthOf } from "./data.js";
 import { h } from "./dom.js";
 import { count } from "./format.js";

@@ -13,7 +13,7 @@ export class Ring extends Cloud {
     this.setRange(0, 0);
   }
 
-  /** Puts points in one piece somewhere and says where that begins; at most `capacity` of them. */
+  /** Writes the points, at most `capacity`, into consecutive slots and returns the first. */
   write(positions, verdicts) {
     const n = verdicts.length;
     if (this.#head + n > this.capacity) this.#head = 0;

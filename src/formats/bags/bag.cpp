@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "base/input.hpp"
+#include "base/natural_order.hpp"
 #include "base/text.hpp"
 #include "dynamic_filter/error.hpp"
-#include "dynamic_filter/recording.hpp"
 #include "formats/bags/bag_file.hpp"
 
 namespace dynamic_filter::io {

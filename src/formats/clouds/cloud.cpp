@@ -7,8 +7,7 @@
 #include "base/input.hpp"
 #include "base/text.hpp"
 #include "dynamic_filter/error.hpp"
-#include "recording/folders.hpp"
-#include "recording/frame.hpp"
+#include "formats/clouds/cloud_size.hpp"
 
 namespace dynamic_filter::io {
 namespace {
@@ -198,7 +197,7 @@ Cloud read_cloud(const std::filesystem::path& file) {
     if (reader == nullptr) {
         throw InputError(file, "",
                          "unknown kind of cloud; expected " + cloud_kinds() +
-                             (extension_of(file) == ".feather"
+                             (to_lower(file.extension().string()) == ".feather"
                                   ? "; docs/formats.md has the lines that convert Argoverse 2"
                                   : ""));
     }

@@ -44,7 +44,7 @@ struct MapIndex {
     bool operator==(const MapIndex&) const = default;
 };
 
-/// Of the tiles of a level [m].
+/// Side of the tiles of a level [m].
 double side_of(double voxel_size, int level);
 
 /// A square of the ground [m], in the world frame.
@@ -55,7 +55,7 @@ struct TileSquare {
 /// The smallest square that holds the voxels of a tile: large tiles are often filled in part.
 TileSquare filled_square(const MapIndex& index, const MapTile& tile);
 
-/// What a tile covers; of the only tile, filled_square().
+/// The square that a tile covers; filled_square() if it is the only tile.
 TileSquare square_of(const MapIndex& index, const MapTile& tile);
 
 std::string tile_name(int level, std::int64_t x, std::int64_t y);

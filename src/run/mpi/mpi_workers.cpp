@@ -21,8 +21,8 @@ constexpr std::uint64_t kFailure = kNone;  ///< in place of a round: this proces
 constexpr milliseconds kPause{5};
 /// While others compute, for minutes.
 constexpr milliseconds kLongPause{20};
-/// So long a process that did not fail itself stays, so that mpirun ends with the exit code of the
-/// one that failed, and does not kill that one before it has said why.
+/// Time for which a process that did not fail waits for one that failed to end first. Then mpirun
+/// ends with the exit code of the failed process and does not kill it before it has said why.
 constexpr milliseconds kPrecedence{500};
 
 }  // namespace

@@ -32,7 +32,7 @@ public:
     bool all_done(bool well) override;
 
 private:
-    /// What a process says in a meeting. The meeting's result is the least of each.
+    /// The vote of one process in a meeting. The result has the least value of each member.
     struct Vote {
         int well, leaves;
     };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "dynamic_filter/recording.hpp"
+#include "base/natural_order.hpp"
 #include "support/bytes.hpp"
 
 namespace dynamic_filter::io {

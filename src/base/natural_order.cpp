@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include "base/natural_order.hpp"
+
 #include <compare>
 #include <string_view>
 
 #include "base/text.hpp"
-#include "dynamic_filter/recording.hpp"
 
 namespace dynamic_filter::io {
 namespace {

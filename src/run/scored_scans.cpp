@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "run/scored_scans.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "dynamic_filter/error.hpp"
+#include "recording/frames.hpp"
+
+namespace dynamic_filter::app {
+
+namespace {
+
+/// A ConfigError, because it is the pair of arguments that is wrong, and must not pass as a scan
+/// that cannot be read.
+void refuse_other_count(const io::Sequence& sequence, std::size_t i, std::size_t labels,
+                        std::size_t points) {
+    if (labels == points) return;
+    throw ConfigError(
+        fmt::format("scan {}: {} labels, but {} points; are they of another recording?",
+                    io::stem(sequence, i), labels, points));
+}
+
+}  // namespace
+
+eval::LabelledScan labelled(const io::Frame& frame, const Eigen::Vector3d& origin,
+                            const RangeLimits& limits) {
+    eval::LabelledScan scan{shifted_world(frame, origin), frame.truth, {}};
+    for (std::size_t p = 0; p < frame.points.size(); ++p) {
+        const double range = frame.points[p].cast<double>().norm();
+        const bool is_scored =
+            is_measured(frame.points[p]) && range >= limits.min && range <= limits.max;
+        if (!is_scored) scan.truth[p] = Label::unknown;
+    }
+    return scan;
+}
+
+eval::ScanSource scan_source(const io::Sequence& sequence, const Eigen::Vector3d& origin,
+                             std::function<std::optional<Labels>(std::size_t)> labels_of,
+                             const RangeLimits& limits) {
+    return [&sequence, origin, limits,
+            labels_of = std::move(labels_of)](std::size_t i) -> std::optional<eval::LabelledScan> {
+        try {
+            const io::Frame frame = io::read_frame(sequence, i);
+            if (frame.truth.empty()) return std::nullopt;
+            eval::LabelledScan scan = labelled(frame, origin, limits);
+            if (labels_of) {
+                auto labels = labels_of(i);
+                if (!labels) return std::nullopt;
+                refuse_other_count(sequence, i, labels->size(), scan.truth.size());
+                scan.verdict = std::move(*labels);
+            }
+            return scan;
+        } catch (const InputError&) {
+            return std::nullopt;
+        }
+    };
+}
+
+}  // namespace dynamic_filter::app

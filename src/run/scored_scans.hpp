@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+/// The scans of a recording as the scores take them.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "dynamic_filter/recording.hpp"
+#include "dynamic_filter/scores.hpp"
+#include "score/range_limits.hpp"
+
+namespace dynamic_filter::app {
+
+/// A frame with ground truth as the scores take it, without a verdict. Points outside of `limits`
+/// get an unknown truth, so that every score leaves them out.
+eval::LabelledScan labelled(const io::Frame& frame, const Eigen::Vector3d& origin,
+                            const RangeLimits& limits = {});
+
+/// For the scores: scans with ground truth, verdicts from `labels_of` (may be empty).
+/// Rejected scans (unreadable, or without labels) give nothing.
+eval::ScanSource scan_source(const io::Sequence& sequence, const Eigen::Vector3d& origin,
+                             std::function<std::optional<Labels>(std::size_t)> labels_of,
+                             const RangeLimits& limits = {});
+
+}  // namespace dynamic_filter::app
