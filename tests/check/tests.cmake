@@ -1,1 +1,1 @@
-df_room(check LIBRARIES dynamic_filter_app SHARED Check Stamps)  # on simulated recordings
+df_room(check LIBRARIES dynamic_filter_app SHARED Check CompareDrives RecordedMotion Stamps)  # on simulated recordings
