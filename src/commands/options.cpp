@@ -199,12 +199,6 @@ Option Command::text(const char* names, std::string& value, const std::string& w
                       [&value](const auto&, const auto& word) { value = word; }));
 }
 
-Option Command::text(const char* names, std::optional<std::string>& value,
-                     const std::string& what) {
-    return Option(add(*app_, names, "TEXT", "", what,
-                      [&value](const auto&, const auto& word) { value = word; }));
-}
-
 Option Command::path(const char* names, std::filesystem::path& value, const std::string& what) {
     return Option(add(*app_, names, "PATH", value.string(), what,
                       [&value](const auto&, const auto& word) { value = word; }));
@@ -254,16 +248,6 @@ Option Command::number(const char* names, double& value, Bounds bounds, const st
     return Option(add(*app_, names, "NUMBER", standard, what,
                       [&value, bounds](const auto& option, const auto& word) {
                           set_number(value, bounds, option, word);
-                      }));
-}
-
-Option Command::number(const char* names, std::optional<double>& value, Bounds bounds,
-                       const std::string& what) {
-    return Option(add(*app_, names, "NUMBER", "", what,
-                      [&value, bounds](const auto& option, const auto& word) {
-                          double given = 0.0;
-                          set_number(given, bounds, option, word);
-                          value = given;
                       }));
 }
 

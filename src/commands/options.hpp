@@ -47,7 +47,6 @@ public:
     Command(CLI::App& app, std::function<int()>& chosen) : app_(&app), chosen_(&chosen) {}
 
     Option text(const char* names, std::string& value, const std::string& what);
-    Option text(const char* names, std::optional<std::string>& value, const std::string& what);
     Option path(const char* names, std::filesystem::path& value, const std::string& what);
     Option path(const char* names, std::optional<std::filesystem::path>& value,
                 const std::string& what);
@@ -64,8 +63,6 @@ public:
     /// Names that begin with "!" switch the flag off.
     Option flag(const char* names, bool& value, const std::string& what);
     Option number(const char* names, double& value, Bounds bounds, const std::string& what);
-    Option number(const char* names, std::optional<double>& value, Bounds bounds,
-                  const std::string& what);
     /// A whole number of 0 or more; `Whole` is any type that holds one.
     template <class Whole>
     Option whole(const char* names, Whole& value, Bounds bounds, const std::string& what) {

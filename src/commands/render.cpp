@@ -66,7 +66,7 @@ void add_render(Program& program) {
     c.flag("--clean", o->clean, "leave out the removed points");
     c.whole("--width", o->width, {16, 16384}, "[pixels]");
     c.whole("--height", o->height, {16, 16384}, "[pixels]");
-    c.number("--azimuth", o->azimuth_deg, {-360.0, 360.0},
+    c.number("--azimuth", o->azimuth_deg, {-1e6, 1e6},
              "where the camera stands, as an angle from the x axis [deg]")
         .excludes(above);
     c.number("--elevation", o->elevation_deg, {1.0, 89.0},
