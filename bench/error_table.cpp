@@ -10,7 +10,7 @@
 
 #include "bench/parse_number.hpp"
 #include "dynamic_filter/error.hpp"
-#include "dynamic_filter/filter.hpp"
+#include "dynamic_filter/online.hpp"
 #include "dynamic_filter/scores.hpp"
 #include "dynamic_filter/simulation.hpp"
 #include "geometry/voxel_index.hpp"
@@ -98,7 +98,7 @@ void count(Instance& instance, sim::Kind kind, Label verdict) {
 }
 
 /// Simulates the scans a second time, because that needs less memory than keeping them.
-Tally tally(sim::Simulation& simulation, const DynamicFilter& filter) {
+Tally tally(sim::Simulation& simulation, const OnlineFilter& filter) {
     VoxelIndex index;
     Tally out;
     auto& [voxels, instances] = out;
@@ -202,7 +202,8 @@ int main(int argc, char** argv) {
     try {
         const Arguments arguments = read_arguments({argv + 1, argv + argc});
         sim::Simulation simulation(arguments.scene);
-        DynamicFilter filter(arguments.config);
+        OnlineFilter filter(arguments.config,
+                            {.overload = Overload::wait, .horizon = 0.0, .max_bytes = 0});
         for (std::size_t i = 0; i < simulation.size(); ++i) {
             filter.push(to_scan(simulation.scan(i), i));
         }

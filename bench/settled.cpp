@@ -110,7 +110,7 @@ void measure(const sim::SimulationOptions& options) {
     for (std::size_t i = 0; i < simulation.size(); ++i) {
         waiting.push_back(take(i));
         const Waiting& newest = waiting.back();
-        scores[0].add(newest.scan, newest.moves, filter.push(newest.scan).at(0).labels);
+        scores[0].add(newest.scan, newest.moves, filter.push(newest.scan).labels);
         ask(waiting, newest.scan.stamp, filter, scores);
     }
     ask(waiting, std::numeric_limits<double>::infinity(), filter, scores);

@@ -42,8 +42,8 @@ int main(int argc, char** argv) {
         std::snprintf(name.data(), name.size(), "velodyne/%06zu.bin", scan.index);
         scan.points = read_points(recording / name.data());
         scan.stamp = 0.1 * static_cast<double>(scan.index);  // 10 Hz
-        for (const df::Verdict& verdict : filter.push(scan)) {
-            for (const df::Label label : verdict.labels) moving += label == df::Label::dynamic;
+        for (const df::Label label : filter.push(scan).labels) {
+            moving += label == df::Label::dynamic;
         }
     }
     std::printf("%zu scans, %zu points were moving\n", scan.index, moving);

@@ -41,11 +41,9 @@ auto count(const df::Labels& labels, df::Label label) {
 int main() {
     df::DynamicFilter filter{df::Config{}};
     for (std::size_t i = 0; i < 60; ++i) {
-        for (const df::Verdict& verdict : filter.push(measure(i))) {
-            if (verdict.index % 10 != 0) continue;
-            std::printf("scan %zu: %td points move\n", verdict.index,
-                        count(verdict.labels, df::Label::dynamic));
-        }
+        const df::Verdict verdict = filter.push(measure(i));
+        if (i % 10 != 0) continue;
+        std::printf("scan %zu: %td points move\n", i, count(verdict.labels, df::Label::dynamic));
     }
     filter.finish();
     const auto moving = count(filter.verdict(measure(30)).labels, df::Label::dynamic);

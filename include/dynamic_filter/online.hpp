@@ -101,10 +101,11 @@ struct Counters {
     std::uint64_t queued = 0;    ///< waiting, or being judged
 };
 
-/// Runs the pipeline in two threads of its own, in addition to the threads of parallel_for. The
-/// first thread judges scan after scan. The second one integrates scans into the map beside the
-/// caller; with the method "submaps" it also runs beside the first one. Waiting scans are ordered
-/// by their stamps. One filter serves one sensor trajectory; indices of scans must increase.
+/// Runs the filter in a thread of its own, in addition to the threads of parallel_for: it judges
+/// scan after scan, and integrates each one into the map after its verdict is delivered. With the
+/// preset `paper` a second thread runs the back-end beside the front-end (Fig. 2). Waiting scans
+/// are ordered by their stamps. One filter serves one sensor trajectory; indices of scans must
+/// increase.
 ///
 /// Threads: push(), ask(), flush(), finish(), counters(), settled() and local_static_map() may be
 /// called from any thread at any time. All other members may be called after flush() (or after
@@ -152,7 +153,8 @@ public:
     /// The verdict on a pushed scan from the evidence so far, for the method "scans" only. Waits
     /// until the running stage has ended; the next stage waits for this call.
     [[nodiscard]] Verdict settled(const Scan& scan) const;
-    /// See DynamicFilter::judges_each_scan().
+    /// True for the preset `default`: every scan is judged at once, and settled() gives verdicts.
+    /// `paper` and `removert` judge window by window.
     [[nodiscard]] bool judges_each_scan() const;
 
     /// After finish(), to explain verdicts: for each point of a pushed scan, an identifier of its

@@ -118,12 +118,12 @@ Camera camera_for(const Eigen::AlignedBox3f& box, int width, int height, const R
 }
 
 void animate_cleaning(const io::Sequence& sequence, const Config& config, const RenderOptions& o) {
-    DynamicFilter filter(config);
-    if (!filter.judges_each_scan()) {
+    if (config.method != Method::scans) {
         throw ConfigError(
             "render: only where scans observe (--preset default) is there a map to "
             "show after every scan");
     }
+    DynamicFilter filter(config);
     constexpr double kPoints = 600'000.0, kMostOfScan = 6000.0;  // of all samples
     const double points = std::min(
         kMostOfScan, kPoints / static_cast<double>(std::max<std::size_t>(1, sequence.size())));

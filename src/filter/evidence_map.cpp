@@ -22,8 +22,8 @@ Config with_one_keyframe(Config config) {
 EvidenceMap::EvidenceMap(const Config& config, const std::optional<CellBounds>& bounds)
     : margins_(margins_of(config.scans.sight, config.map.voxel_size)),
       grid_(static_cast<float>(config.map.voxel_size), config.scans.evidence, bounds),
-      observers_(config),
-      again_{.drive = {}, .observers = Observers(with_one_keyframe(config)), .blocks = {}} {
+      keyframes_(config),
+      again_{.drive = {}, .keyframes = Keyframes(with_one_keyframe(config)), .blocks = {}} {
     if (!bounds) return;
     area_.emplace(config.map.voxel_size * bounds->low.cast<double>(),
                   config.map.voxel_size * bounds->high.cast<double>());
@@ -37,7 +37,7 @@ bool EvidenceMap::may_observe(const Scan& scan) const {
 }
 
 void EvidenceMap::begin_drive() {
-    observers_.begin_drive();
+    keyframes_.begin_drive();
     known_after_.push_back(grid_.size());
 }
 
@@ -45,11 +45,11 @@ void EvidenceMap::look_again(std::size_t drive, const Scan& scan) {
     const std::uint32_t known = known_after_.at(drive);
     if (again_.drive != drive) {
         again_.drive = drive;
-        again_.observers.begin_drive();
+        again_.keyframes.begin_drive();
         again_.blocks = grid_.blocks_from(known);
     }
-    if (!may_observe(scan) || !again_.observers.add(scan)) return;
-    observe(again_.observers.kept().back(), again_.blocks, false,
+    if (!may_observe(scan) || !again_.keyframes.add(scan)) return;
+    observe(again_.keyframes.kept().back(), again_.blocks, false,
             [&](std::uint32_t v) { return v >= known; });
 }
 
@@ -63,7 +63,7 @@ PointVoxels EvidenceMap::insert(const Scan& scan, StageTimes& times) {
     timed(times, "insertion", [&] {  // insertion of the points beside that of the beams
         parallel_for(2, 1, [&](std::size_t begin, std::size_t end) {
             if (begin == 0) voxels_of_points = grid_.add_points(scan);
-            if (end == 2) is_due_ = may_observe(scan) && observers_.add(scan);
+            if (end == 2) is_due_ = may_observe(scan) && keyframes_.add(scan);
         });
     });
     indices_.push_back(scan.index);
@@ -115,21 +115,21 @@ EvidenceMap::Places EvidenceMap::places_in(std::vector<std::uint32_t> blocks,
     return places;
 }
 
-/// The newest observer observes the voxels that were known before its scan.
+/// The newest keyframe observes the voxels that were known before its scan.
 void EvidenceMap::check_known(std::span<const std::uint32_t> blocks) {
-    observe(observers_.kept().back(), blocks, true, [&](std::uint32_t v) { return v < known_; });
+    observe(keyframes_.kept().back(), blocks, true, [&](std::uint32_t v) { return v < known_; });
 }
 
-/// The observer observes the voxels of these blocks for which `wanted` is true.
+/// The keyframe observes the voxels of these blocks for which `wanted` is true.
 template <class Wanted>
-void EvidenceMap::observe(const Observer& observer, std::span<const std::uint32_t> blocks,
+void EvidenceMap::observe(const Keyframe& keyframe, std::span<const std::uint32_t> blocks,
                           bool newest, const Wanted& wanted) {
     parallel_for(blocks.size(), kBlocksAtATime, [&](std::size_t begin, std::size_t end) {
         const auto some = blocks.subspan(begin, end - begin);
         std::vector<std::uint32_t> in_sight;
-        for (const std::size_t b : blocks_in_sight(some, observer)) in_sight.push_back(some[b]);
+        for (const std::size_t b : blocks_in_sight(some, keyframe)) in_sight.push_back(some[b]);
         const Places places = places_in(std::move(in_sight), wanted);
-        const std::vector<Sight> sights = look(observer, places.centroids);
+        const std::vector<Sight> sights = look(keyframe, places.centroids);
         for (std::size_t i = 0; i < sights.size(); ++i) {
             if (sights[i] == Sight::unknown) continue;
             const std::uint32_t v = places.voxels[i];
@@ -138,15 +138,15 @@ void EvidenceMap::observe(const Observer& observer, std::span<const std::uint32_
     });
 }
 
-/// The earlier observers, oldest first, observe the voxels that the newest scan has added. Each
-/// observer handles all of these voxels at once, so that its image stays in the cache.
+/// The earlier keyframes, oldest first, observe the voxels that the newest scan has added. Each
+/// keyframe handles all of these voxels at once, so that its image stays in the cache.
 void EvidenceMap::check_new() {
     const Places places =
         places_in(grid_.blocks_from(known_), [&](std::uint32_t v) { return v >= known_; });
-    const std::vector<Observers::Asked> asked = observers_.asked_by_new();
+    const std::vector<Keyframes::Asked> asked = keyframes_.asked_by_new();
     std::vector<std::vector<Sight>> sights(asked.size());
     parallel_for(asked.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k < end; ++k) sights[k] = look(*asked[k].observer, places);
+        for (std::size_t k = begin; k < end; ++k) sights[k] = look(*asked[k].keyframe, places);
     });
     parallel_for(places.voxels.size(), kBlocksAtATime, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
@@ -160,19 +160,19 @@ void EvidenceMap::check_new() {
     });
 }
 
-SightMargins EvidenceMap::margins_for(const Observer& observer) const {
+SightMargins EvidenceMap::margins_for(const Keyframe& keyframe) const {
     SightMargins margins = margins_;
-    margins.farthest = observer.reach;
+    margins.farthest = keyframe.reach;
     return margins;
 }
 
-/// Indices of those blocks that may hold a voxel in the view of the observer.
+/// Indices of those blocks that may hold a voxel in the view of the keyframe.
 std::vector<std::size_t> EvidenceMap::blocks_in_sight(std::span<const std::uint32_t> blocks,
-                                                      const Observer& observer) const {
-    const SightMargins margins = margins_for(observer);
+                                                      const Keyframe& keyframe) const {
+    const SightMargins margins = margins_for(keyframe);
     // Radius of the sphere around a block, and a little more.
     const float radius = 3.5F * grid_.voxel_size();
-    const Point sensor = observer.T_sensor_map.inverse().translation();
+    const Point sensor = keyframe.T_sensor_map.inverse().translation();
     // A little more, because may_see() decides.
     const float in_reach = margins.farthest + radius + 0.1F;
     Points centers;
@@ -184,35 +184,35 @@ std::vector<std::size_t> EvidenceMap::blocks_in_sight(std::span<const std::uint3
         near.push_back(b);
     }
     Directions seen;
-    to_spherical(centers, observer.T_sensor_map, seen);
+    to_spherical(centers, keyframe.T_sensor_map, seen);
     for (std::size_t i = 0; i < near.size(); ++i) {
         const Beam center{seen.azimuth[i], seen.elevation[i], seen.range[i]};
-        if (may_see(observer.image, center, radius, margins)) in_sight.push_back(near[i]);
+        if (may_see(keyframe.image, center, radius, margins)) in_sight.push_back(near[i]);
     }
     return in_sight;
 }
 
 /// The observation of each of the places.
-std::vector<Sight> EvidenceMap::look(const Observer& observer, const Points& centroids) const {
-    const SightMargins margins = margins_for(observer);
+std::vector<Sight> EvidenceMap::look(const Keyframe& keyframe, const Points& centroids) const {
+    const SightMargins margins = margins_for(keyframe);
     Directions seen;
-    to_spherical(centroids, observer.T_sensor_map, seen);
+    to_spherical(centroids, keyframe.T_sensor_map, seen);
     std::vector<Sight> sights;
-    check_lines_of_sight(observer.image, seen, margins, sights);
+    check_lines_of_sight(keyframe.image, seen, margins, sights);
     return sights;
 }
 
 /// The same for places in blocks, most of which are out of view.
-std::vector<Sight> EvidenceMap::look(const Observer& observer, const Places& places) const {
+std::vector<Sight> EvidenceMap::look(const Keyframe& keyframe, const Places& places) const {
     Points centroids;
     std::vector<std::size_t> at;
-    for (const std::size_t b : blocks_in_sight(places.blocks, observer)) {
+    for (const std::size_t b : blocks_in_sight(places.blocks, keyframe)) {
         for (std::size_t i = places.first[b]; i < places.first[b + 1]; ++i) {
             centroids.push_back(places.centroids[i]);
             at.push_back(i);
         }
     }
-    const std::vector<Sight> seen = look(observer, centroids);
+    const std::vector<Sight> seen = look(keyframe, centroids);
     std::vector<Sight> sights(places.voxels.size(), Sight::unknown);
     for (std::size_t i = 0; i < at.size(); ++i) sights[at[i]] = seen[i];
     return sights;
@@ -230,21 +230,21 @@ std::vector<std::vector<std::size_t>> EvidenceMap::free_keyframes(
     const Places places =
         places_in(std::move(blocks), [&](std::uint32_t v) { return place[v] != kNoVoxel; });
     constexpr std::size_t kMostAsked = 64;
-    const auto& kept = observers_.kept();
+    const auto& kept = keyframes_.kept();
     const std::size_t stride =
         std::max<std::size_t>(1, (kept.size() + kMostAsked - 1) / kMostAsked);
     const std::size_t asked = kept.size() / stride;
     std::vector<std::vector<Sight>> sights(asked);
-    const auto observer = [&](std::size_t k) -> const Observer& {
+    const auto keyframe = [&](std::size_t k) -> const Keyframe& {
         return kept[stride * (k + 1) - 1];
     };
     parallel_for(asked, 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k < end; ++k) sights[k] = look(observer(k), places);
+        for (std::size_t k = begin; k < end; ++k) sights[k] = look(keyframe(k), places);
     });
     std::vector<std::vector<std::size_t>> result(voxels.size());
     for (std::size_t k = 0; k < asked; ++k) {
         for (std::size_t i = 0; i < places.voxels.size(); ++i) {
-            if (is_free(sights[k][i])) result[place[places.voxels[i]]].push_back(observer(k).index);
+            if (is_free(sights[k][i])) result[place[places.voxels[i]]].push_back(keyframe(k).index);
         }
     }
     return result;

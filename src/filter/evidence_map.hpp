@@ -11,8 +11,8 @@
 #include "dynamic_filter/stage_times.hpp"
 #include "dynamic_filter/types.hpp"
 #include "filter/evidence_grid.hpp"
+#include "filter/keyframes.hpp"
 #include "filter/line_of_sight.hpp"
-#include "filter/observers.hpp"
 
 namespace dynamic_filter {
 
@@ -62,7 +62,7 @@ public:
     [[nodiscard]] std::size_t index_of_owner(std::uint32_t owner) const { return indices_[owner]; }
     [[nodiscard]] const EvidenceGrid& grid() const { return grid_; }
     [[nodiscard]] EvidenceGrid& grid() { return grid_; }
-    [[nodiscard]] const Observers& observers() const { return observers_; }
+    [[nodiscard]] const Keyframes& keyframes() const { return keyframes_; }
 
 private:
     struct Places;
@@ -70,26 +70,26 @@ private:
     [[nodiscard]] Places places_in(std::vector<std::uint32_t> blocks, const Wanted& wanted) const;
     void check_known(std::span<const std::uint32_t> blocks);
     template <class Wanted>
-    void observe(const Observer& observer, std::span<const std::uint32_t> blocks, bool newest,
+    void observe(const Keyframe& keyframe, std::span<const std::uint32_t> blocks, bool newest,
                  const Wanted& wanted);
     void check_new();
-    [[nodiscard]] SightMargins margins_for(const Observer& observer) const;
+    [[nodiscard]] SightMargins margins_for(const Keyframe& keyframe) const;
     [[nodiscard]] std::vector<std::size_t> blocks_in_sight(std::span<const std::uint32_t> blocks,
-                                                           const Observer& observer) const;
-    [[nodiscard]] std::vector<Sight> look(const Observer& observer, const Points& centroids) const;
-    [[nodiscard]] std::vector<Sight> look(const Observer& observer, const Places& places) const;
+                                                           const Keyframe& keyframe) const;
+    [[nodiscard]] std::vector<Sight> look(const Keyframe& keyframe, const Points& centroids) const;
+    [[nodiscard]] std::vector<Sight> look(const Keyframe& keyframe, const Places& places) const;
 
     [[nodiscard]] bool may_observe(const Scan& scan) const;
 
     SightMargins margins_;
     std::optional<Eigen::AlignedBox2d> area_;  // [m] of the bounds, in the map
     EvidenceGrid grid_;
-    Observers observers_;
+    Keyframes keyframes_;
     std::vector<std::uint32_t> known_after_;  // by drive that has ended: number of voxels
     /// The drive that looks again.
     struct Again {
         std::optional<std::size_t> drive;
-        Observers observers;                // keeps one keyframe
+        Keyframes keyframes;                // keeps one keyframe
         std::vector<std::uint32_t> blocks;  // with voxels that were found after the drive
     } again_;
     std::vector<std::size_t> indices_;  // Scan::index in the order of the scans

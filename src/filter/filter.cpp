@@ -2,130 +2,137 @@
 #include "dynamic_filter/filter.hpp"
 
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "dynamic_filter/error.hpp"
-#include "filter/method.hpp"
-#include "filter/scans_method.hpp"
-#include "geometry/pose.hpp"
-#include "paper/submaps_method.hpp"
-#include "tracking/pose_tracker.hpp"
+#include "filter/evidence_map.hpp"
+#include "filter/label.hpp"
+#include "filter/objects.hpp"
+#include "geometry/map_frame.hpp"
 
 namespace dynamic_filter {
 
 namespace {
 
-/// The only function that depends on which method is configured.
-std::unique_ptr<FilterMethod> make_method(const Config& config) {
+const Config& checked(const Config& config) {
     validate(config);
-    if (config.method == Method::scans) return std::make_unique<ScansMethod>(config);
-    return std::make_unique<SubmapsMethod>(config);
+    if (config.method == Method::scans) return config;
+    throw ConfigError(
+        "DynamicFilter runs the preset default; OnlineFilter also runs paper and removert");
 }
 
-std::unique_ptr<FilterMethod> make_method(const Config& config, const Region& region) {
-    validate(config);
-    if (config.method != Method::scans) {
-        throw ConfigError(
-            "only the method \"scans\" (preset default) can filter a part of the world");
-    }
+CellBounds bounds_of(const Region& region, double voxel_size) {
     const auto cell = [&](double metres) {
-        return static_cast<int>(std::lround(metres / config.map.voxel_size));
+        return static_cast<int>(std::lround(metres / voxel_size));
     };
     const Eigen::AlignedBox2d& area = region.bounds;
-    const CellBounds bounds{.low = {cell(area.min().x()), cell(area.min().y())},
-                            .high = {cell(area.max().x()), cell(area.max().y())}};
-    return std::make_unique<ScansMethod>(config, bounds);
+    return {.low = {cell(area.min().x()), cell(area.min().y())},
+            .high = {cell(area.max().x()), cell(area.max().y())}};
 }
 
 }  // namespace
 
-/// The method, and the position of its map in the world.
 struct DynamicFilter::Impl {
-    Impl(const Config& config, std::unique_ptr<FilterMethod> chosen)
-        : voxel_size(config.map.voxel_size), method(std::move(chosen)), tracker(config.odometry) {}
+    Impl(const Config& settings, const std::optional<CellBounds>& bounds)
+        : config(checked(settings)),
+          frame{.voxel_size = config.map.voxel_size},
+          map(config, bounds),
+          instant(config),
+          objects(config.scans.instances) {}
 
-    [[nodiscard]] Pose to_map_frame(const Pose& T_world_sensor) const {
-        Pose shifted = T_world_sensor;
-        shifted.translation() -= *origin;
-        return shifted;
+    Scan place(Scan scan);
+    Verdict judge(const Scan& scan);
+    [[nodiscard]] LocatedScan locate(const Scan& scan) const {
+        return frame.locate(scan, map.grid().voxels());
     }
-    [[nodiscard]] LocatedScan locate(const Scan& scan) const;
+    [[nodiscard]] std::vector<bool> what_stays(std::size_t index, const PointVoxels& voxels) const;
     [[nodiscard]] std::vector<StaticVoxel> in_world(std::span<const VoxelOccupancy> voxels) const;
+    [[nodiscard]] Label label_of_voxel(std::uint32_t voxel) const {
+        return label_of(decided[voxel].probability, config.map.occupancy_threshold);
+    }
 
-    double voxel_size;
-    std::unique_ptr<FilterMethod> method;
-    PoseTracker tracker;
-    std::optional<Eigen::Vector3d> origin;  // origin of the map frame, in the world frame
+    Config config;
+    MapFrame frame;
+    EvidenceMap map;
+    InstantLabels instant;
+    Objects objects;
     bool finished = false;
+    std::vector<VoxelDecision> decided;  // per voxel, after finish()
+    /// Per voxel, only with `map.time` = latest: see occupied_since().
+    std::vector<std::optional<std::uint32_t>> since;
+    StageTimes times;
 };
 
-LocatedScan DynamicFilter::Impl::locate(const Scan& scan) const {
-    LocatedScan located;
-    located.voxels.assign(scan.points.size(), kNoVoxel);
-    located.in_map.keys.assign(scan.points.size(), kNoKey);
-    if (!origin) return located;  // before the first scan
-    to_voxels(scan.points, to_map_frame(scan.T_world_sensor), static_cast<float>(voxel_size),
-              located.in_map);
-    method->voxels().find(located.in_map.keys, located.voxels);
-    return located;
-}
-
-std::vector<StaticVoxel> DynamicFilter::Impl::in_world(
-    std::span<const VoxelOccupancy> voxels) const {
-    std::vector<StaticVoxel> result;
-    result.reserve(voxels.size());
-    for (const auto& [voxel, probability] : voxels) {
-        const Point at = center(method->voxels().key(voxel), static_cast<float>(voxel_size));
-        result.push_back({*origin + at.cast<double>(), probability, voxel});
-    }
-    return result;
-}
-
 DynamicFilter::DynamicFilter(const Config& config)
-    : impl_(std::make_unique<Impl>(config, make_method(config))) {}
+    : impl_(std::make_unique<Impl>(config, std::nullopt)) {}
 DynamicFilter::DynamicFilter(const Config& config, const Region& region)
-    : impl_(std::make_unique<Impl>(config, make_method(config, region))) {
-    impl_->origin = region.origin;
+    : impl_(std::make_unique<Impl>(config, bounds_of(region, config.map.voxel_size))) {
+    impl_->frame.origin = region.origin;
 }
 DynamicFilter::DynamicFilter(DynamicFilter&&) noexcept = default;
 DynamicFilter& DynamicFilter::operator=(DynamicFilter&&) noexcept = default;
 DynamicFilter::~DynamicFilter() = default;
 
-std::vector<Verdict> DynamicFilter::push(Scan scan) {
-    Judged judged = judge(std::move(scan));
-    if (judged.integrate) judged.integrate();
-    return std::move(judged.verdicts);
+Verdict DynamicFilter::push(Scan scan) {
+    Verdict verdict = judge(std::move(scan));
+    catch_up();
+    return verdict;
+}
+
+Verdict DynamicFilter::judge(Scan scan) { return impl_->judge(impl_->place(std::move(scan))); }
+
+/// The points go into voxels; if the scan is a keyframe, it observes the voxels around its points;
+/// earlier keyframes observe the new voxels. Then each voxel of the scan gets a label from its own
+/// evidence and that of its neighbors, and objects that are followed get theirs as a whole.
+Verdict DynamicFilter::Impl::judge(const Scan& scan) {
+    return timed(times, "judge", [&] {
+        const PointVoxels voxels = map.insert(scan, times);
+        Verdict verdict = timed(times, "instant_verdict",
+                                [&] { return instant.label(scan.index, voxels, map.grid()); });
+        timed(times, "instances",
+              [&] { objects.update(scan, voxels, map.grid(), verdict.labels); });
+        return verdict;
+    });
+}
+
+/// The newest keyframe observes the rest of the map, where its scan has no points.
+void DynamicFilter::catch_up() {
+    timed(impl_->times, "integrate", [&] { impl_->map.observe_elsewhere(impl_->times); });
+}
+
+/// The scan in the frame of the map, which begins with the first scan.
+Scan DynamicFilter::Impl::place(Scan scan) {
+    const std::string name = "scan " + std::to_string(scan.index);
+    if (finished) throw Error(name + " comes after finish(): make another filter");
+    if (!scan.has_pose) {
+        throw Error(name + " has no pose; OnlineFilter finds the poses of such scans");
+    }
+    frame.begin(scan.T_world_sensor);
+    scan.T_world_sensor = frame.to_map(scan.T_world_sensor);
+    return scan;
 }
 
 void DynamicFilter::begin_drive() {
-    impl_->tracker.restart();
-    impl_->method->begin_drive();
+    impl_->map.begin_drive();
+    impl_->objects = Objects(impl_->config.scans.instances);
 }
 
 void DynamicFilter::look_again(std::size_t drive, Scan scan) {
-    if (!impl_->origin) return;
-    scan.T_world_sensor = impl_->to_map_frame(scan.T_world_sensor);
-    impl_->method->look_again(drive, scan);
+    if (!impl_->frame.origin) return;
+    scan.T_world_sensor = impl_->frame.to_map(scan.T_world_sensor);
+    timed(impl_->times, "look_again", [&] { impl_->map.look_again(drive, scan); });
 }
 
-Judged DynamicFilter::judge(Scan scan) {
-    if (impl_->finished) throw Error("push() after finish(): make another filter");
-    const bool tracked = impl_->tracker.track(scan);
-    if (!impl_->origin) impl_->origin = nearby_origin(scan.T_world_sensor, impl_->voxel_size);
-    scan.T_world_sensor = impl_->to_map_frame(scan.T_world_sensor);
-    Judged judged = impl_->method->judge(std::move(scan));
-    const Labels labels = impl_->tracker.attach(judged.verdicts);
-    if (tracked) impl_->tracker.learn(labels);
-    return judged;
-}
-
-bool DynamicFilter::judges_each_scan() const { return impl_->method->judges_each_scan(); }
-
-std::vector<Verdict> DynamicFilter::finish() {
-    if (std::exchange(impl_->finished, true)) return {};
-    std::vector<Verdict> due = impl_->method->finish();
-    impl_->tracker.attach(due);
-    return due;
+void DynamicFilter::finish() {
+    if (std::exchange(impl_->finished, true)) return;
+    const Config& config = impl_->config;
+    timed(impl_->times, "finish", [&] {
+        impl_->decided = decide_voxels(impl_->map.grid(), config);
+        if (config.map.time == MapTime::latest) {
+            impl_->since = occupied_since(impl_->decided, impl_->map.grid(), config);
+        }
+    });
 }
 
 Verdict DynamicFilter::verdict(const Scan& scan) const {
@@ -140,14 +147,27 @@ Verdict DynamicFilter::verdict(const Scan& scan, std::vector<std::uint32_t>& vox
         return verdict;
     }
     LocatedScan located = impl_->locate(scan);
-    impl_->method->decide(located, verdict);
+    decide_points(located, impl_->decided, impl_->map.grid(), impl_->config, verdict);
+    verdict.stays = impl_->what_stays(scan.index, located.voxels);
     voxels = std::move(located.voxels);
     return verdict;
 }
 
+/// See Verdict::stays.
+std::vector<bool> DynamicFilter::Impl::what_stays(std::size_t index,
+                                                  const PointVoxels& voxels) const {
+    if (config.map.time != MapTime::latest) return {};
+    std::vector<bool> stays(voxels.size());
+    for (std::size_t i = 0; i < voxels.size(); ++i) {
+        if (voxels[i] >= since.size() || !since[voxels[i]]) continue;  // also for kNoVoxel
+        stays[i] = index >= map.index_of_owner(*since[voxels[i]]);
+    }
+    return stays;
+}
+
 Verdict DynamicFilter::settled(const Scan& scan) const {
     Verdict verdict = unknown_verdict(scan);
-    impl_->method->settle(impl_->locate(scan), verdict);
+    settle_points(impl_->locate(scan), impl_->map.grid(), impl_->config, verdict);
     return verdict;
 }
 
@@ -156,36 +176,91 @@ std::vector<std::uint32_t> DynamicFilter::voxels_of(const Scan& scan) const {
 }
 
 std::vector<VoxelHistory> DynamicFilter::histories(std::span<const std::uint32_t> voxels) const {
-    return impl_->method->histories(voxels);
+    const EvidenceMap& map = impl_->map;
+    std::vector<VoxelHistory> histories(voxels.size());
+    std::vector<std::uint32_t> seen_through;
+    std::vector<std::size_t> at;
+    for (std::size_t i = 0; i < voxels.size(); ++i) {
+        const Evidence& e = map.grid()[voxels[i]].evidence;
+        histories[i] = {.probability = impl_->decided[voxels[i]].probability,
+                        .n_own = e.n_own,
+                        .n_occ = e.n_occ,
+                        .n_free = e.n_free,
+                        .n_switch = e.n_switch,
+                        .free = static_cast<float>(e.free) / kSure,
+                        .expected_free = map.grid().expected_free(e),
+                        .score = map.grid()[voxels[i]].score,
+                        .first = map.index_of_owner(e.first_owner),
+                        .last = map.index_of_owner(e.last_owner),
+                        .free_keyframes = {}};
+        // Not for voxels that stay in the map: they would need many keyframes and tell little.
+        if (e.n_free == 0 || impl_->label_of_voxel(voxels[i]) != Label::dynamic) continue;
+        seen_through.push_back(voxels[i]);
+        at.push_back(i);
+    }
+    auto keyframes = map.free_keyframes(seen_through);
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        histories[at[i]].free_keyframes = std::move(keyframes[i]);
+    }
+    return histories;
 }
 
 void DynamicFilter::keep_within(const Pose& T_world_center, double radius, std::size_t most) {
-    if (!impl_->origin) return;
-    impl_->method->keep_within(impl_->to_map_frame(T_world_center).translation(), radius, most);
+    if (!impl_->frame.origin) return;
+    const Eigen::Vector3d center = impl_->frame.to_map(T_world_center).translation();
+    const std::vector<std::uint32_t> kept =
+        impl_->map.keep_within(center.cast<float>(), static_cast<float>(radius), most);
+    impl_->instant.keep(kept);
+    impl_->objects.keep(kept);
 }
 
-std::size_t DynamicFilter::size() const { return impl_->method->size(); }
+std::size_t DynamicFilter::size() const { return impl_->map.grid().size(); }
+
+std::vector<StaticVoxel> DynamicFilter::Impl::in_world(
+    std::span<const VoxelOccupancy> voxels) const {
+    std::vector<StaticVoxel> result;
+    result.reserve(voxels.size());
+    for (const auto& [voxel, probability] : voxels) {
+        const VoxelKey key = map.grid().voxels().key(voxel);
+        result.push_back({frame.center_of(key), probability, voxel});
+    }
+    return result;
+}
 
 std::vector<StaticVoxel> DynamicFilter::local_static_map(const Pose& T_world_query,
-                                                         std::optional<double> radius) {
-    if (!impl_->origin) return {};
-    return impl_->in_world(impl_->method->local_map(impl_->to_map_frame(T_world_query), radius));
+                                                         std::optional<double> radius) const {
+    if (!impl_->frame.origin) return {};
+    const Eigen::Vector3d center = impl_->frame.to_map(T_world_query).translation();
+    const double reach = radius.value_or(impl_->config.map.search_radius);
+    const EvidenceGrid& grid = impl_->map.grid();
+    const auto near = grid.within(center.cast<float>(), static_cast<float>(reach));
+    return impl_->in_world(static_among(near, grid, impl_->config));
 }
 
 std::vector<StaticVoxel> DynamicFilter::static_map() const {
-    if (!impl_->finished) return {};
-    return impl_->in_world(impl_->method->static_map());
+    std::vector<VoxelOccupancy> voxels;
+    for (std::uint32_t v = 0; v < impl_->decided.size(); ++v) {
+        if (impl_->label_of_voxel(v) == Label::static_) {
+            voxels.push_back({v, *impl_->decided[v].probability});
+        } else if (v < impl_->since.size() && impl_->since[v]) {
+            voxels.push_back({v, 1.0F});  // seen there until the end of the recording
+        }
+    }
+    return impl_->in_world(voxels);
 }
 
-StageTimes DynamicFilter::times() const {
-    StageTimes times = impl_->method->times();
-    if (impl_->tracker.times().count() > 0) times["odometry"] = impl_->tracker.times();
-    return times;
-}
+StageTimes DynamicFilter::times() const { return impl_->times; }
 
 MapContents DynamicFilter::contents() const {
-    MapContents contents = impl_->method->contents();
-    contents.voxels = impl_->method->voxels().size();
+    const Keyframes& keyframes = impl_->map.keyframes();
+    MapContents contents;
+    contents.observer = "keyframes";
+    contents.observers = keyframes.total();
+    contents.voxels = impl_->map.grid().voxels().size();
+    contents.beams = keyframes.beams();
+    for (const Keyframe& keyframe : keyframes.kept()) contents.keyframes.push_back(keyframe.index);
+    const std::size_t scans = impl_->map.grid().scans();
+    contents.throughput = {{"judge", "scans", scans}, {"integrate", "scans", scans}};
     return contents;
 }
 

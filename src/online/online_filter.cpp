@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "dynamic_filter/online.hpp"
 
-#include <cmath>
+#include <algorithm>
+#include <condition_variable>
 #include <mutex>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/parallel.hpp"
-#include "online/map_segments.hpp"
+#include "online/maps.hpp"
 #include "online/scan_queue.hpp"
-#include "online/two_stages.hpp"
-#include "tracking/pose_jump.hpp"
-#include "tracking/pose_tracker.hpp"
 
 namespace dynamic_filter {
 
@@ -31,90 +30,75 @@ OnlineOptions checked(OnlineOptions options) {
     return options;
 }
 
-/// Settings of the maps. Their scans already have poses, which must not be refined again.
-Config with_given_poses(Config config) {
-    config.odometry.refine = false;
-    return config;
-}
-
 void answer(QueuedScan& scan, std::optional<Verdict> verdict) {
     if (scan.reply) std::exchange(scan.reply, nullptr)->set_value(std::move(verdict));
 }
 
 }  // namespace
 
-/// There are two locks: `map_lock` guards the maps, and the lock of `stages` guards the queue and
-/// the counters. A thread that holds the lock of `stages` takes no other lock. With the method
-/// "submaps", the front-end judges without `map_lock`, because it then uses no data of other
-/// threads.
+/// There are two locks: `map_lock` guards the maps, and `lock` guards the queue and the counters. A
+/// thread that holds `lock` takes no other lock. Callbacks are called without a lock.
 struct OnlineFilter::Engine {
     Engine(const Config& config, OnlineOptions options_of_all, OnlineCallbacks call);
 
     // Functions for users.
     void push(QueuedScan scan);
+    void flush();
     void finish();
+    void stop();
     [[nodiscard]] Counters count() const;
+    void refuse_own_thread() const;
 
-    // The first thread: it judges scans.
-    TwoStages::Job next_job();
-    TwoStages::Rest judge_or_tell(QueuedScan& next);
-    TwoStages::Rest judge(QueuedScan& next);
-    void begin_map_if_broken(const QueuedScan& next);
-    void deliver(std::vector<Verdict>& verdicts, std::size_t index, QueuedScan& asked);
+    // The worker.
+    void work();
+    std::optional<QueuedScan> next();
+    void judge(QueuedScan& next);
 
-    // The second thread: it does the work that judging left to do.
-    void integrate(const std::function<void()>& rest, std::optional<Scan>& unsettled,
-                   const Pose& T_world_sensor);
-
-    void end_map(const std::function<std::vector<Verdict>()>& end);
-    void settle_until(std::size_t left);
+    std::unique_lock<std::mutex> idle();
+    void deliver(Maps::Judged judged, QueuedScan* asked, std::size_t index);
+    void settle(const std::vector<Verdict>& verdicts) const;
     void drop_waiting();
     void tell(const Notice& notice);
+    void fail(std::exception_ptr error);
 
     const OnlineOptions options;
     const OnlineCallbacks callbacks;
 
-    // Guarded by the lock of `stages`.
+    mutable std::mutex lock;
+    std::condition_variable changed;  // notified when a member below changed
     ScanQueue queue;
     Counters counters;  // without `queued`
-    bool finished = false;
+    bool finished = false, busy = false, stopping = false;
+    std::exception_ptr failure;
 
     mutable std::mutex map_lock;
-    MapSegments maps;
-    const bool judges_each_scan;
+    Maps maps;
 
     std::mutex notice_lock, finish_lock;  // so that calls of the same kind never overlap
 
-    // Data of the first thread.
-    PoseTracker tracker;
+    // Data of the worker.
     std::uint64_t run = 0;
-    std::optional<StampedPose> before_last, last;
     Durations latency;
 
-    TwoStages stages;  // must be the last member, because its threads use all others
+    std::thread worker;  // must be the last member, because it uses all others
 };
 
 OnlineFilter::Engine::Engine(const Config& config, OnlineOptions options_of_all,
                              OnlineCallbacks call)
     : options(checked(options_of_all)),
       callbacks(std::move(call)),
-      maps(with_given_poses(config), options),
-      judges_each_scan(maps.newest().judges_each_scan()),
-      tracker(config.odometry),
-      stages({.take = [this] { return next_job(); },
-              .has_job = [this] { return queue.size() > 0; },
-              .give_up = [this] { drop_waiting(); },
-              .around = [this](const auto& work) { with_threads(options.threads, work); }}) {}
+      maps(config, options),
+      worker([this] { work(); }) {}
 
 void OnlineFilter::Engine::push(QueuedScan scan) {
     std::optional<Notice> refused;
     std::vector<QueuedScan> dropped;
     {
-        TwoStages::Lock hold = stages.lock();
+        std::unique_lock hold(lock);
         if (options.overload == Overload::wait) {
-            stages.wait(hold, [&] { return queue.size() < options.queue; });
+            changed.wait(hold, [&] { return failure || queue.size() < options.queue; });
         }
-        stages.rethrow();
+        if (failure) std::rethrow_exception(failure);
         if (finished) throw Error("push() after finish(): make another filter");
         ++counters.in;
         refused = queue.refusal(scan.scan);
@@ -124,7 +108,7 @@ void OnlineFilter::Engine::push(QueuedScan scan) {
             queue.add(std::move(scan));
             while (queue.size() > options.queue) dropped.push_back(queue.drop());
             counters.dropped += dropped.size();
-            stages.changed();
+            changed.notify_all();
         }
     }
     for (QueuedScan& d : dropped) {
@@ -137,29 +121,149 @@ void OnlineFilter::Engine::push(QueuedScan scan) {
     tell(*refused);
 }
 
-void OnlineFilter::Engine::finish() {
-    const std::lock_guard one_at_a_time(finish_lock);
-    {
-        const auto hold = stages.idle();
-        if (std::exchange(finished, true)) return;
-    }
-    stages.stop();
+/// One scan after the other: judge, deliver, catch up. If a step fails, the worker ends, and the
+/// next caller gets the exception.
+void OnlineFilter::Engine::work() {
     try {
-        with_threads(options.threads, [&] { end_map([&] { return maps.finish(); }); });
+        with_threads(options.threads, [&] {
+            while (auto scan = next()) {
+                judge(*scan);
+                std::vector<Verdict> settled;
+                {
+                    const std::lock_guard hold(map_lock);
+                    settled = maps.catch_up();
+                }
+                settle(settled);
+                const std::lock_guard hold(lock);
+                busy = false;
+                changed.notify_all();
+            }
+        });
     } catch (...) {
-        stages.fail(std::current_exception());
+        fail(std::current_exception());
+    }
+}
+
+/// The scan with the oldest stamp; empty: the filter stops.
+std::optional<QueuedScan> OnlineFilter::Engine::next() {
+    std::unique_lock hold(lock);
+    changed.wait(hold, [&] { return stopping || queue.size() > 0; });
+    if (stopping) return std::nullopt;
+    busy = true;
+    changed.notify_all();  // there is room in the queue
+    return queue.take();
+}
+
+void OnlineFilter::Engine::judge(QueuedScan& next) {
+    const std::size_t index = next.scan.index;
+    try {
+        Maps::Judged judged;
+        {
+            const std::lock_guard hold(map_lock);
+            judged = maps.judge(std::move(next.scan), std::exchange(run, next.run) != next.run);
+        }
+        latency.add(seconds_since(next.since));
+        deliver(std::move(judged), &next, index);
+    } catch (...) {
+        if (next.reply) next.reply->set_exception(std::current_exception());
+        const std::lock_guard hold(lock);
+        ++counters.rejected;
+        throw;
+    }
+    const std::lock_guard hold(lock);
+    ++counters.processed;
+}
+
+/// Gives everything to the callbacks, and the verdict on scan `index` to whoever asked for it.
+void OnlineFilter::Engine::deliver(Maps::Judged judged, QueuedScan* asked, std::size_t index) {
+    settle(judged.settled);
+    if (judged.notice) tell(*judged.notice);
+    std::optional<Verdict> own;
+    for (Verdict& verdict : judged.instant) {
+        if (callbacks.instant) callbacks.instant(verdict);
+        if (verdict.index == index) own = std::move(verdict);
+    }
+    if (asked) answer(*asked, std::move(own));
+}
+
+void OnlineFilter::Engine::settle(const std::vector<Verdict>& verdicts) const {
+    if (!callbacks.settled) return;
+    for (const Verdict& verdict : verdicts) callbacks.settled(verdict);
+}
+
+void OnlineFilter::Engine::tell(const Notice& notice) {
+    const std::lock_guard hold(notice_lock);
+    if (callbacks.notice) callbacks.notice(notice);
+}
+
+void OnlineFilter::Engine::refuse_own_thread() const {
+    if (worker.get_id() != std::this_thread::get_id()) return;
+    throw Error("a callback must not wait for the filter that calls it");
+}
+
+/// Waits until the worker has nothing to do. Rethrows its exception.
+std::unique_lock<std::mutex> OnlineFilter::Engine::idle() {
+    refuse_own_thread();
+    std::unique_lock hold(lock);
+    changed.wait(hold, [&] { return failure || (queue.size() == 0 && !busy); });
+    if (failure) std::rethrow_exception(failure);
+    return hold;
+}
+
+void OnlineFilter::Engine::flush() {
+    idle().unlock();
+    try {
+        const std::lock_guard hold(map_lock);
+        maps.flush();
+    } catch (...) {
+        fail(std::current_exception());
         throw;
     }
 }
 
-/// A scan counts as queued until its verdict is delivered.
-Counters OnlineFilter::Engine::count() const {
-    const auto hold = stages.lock();
-    Counters now = counters;
-    now.queued = now.in - now.processed - now.dropped - now.rejected;
-    return now;
+void OnlineFilter::Engine::finish() {
+    const std::lock_guard one_at_a_time(finish_lock);
+    {
+        const auto hold = idle();
+        if (std::exchange(finished, true)) return;
+    }
+    stop();
+    try {
+        with_threads(options.threads, [&] {
+            Maps::Judged judged;
+            {
+                const std::lock_guard hold(map_lock);
+                judged = maps.finish();
+            }
+            deliver(std::move(judged), nullptr, 0);
+        });
+    } catch (...) {
+        fail(std::current_exception());
+        throw;
+    }
 }
 
+/// The worker ends after the scan that it judges. A second call does nothing.
+void OnlineFilter::Engine::stop() {
+    {
+        const std::lock_guard hold(lock);
+        stopping = true;
+        drop_waiting();
+        changed.notify_all();
+    }
+    if (worker.joinable()) worker.join();
+}
+
+void OnlineFilter::Engine::fail(std::exception_ptr error) {
+    const std::lock_guard hold(lock);
+    if (!failure) failure = std::move(error);
+    busy = false;
+    stopping = true;
+    drop_waiting();
+    changed.notify_all();
+}
+
+/// Call it with the lock held.
 void OnlineFilter::Engine::drop_waiting() {
     while (queue.size() > 0) {
         QueuedScan waiting = queue.drop();
@@ -168,141 +272,30 @@ void OnlineFilter::Engine::drop_waiting() {
     }
 }
 
-void OnlineFilter::Engine::tell(const Notice& notice) {
-    const std::lock_guard hold(notice_lock);
-    if (callbacks.notice) callbacks.notice(notice);
-}
-
-TwoStages::Job OnlineFilter::Engine::next_job() {
-    const auto next = std::make_shared<QueuedScan>(queue.take());
-    return [this, next] { return judge_or_tell(*next); };
-}
-
-TwoStages::Rest OnlineFilter::Engine::judge_or_tell(QueuedScan& next) {
-    try {
-        return judge(next);
-    } catch (...) {
-        if (next.reply) next.reply->set_exception(std::current_exception());
-        const auto hold = stages.lock();
-        ++counters.rejected;
-        throw;
-    }
-}
-
-TwoStages::Rest OnlineFilter::Engine::judge(QueuedScan& next) {
-    stages.wait_for_second(judges_each_scan ? 0 : 1);
-    if (next.run != run) tracker.restart();
-    const bool tracked = tracker.track(next.scan);
-    begin_map_if_broken(next);
-    const StampedPose now{next.scan.T_world_sensor, next.scan.stamp};
-    const std::size_t index = next.scan.index;
-    std::optional<Scan> unsettled;
-    if (options.settle_after > 0 && judges_each_scan) unsettled = next.scan;
-    Judged judged;
-    {
-        std::unique_lock hold(map_lock, std::defer_lock);
-        if (judges_each_scan || !last) hold.lock();
-        judged = maps.newest().judge(std::move(next.scan));
-    }
-    before_last = std::exchange(last, now);
-    const Labels labels = tracker.attach(judged.verdicts);
-    latency.add(seconds_since(next.since));
-    deliver(judged.verdicts, index, next);
-    if (tracked) tracker.learn(labels);
-    TwoStages::Rest rest;
-    if (judged.integrate) {
-        rest = [this, integrating = std::move(judged.integrate), unsettled = std::move(unsettled),
-                pose = now.T_world_sensor]() mutable { integrate(integrating, unsettled, pose); };
-    }
-    const auto hold = stages.lock();
-    ++counters.processed;
-    return rest;
-}
-
-/// After a break, poses do not fit those before it, so the old evidence would be compared with the
-/// wrong places.
-void OnlineFilter::Engine::begin_map_if_broken(const QueuedScan& next) {
-    const StampedPose now{next.scan.T_world_sensor, next.scan.stamp};
-    const bool restarts = next.run != run;
-    const bool lost = tracker.begins_anew();
-    const auto jump = restarts || lost ? std::nullopt : pose_jump(before_last, last, now);
-    run = next.run;
-    if (!restarts && !jump && !lost) return;
-    stages.wait_for_second(0);
-    end_map([&] { return maps.begin(next.scan.index); });
-    before_last = last = std::nullopt;
-    Notice notice{restarts ? NoticeKind::restart : NoticeKind::jump, next.scan.index,
-                  "stamps went back by more than a second; a new map begins"};
-    if (lost) notice.text = "the odometry has been lost for some scans; a new map begins";
-    if (jump) {
-        notice.text = "the pose is " + std::to_string(std::lround(*jump)) +
-                      " m from where the previous poses lead; a new map begins";
-    }
-    tell(notice);
-}
-
-void OnlineFilter::Engine::deliver(std::vector<Verdict>& verdicts, std::size_t index,
-                                   QueuedScan& asked) {
-    std::optional<Verdict> own;
-    for (Verdict& verdict : verdicts) {
-        if (callbacks.instant) callbacks.instant(verdict);
-        if (verdict.index == index) own = std::move(verdict);
-    }
-    answer(asked, std::move(own));
-}
-
-void OnlineFilter::Engine::integrate(const std::function<void()>& rest,
-                                     std::optional<Scan>& unsettled, const Pose& T_world_sensor) {
-    {
-        const std::lock_guard hold(map_lock);
-        rest();
-        if (unsettled) maps.keep_unsettled(std::move(*unsettled));
-    }
-    if (unsettled) settle_until(options.settle_after);
-    const std::lock_guard hold(map_lock);
-    maps.forget_far(T_world_sensor);
-}
-
-/// Settles the remaining scans; then `end` decides the newest map, or drops it.
-void OnlineFilter::Engine::end_map(const std::function<std::vector<Verdict>()>& end) {
-    settle_until(0);
-    std::vector<Verdict> due;  // verdicts of the last window, with the method "submaps"
-    {
-        const std::lock_guard hold(map_lock);
-        due = end();
-    }
-    tracker.attach(due);
-    for (const Verdict& verdict : due) {
-        if (callbacks.instant) callbacks.instant(verdict);
-    }
-}
-
-void OnlineFilter::Engine::settle_until(std::size_t left) {
-    const auto next = [&] {
-        const std::lock_guard hold(map_lock);
-        return maps.settle_oldest(left);
-    };
-    while (const auto verdict = next()) {
-        if (callbacks.settled) callbacks.settled(*verdict);
-    }
+/// A scan counts as queued until its verdict is delivered.
+Counters OnlineFilter::Engine::count() const {
+    const std::lock_guard hold(lock);
+    Counters now = counters;
+    now.queued = now.in - now.processed - now.dropped - now.rejected;
+    return now;
 }
 
 OnlineFilter::OnlineFilter(const Config& config, OnlineOptions options, OnlineCallbacks callbacks)
     : engine_(std::make_unique<Engine>(config, options, std::move(callbacks))) {}
 
-OnlineFilter::~OnlineFilter() { engine_->stages.stop(); }
+OnlineFilter::~OnlineFilter() { engine_->stop(); }
 
 void OnlineFilter::push(Scan scan) { engine_->push({.scan = std::move(scan), .reply = nullptr}); }
 
 std::optional<Verdict> OnlineFilter::ask(Scan scan) {
-    engine_->stages.refuse_own_threads();
+    engine_->refuse_own_thread();
     auto reply = std::make_shared<std::promise<std::optional<Verdict>>>();
     auto verdict = reply->get_future();
     engine_->push({.scan = std::move(scan), .reply = std::move(reply)});
     return verdict.get();
 }
 
-void OnlineFilter::flush() { engine_->stages.idle(); }
+void OnlineFilter::flush() { engine_->flush(); }
 void OnlineFilter::finish() { engine_->finish(); }
 
 Verdict OnlineFilter::verdict(const Scan& scan) const { return engine_->maps.verdict(scan); }
@@ -316,7 +309,7 @@ Verdict OnlineFilter::settled(const Scan& scan) const {
     return verdict;
 }
 
-bool OnlineFilter::judges_each_scan() const { return engine_->judges_each_scan; }
+bool OnlineFilter::judges_each_scan() const { return engine_->maps.judges_each_scan(); }
 
 std::vector<std::uint64_t> OnlineFilter::places_of(const Scan& scan) const {
     return engine_->maps.places_of(scan);
@@ -333,7 +326,7 @@ std::vector<StaticVoxel> OnlineFilter::local_static_map(const Pose& T_world_quer
     std::vector<StaticVoxel> voxels;
     with_threads(engine_->options.threads, [&] {
         const std::lock_guard hold(engine_->map_lock);
-        voxels = engine_->maps.newest().local_static_map(T_world_query, radius);
+        voxels = engine_->maps.local_static_map(T_world_query, radius);
     });
     return voxels;
 }
@@ -343,8 +336,6 @@ std::vector<StaticVoxel> OnlineFilter::static_map() const { return engine_->maps
 StageTimes OnlineFilter::times() const {
     StageTimes times = engine_->maps.times();
     times["latency"] = engine_->latency;
-    const Durations& odometry = engine_->tracker.times();
-    if (odometry.count() > 0) times["odometry"] = odometry;
     return times;
 }
 

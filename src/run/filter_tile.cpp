@@ -152,9 +152,7 @@ bool TileRun::filter(DynamicFilter& filter, const ScanGroup& scans, LabelStore& 
     std::uint32_t drive = scans.front().drive;
     return each_scan(city, scans, all_of(scans), {}, [&](std::size_t number, io::Frame& frame) {
         if (std::exchange(drive, scans[number].drive) != scans[number].drive) filter.begin_drive();
-        for (const Verdict& verdict : filter.push(take_scan(frame, number))) {
-            instants.put(verdict.index, verdict.labels);
-        }
+        instants.put(number, filter.push(take_scan(frame, number)).labels);
     });
 }
 

@@ -7,7 +7,7 @@
 #include <iostream>
 #include <string>
 
-#include "dynamic_filter/filter.hpp"
+#include "dynamic_filter/online.hpp"
 #include "dynamic_filter/scores.hpp"
 #include "dynamic_filter/simulation.hpp"
 
@@ -32,7 +32,8 @@ eval::Scores scores_of(const Case& c) {
     options.rate_hz = c.rate;
     options.seed = 7;
     sim::Simulation simulation(options);
-    DynamicFilter filter(preset(c.preset));
+    OnlineFilter filter(preset(c.preset),
+                        {.overload = Overload::wait, .horizon = 0.0, .max_bytes = 0});
     const auto scan_of = [&](std::size_t i) {
         const sim::SimulatedScan s = simulation.scan(i);
         return Scan{s.points, s.T_world_sensor, s.stamp, i};

@@ -4,7 +4,7 @@
 
 #include <iostream>
 
-#include "dynamic_filter/filter.hpp"
+#include "dynamic_filter/online.hpp"
 #include "dynamic_filter/scores.hpp"
 #include "dynamic_filter/simulation.hpp"
 
@@ -24,15 +24,15 @@ std::vector<sim::SimulatedScan> crowd() {
 /// The scans are given the poses T_world_truth * true pose, or none.
 double f1_of(const std::vector<sim::SimulatedScan>& scans,
              const std::optional<Pose>& T_world_truth) {
-    DynamicFilter filter{Config{}};
+    OnlineFilter filter(Config{}, {.overload = Overload::wait, .horizon = 0.0, .max_bytes = 0});
     std::vector<Scan> given;
     for (std::size_t i = 0; i < scans.size(); ++i) {
         given.push_back({scans[i].points, Pose::Identity(), scans[i].stamp, i, false});
         Scan& scan = given.back();
         if (T_world_truth) scan.T_world_sensor = *T_world_truth * scans[i].T_world_sensor;
         scan.has_pose = T_world_truth.has_value();
-        const auto verdicts = filter.push(scan);
-        if (!T_world_truth) scan.T_world_sensor = verdicts.at(0).tracked->T_world_sensor;
+        const auto verdict = filter.ask(scan);
+        if (!T_world_truth) scan.T_world_sensor = verdict.value().tracked->T_world_sensor;
     }
     filter.finish();
     std::vector<eval::LabelledScan> judged;

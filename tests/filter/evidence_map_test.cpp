@@ -50,7 +50,7 @@ TEST(EvidenceMap, EqualsAskingEveryKeyframeAboutEveryVoxel) {
         ASSERT_GT(map.grid().voxels().size(), 1000U);
         for (std::uint32_t v = 0; v < map.grid().voxels().size(); v += 7) {
             const Evidence expected =
-                brute_force(scans, map.grid()[v].centroid, *map.observers().beams(), config);
+                brute_force(scans, map.grid()[v].centroid, *map.keyframes().beams(), config);
             EXPECT_EQ(map.grid()[v].evidence.n_occ, expected.n_occ) << v;
             EXPECT_EQ(map.grid()[v].evidence.n_free, expected.n_free) << v;
             EXPECT_EQ(map.grid()[v].evidence.n_switch, expected.n_switch) << v;
@@ -80,9 +80,9 @@ TEST(EvidenceMap, AFewPointsAtFirstDoNotDecideHowTheSensorLooks) {
     auto scans = drive(4, false);
     test::RoomScan few = scans[0];
     few.scan.points = {{1.0F, 0.0F, 0.0F}, {0.0F, 1.0F, 0.0F}};
-    EXPECT_FALSE(filled({few}, every_scan()).observers().beams());
+    EXPECT_FALSE(filled({few}, every_scan()).keyframes().beams());
     scans.insert(scans.begin(), few);
-    const auto beams = filled(scans, every_scan()).observers().beams();
+    const auto beams = filled(scans, every_scan()).keyframes().beams();
     ASSERT_TRUE(beams);
     EXPECT_NEAR(beams->azimuth_spacing, 1.5 * M_PI / 180.0, 0.002);
 }
@@ -122,7 +122,7 @@ TEST(EvidenceMap, ForgetsOnlyTheKeyframesBeyondItsMemory) {
         asked_few += e.first_owner == 5 ? 1 : 0;
     }
     EXPECT_GT(asked_few, 0U);
-    EXPECT_EQ(map.observers().total(), scans.size());
+    EXPECT_EQ(map.keyframes().total(), scans.size());
 }
 
 // A keyframe that is asked also counts for those that are skipped. The counts hardly change.
@@ -164,8 +164,8 @@ TEST(EvidenceMap, NamesTheKeyframesThatSawThroughAVoxel) {
         passes += seen_through[i].size();
     }
     EXPECT_GT(passes, 50U);
-    EXPECT_EQ(map.observers().kept().size(), scans.size());
-    EXPECT_EQ(map.observers().kept().front().index, 100U);
+    EXPECT_EQ(map.keyframes().kept().size(), scans.size());
+    EXPECT_EQ(map.keyframes().kept().front().index, 100U);
     EXPECT_EQ(map.index_of_owner(map.grid()[some.back()].evidence.first_owner), 108U);
 }
 

@@ -4,18 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
-#include <set>
 
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/parallel.hpp"
 #include "geometry/pose.hpp"
-#include "paper/front_end.hpp"
-#include "paper/submap.hpp"
-#include "paper/window.hpp"
+#include "support/filled_map.hpp"
 #include "support/outcome.hpp"
 
 namespace dynamic_filter {
@@ -23,237 +20,14 @@ namespace dynamic_filter_test {
 
 using test::all_are;
 using test::drive;
+using test::every_scan;
 using test::expect_same;
 using test::Outcome;
 using test::RoomScan;
 using test::run;
 using test::share;
-using test::small_windows;
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-
-TEST(DynamicFilter, WallsAreStillAndTheWalkerIsDynamic) {
-    const auto scans = drive(24, true);
-    const Outcome result = run(scans, small_windows());
-    EXPECT_EQ(result.submaps, 3U);
-    EXPECT_GT(share(scans, result.final, Label::static_, Label::static_), 0.9);
-    EXPECT_GT(share(scans, result.final, Label::dynamic, Label::dynamic), 0.9);
-    EXPECT_GT(share(scans, result.instant, Label::static_, Label::static_), 0.9);
-    EXPECT_GT(share(scans, result.instant, Label::dynamic, Label::dynamic), 0.8);
-}
-
-TEST(DynamicFilter, AnEmptyRoomSeenFromOnePlaceIsAllStill) {
-    auto scans = drive(1, false);
-    for (std::size_t i = 1; i < 20; ++i) {
-        scans.push_back(scans[0]);
-        scans[i].scan.index = i;
-        scans[i].scan.stamp = 0.5 * static_cast<double>(i);
-    }
-    const Outcome result = run(scans, small_windows());
-    EXPECT_EQ(result.submaps, 3U);
-    EXPECT_TRUE(all_are(result.final, Label::static_));
-    EXPECT_TRUE(all_are(result.instant, Label::static_));
-}
-
-TEST(DynamicFilter, AnEmptyRoomIsStillAllButAFewPoints) {
-    const auto scans = drive(20, false);
-    EXPECT_GT(share(scans, run(scans, small_windows()).final, Label::static_, Label::static_), 0.9);
-}
-
-TEST(DynamicFilter, EveryScanGetsOneVerdictOfItsSizeInOrder) {
-    auto scans = drive(10, true);
-    scans[3].scan.points.clear();
-    scans[5].scan.points.resize(7);
-    const Outcome result = run(scans, small_windows());
-    ASSERT_EQ(result.instant.size(), scans.size());
-    for (std::size_t s = 0; s < scans.size(); ++s) {
-        const std::size_t size = scans[s].scan.points.size();
-        EXPECT_EQ(result.instant[s].index, s);
-        EXPECT_EQ(result.instant[s].labels.size(), size);
-        EXPECT_TRUE(result.instant[s].probability.empty());
-        EXPECT_EQ(result.final[s].index, s);
-        EXPECT_EQ(result.final[s].labels.size(), size);
-        EXPECT_EQ(result.final[s].probability.size(), size);
-        for (const float p : result.final[s].probability) EXPECT_TRUE(p >= 0.0F && p <= 1.0F);
-    }
-}
-
-TEST(DynamicFilter, InstantVerdictsComeWhenAWindowCloses) {
-    const auto scans = drive(10, false);
-    DynamicFilter filter(small_windows());
-    for (std::size_t s = 0; s < 10; ++s) {
-        EXPECT_EQ(filter.push(scans[s].scan).size(), s == 8 ? 8U : 0U) << s;
-    }
-    EXPECT_EQ(filter.finish().size(), 2U);
-}
-
-TEST(DynamicFilter, WhatWasNotMeasuredIsUnknown) {
-    auto scans = drive(10, true);
-    const float inf = std::numeric_limits<float>::infinity();
-    for (RoomScan& s : scans) {
-        s.scan.points[0] = {kNan, 1, 1};
-        s.scan.points[1] = Point::Zero();
-        s.scan.points[2] = {1, -inf, 1};
-        s.scan.points[3] = {1e9F, 0, 0};  // beyond the voxels' reach
-    }
-    const Outcome result = run(scans, small_windows());
-    for (const Verdict& v : result.final) {
-        for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(v.labels[i], Label::unknown) << i;
-        for (std::size_t i = 4; i < v.labels.size(); ++i) ASSERT_NE(v.labels[i], Label::unknown);
-    }
-    for (const Verdict& v : result.instant) {
-        for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(v.labels[i], Label::unknown) << i;
-    }
-}
-
-TEST(DynamicFilter, AnyNumberOfThreadsGivesTheSameBits) {
-    const auto scans = drive(16, true);
-    Outcome one, two, all;
-    with_threads(1, [&] { one = run(scans, small_windows()); });
-    with_threads(2, [&] { two = run(scans, small_windows()); });
-    with_threads(0, [&] { all = run(scans, small_windows()); });
-    expect_same(one.final, two.final);
-    expect_same(one.instant, two.instant);
-    expect_same(one.final, all.final);
-}
-
-TEST(DynamicFilter, FarOriginsGiveTheSameVerdicts) {
-    const auto near = drive(16, true);
-    auto far = near;
-    for (RoomScan& s : far)
-        s.scan.T_world_sensor.translation() += Eigen::Vector3d(5e5, 5e6, -200.0);
-    const Outcome a = run(near, small_windows()), b = run(far, small_windows());
-    expect_same(a.final, b.final);
-    expect_same(a.instant, b.instant);
-}
-
-TEST(DynamicFilter, ASingleScanIsReturnedAsItIs) {
-    const auto scans = drive(1, true);
-    const Outcome result = run(scans, small_windows());
-    EXPECT_TRUE(all_are(result.final, Label::static_));
-    EXPECT_TRUE(all_are(result.instant, Label::static_));
-    EXPECT_EQ(result.submaps, 1U);
-}
-
-TEST(DynamicFilter, WithoutScansThereAreNoVerdicts) {
-    DynamicFilter filter(small_windows());
-    EXPECT_TRUE(filter.finish().empty());
-}
-
-TEST(DynamicFilter, ScansWithoutPointsAreFine) {
-    std::vector<RoomScan> scans(20);
-    for (std::size_t i = 0; i < scans.size(); ++i) scans[i].scan.stamp = static_cast<double>(i);
-    EXPECT_EQ(run(scans, small_windows()).final.size(), 20U);
-}
-
-TEST(DynamicFilter, FrontEndOnlyIsTheUnionOfTheStaticSubmaps) {
-    Config config = small_windows();
-    config.back_end.enabled = false;
-    const auto scans = drive(20, true);
-    DynamicFilter filter(config);
-    WindowCutter cutter(config.keyframe, config.submap.keyframes);
-    FrontEnd front_end(config);
-    StageTimes times;
-    const auto size = static_cast<float>(config.map.voxel_size);
-    std::set<VoxelKey> owned;
-    const auto own = [&](const std::optional<Window>& window) {
-        if (!window) return;
-        const Submap submap = front_end.process(*window, times).submap;
-        for (const Point& p : submap.points) owned.insert(*voxel_of(p, size));
-    };
-    for (const RoomScan& s : scans) {
-        filter.push(s.scan);
-        own(cutter.push(s.scan));
-    }
-    filter.finish();
-    own(cutter.flush());
-    for (const RoomScan& s : scans) {  // the map frame is the world here
-        Points points;
-        to_map(s.scan, points);
-        const Verdict verdict = filter.verdict(s.scan);
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            const bool in_union = owned.count(*voxel_of(points[i], size)) > 0;
-            ASSERT_EQ(verdict.labels[i], in_union ? Label::static_ : Label::dynamic);
-            ASSERT_EQ(verdict.probability[i], in_union ? 1.0F : 0.0F);
-        }
-    }
-}
-
-TEST(DynamicFilter, BackEndOnlyLeavesInstantVerdictsStillAndStillFindsTheWalker) {
-    Config config = small_windows();
-    config.front_end.enabled = false;
-    const auto scans = drive(40, true);
-    const Outcome result = run(scans, config);
-    EXPECT_TRUE(all_are(result.instant, Label::static_));
-    EXPECT_GT(share(scans, result.final, Label::dynamic, Label::dynamic), 0.5);
-    EXPECT_GT(share(scans, result.final, Label::static_, Label::static_), 0.8);
-}
-
-TEST(DynamicFilter, MoreChecksNeverRaiseAProbability) {
-    const auto scans = drive(24, true);
-    Config blind = small_windows(), uncorrected = small_windows();
-    blind.back_end.visibility_check = false;
-    uncorrected.back_end.incident_correction = false;
-    const Outcome full = run(scans, small_windows()), a = run(scans, blind),
-                  b = run(scans, uncorrected);
-    std::size_t lower = 0;
-    for (std::size_t s = 0; s < scans.size(); ++s) {
-        for (std::size_t i = 0; i < full.final[s].labels.size(); ++i) {
-            ASSERT_LE(a.final[s].probability[i], full.final[s].probability[i]);
-            ASSERT_LE(b.final[s].probability[i], full.final[s].probability[i]);
-            ASSERT_LE(a.final[s].probability[i], b.final[s].probability[i]);
-            lower += a.final[s].probability[i] < full.final[s].probability[i] ? 1 : 0;
-        }
-    }
-    EXPECT_GT(lower, 0U);
-    expect_same(full.instant, a.instant);
-    expect_same(full.instant, b.instant);
-}
-
-TEST(DynamicFilter, TheThresholdIsInclusive) {
-    const auto scans = drive(24, true);
-    Config config = small_windows();
-    for (const double threshold : {0.0, 0.5, 1.0}) {
-        config.map.occupancy_threshold = threshold;
-        const Outcome result = run(scans, config);
-        for (const Verdict& v : result.final) {
-            for (std::size_t i = 0; i < v.labels.size(); ++i) {
-                const bool still = v.probability[i] >= static_cast<float>(threshold);
-                if (v.probability[i] == 0.0F) continue;  // no submap holds it
-                ASSERT_EQ(v.labels[i], still ? Label::static_ : Label::dynamic);
-            }
-        }
-    }
-}
-
-TEST(DynamicFilter, RemovertTakesTheWholeSequenceAsOneWindow) {
-    Config config;
-    config.method = Method::removert;
-    config.keyframe = small_windows().keyframe;
-    const auto scans = drive(20, true);
-    const Outcome result = run(scans, config);
-    EXPECT_EQ(result.submaps, 1U);
-    EXPECT_EQ(result.instant.size(), scans.size());
-    EXPECT_GT(share(scans, result.final, Label::static_, Label::static_), 0.8);
-    EXPECT_GT(share(scans, result.final, Label::dynamic, Label::dynamic), 0.3);
-}
-
-TEST(DynamicFilter, EveryRevertingKeepsAtLeastWhatNoneKeeps) {
-    const auto scans = drive(16, true);
-    Config config = small_windows();
-    config.front_end.reverting = Reverting::none;
-    const Outcome none = run(scans, config);
-    for (const auto reverting : {Reverting::map, Reverting::visibility}) {
-        config.front_end.reverting = reverting;
-        const Outcome other = run(scans, config);
-        for (std::size_t s = 0; s < scans.size(); ++s) {
-            for (std::size_t i = 0; i < none.instant[s].labels.size(); ++i) {
-                if (none.instant[s].labels[i] != Label::static_) continue;
-                ASSERT_EQ(other.instant[s].labels[i], Label::static_);
-            }
-        }
-    }
-}
 
 TEST(DynamicFilter, RejectsAConfigOutOfBounds) {
     Config config;
@@ -261,117 +35,28 @@ TEST(DynamicFilter, RejectsAConfigOutOfBounds) {
     EXPECT_THROW(DynamicFilter{config}, ConfigError);
 }
 
-TEST(DynamicFilter, NotesTheTimesOfItsStages) {
-    DynamicFilter filter(small_windows());
-    for (const RoomScan& s : drive(10, true)) filter.push(s.scan);
-    filter.finish();
-    EXPECT_EQ(filter.times().at("front_end").count(), 2U);
-    EXPECT_TRUE(filter.times().count("merging"));
-    for (const auto& [stage, calls] : filter.times()) {
-        EXPECT_GE(calls.quantile(0.0), 0.0) << stage;
-        EXPECT_LE(calls.max(), calls.total()) << stage;
-    }
+TEST(DynamicFilter, RunsTheDefaultPresetOnly) {
+    EXPECT_THROW(DynamicFilter{preset("paper")}, ConfigError);
+    EXPECT_THROW(DynamicFilter(preset("paper"), Region{}), ConfigError);
 }
 
-// More submaps at exactly the same pose than max_submaps: each is still consulted about its own
-// voxels.
-TEST(DynamicFilter, ASensorThatStandsStillForLongKeepsTheWallsItSawLast) {
-    auto scans = drive(1, false);
-    scans.push_back(scans[0]);
-    for (Point& p : scans[1].scan.points) p *= 0.5F;  // other walls from now on
-    Config config = small_windows();
-    config.submap.keyframes = 1;
-    config.back_end.max_submaps = 1;
-    scans[1].scan.stamp = 1.0;
-    scans[1].scan.index = 1;
-    const Outcome result = run(scans, config);
-    for (const float p : result.final[1].probability) ASSERT_GE(p, 0.0F);
-    EXPECT_TRUE(all_are(std::vector{result.final[1]}, Label::static_));
-}
-
-class StaticLocalMap : public testing::TestWithParam<Config> {};
-
-TEST_P(StaticLocalMap, HoldsTheVoxelsAroundAnyPose) {
-    const Eigen::Vector3d far_away(4e5, -2e5, 128.0);
-    auto scans = drive(6, false, far_away);
-    DynamicFilter filter(GetParam());
-    EXPECT_TRUE(filter.local_static_map(Pose::Identity()).empty());
-    for (auto& s : scans) filter.push(s.scan);
-    filter.finish();
-    Pose query = scans[0].scan.T_world_sensor;
-    const auto voxels = filter.local_static_map(query);
-    ASSERT_FALSE(voxels.empty());
-    for (const StaticVoxel& v : voxels) {
-        EXPECT_GT(v.probability, 0.0F);
-        EXPECT_LE(v.probability, 1.0F);
-        const auto is_near = [&](const Point& p) {
-            return (scans[0].scan.T_world_sensor * p.cast<double>() - v.center).norm() < 1.0;
-        };
-        const Points& points = scans[0].scan.points;
-        EXPECT_TRUE(std::any_of(points.begin(), points.end(), is_near)) << v.center.transpose();
-    }
-    query.translation().x() += 1e4;
-    EXPECT_TRUE(filter.local_static_map(query).empty());
-    EXPECT_EQ(filter.local_static_map(query, 1e6).empty(), !filter.judges_each_scan());
+TEST(DynamicFilter, WantsPoses) {
+    DynamicFilter filter{Config{}};
+    Scan scan = drive(1, false)[0].scan;
+    scan.has_pose = false;
+    EXPECT_THROW(filter.push(scan), Error);
 }
 
 TEST(DynamicFilter, NothingIsPushedAfterTheEnd) {
-    for (const Config& config : {small_windows(), Config{}}) {
-        DynamicFilter filter(config);
-        const auto scans = drive(2, false);
-        filter.push(scans[0].scan);
-        filter.finish();
-        EXPECT_TRUE(filter.finish().empty());
-        EXPECT_THROW(filter.push(scans[1].scan), Error);
-    }
-}
-
-TEST(DynamicFilter, NothingIsSettledWhereScansDoNotObserve) {
-    Config no_back_end = small_windows();
-    no_back_end.back_end.enabled = false;
-    for (const Config& config : {small_windows(), no_back_end}) {
-        DynamicFilter filter(config);
-        auto scans = drive(6, false);
-        for (auto& s : scans) filter.push(s.scan);
-        const Labels labels = filter.settled(scans[0].scan).labels;
-        EXPECT_EQ(labels, Labels(scans[0].scan.points.size(), Label::unknown));
-    }
-}
-
-TEST_P(StaticLocalMap, MergedHoldsTheStaticPointsOfAllScans) {
-    auto scans = drive(6, true);
-    DynamicFilter filter(GetParam());
-    EXPECT_TRUE(filter.static_map().empty());
-    for (auto& s : scans) filter.push(s.scan);
+    DynamicFilter filter{Config{}};
+    const auto scans = drive(2, false);
+    filter.push(scans[0].scan);
     filter.finish();
-    const auto map = filter.static_map();
-    ASSERT_FALSE(map.empty());
-    const auto cell = [&](const Eigen::Vector3d& at) {
-        const Eigen::Vector3d steps = (at - map[0].center) / GetParam().map.voxel_size;
-        return std::array{std::lround(steps.x()), std::lround(steps.y()), std::lround(steps.z())};
-    };
-    std::set<std::array<long, 3>> cells;
-    for (const StaticVoxel& v : map) cells.insert(cell(v.center));
-    EXPECT_EQ(cells.size(), map.size());
-    std::size_t still = 0, held = 0;
-    for (auto& s : scans) {
-        const Labels labels = filter.verdict(s.scan).labels;
-        for (std::size_t i = 0; i < labels.size(); ++i) {
-            if (labels[i] != Label::static_) continue;
-            ++still;
-            held += cells.count(cell(s.scan.T_world_sensor * s.scan.points[i].cast<double>()));
-        }
-    }
-    EXPECT_GT(still, 10000U);
-    EXPECT_GT(held, still - still / 200);  // contacts, and points on a voxel's face
+    filter.finish();
+    EXPECT_THROW(filter.push(scans[1].scan), Error);
 }
 
-INSTANTIATE_TEST_SUITE_P(Observers, StaticLocalMap, testing::Values(small_windows(), Config{}),
-                         [](const auto& test) { return test.index == 0 ? "submaps" : "scans"; });
-
-// Scans observe (the default preset).
-
-TEST(ScansObserve, WallsAreStillAndTheWalkerIsDynamic) {
+TEST(DynamicFilter, WallsAreStillAndTheWalkerIsDynamic) {
     const auto scans = drive(24, true);
     const Outcome result = run(scans, Config{});
     EXPECT_GT(share(scans, result.final, Label::static_, Label::static_), 0.99);
@@ -381,19 +66,19 @@ TEST(ScansObserve, WallsAreStillAndTheWalkerIsDynamic) {
     EXPECT_LT(share(scans, result.instant, Label::static_, Label::dynamic), 0.01);
 }
 
-TEST(ScansObserve, NothingMovesInAnEmptyRoom) {
+TEST(DynamicFilter, NothingMovesInAnEmptyRoom) {
     const auto scans = drive(20, false);
     EXPECT_LT(share(scans, run(scans, Config{}).final, Label::static_, Label::dynamic), 0.001);
 }
 
-TEST(ScansObserve, TheFirstScanIsUnknownAtOnceAndKnownInTheEnd) {
+TEST(DynamicFilter, TheFirstScanIsUnknownAtOnceAndKnownInTheEnd) {
     const auto scans = drive(12, false);
     const Outcome result = run(scans, Config{});
     EXPECT_TRUE(all_are(std::vector{result.instant[0]}, Label::unknown));
     EXPECT_GT(share({scans[0]}, {result.final[0]}, Label::static_, Label::static_), 0.99);
 }
 
-TEST(ScansObserve, GivesTheSameBitsForAnyNumberOfThreads) {
+TEST(DynamicFilter, GivesTheSameBitsForAnyNumberOfThreads) {
     const auto scans = drive(12, true);
     Outcome one, four;
     with_threads(1, [&] { one = run(scans, Config{}); });
@@ -402,13 +87,13 @@ TEST(ScansObserve, GivesTheSameBitsForAnyNumberOfThreads) {
     expect_same(one.final, four.final);
 }
 
-TEST(ScansObserve, TheWorldsOriginDoesNotMatter) {
+TEST(DynamicFilter, TheWorldsOriginDoesNotMatter) {
     const auto near = drive(10, true), far = drive(10, true, {65536.0, -131072.0, 0.0});
     const Outcome a = run(near, Config{}), b = run(far, Config{});
     for (std::size_t s = 0; s < near.size(); ++s) EXPECT_EQ(a.final[s].labels, b.final[s].labels);
 }
 
-TEST(ScansObserve, PointsThatAreNoMeasurementsAndUnseenScansAreUnknown) {
+TEST(DynamicFilter, PointsThatAreNoMeasurementsAndUnseenScansAreUnknown) {
     auto scans = drive(6, false);
     scans[2].scan.points[5] = {kNan, 1.0F, 1.0F};
     scans[2].scan.points[6] = Point::Zero();
@@ -445,7 +130,7 @@ std::vector<RoomScan> one_comes_and_stays() {
     return scans;
 }
 
-TEST(ScansObserve, TheLatestMapHoldsWhatCameAndStayed) {
+TEST(DynamicFilter, TheLatestMapHoldsWhatCameAndStayed) {
     const auto scans = one_comes_and_stays();
     Config latest;
     latest.map.time = MapTime::latest;
@@ -480,7 +165,7 @@ TEST(ScansObserve, TheLatestMapHoldsWhatCameAndStayed) {
     EXPECT_GT(voxels_near(latest), 10);
 }
 
-TEST(ScansObserve, AFootOnTheGroundIsDynamicAndTheGroundIsNot) {
+TEST(DynamicFilter, AFootOnTheGroundIsDynamicAndTheGroundIsNot) {
     const auto scans = drive(24, true);
     const Outcome result = run(scans, Config{});
     int low = 0, found = 0, ground = 0, kept = 0;
@@ -509,97 +194,6 @@ TEST(ScansObserve, AFootOnTheGroundIsDynamicAndTheGroundIsNot) {
     ASSERT_GT(ground, 10);
     EXPECT_GE(found, 0.4 * low);
     EXPECT_EQ(kept, ground);
-}
-
-std::vector<RoomScan> without_poses(std::size_t count) {
-    auto scans = drive(count, true);
-    for (RoomScan& s : scans) {
-        s.scan.has_pose = false;
-        s.scan.T_world_sensor.translation().setConstant(std::nan(""));
-    }
-    return scans;
-}
-
-TEST(DynamicFilter, ScansWithoutPosesAreToldWhereTheyWereTaken) {
-    const auto truth = drive(20, true), scans = without_poses(20);
-    const Pose first = truth[0].scan.T_world_sensor;
-    for (const Config& config : {Config{}, small_windows()}) {
-        const Outcome result = run(scans, config);
-        ASSERT_EQ(result.instant.size(), scans.size());
-        for (const Verdict& v : result.instant) {
-            ASSERT_TRUE(v.tracked) << v.index;
-            const Pose expected = first.inverse() * truth[v.index].scan.T_world_sensor;
-            const Pose off = expected.inverse() * v.tracked->T_world_sensor;
-            EXPECT_LT(off.translation().norm(), 0.03) << v.index;
-        }
-    }
-    for (const Verdict& v : run(truth, Config{}).instant) EXPECT_FALSE(v.tracked);
-}
-
-TEST(DynamicFilter, WithoutPosesVerdictsAreThoseOfTheTrackedPoses) {
-    auto scans = without_poses(20);
-    DynamicFilter filter{Config{}};
-    std::vector<Verdict> instant;
-    for (const RoomScan& s : scans) {
-        for (Verdict& v : filter.push(s.scan)) instant.push_back(std::move(v));
-    }
-    filter.finish();
-    EXPECT_EQ(filter.times().at("odometry").count(), 2 * scans.size());
-    for (std::size_t i = 0; i < scans.size(); ++i) {
-        scans[i].scan.T_world_sensor = instant[i].tracked->T_world_sensor;
-        scans[i].scan.has_pose = true;
-    }
-    const Outcome again = run(scans, Config{});
-    std::vector<Verdict> final;
-    for (const RoomScan& s : scans) final.push_back(filter.verdict(s.scan));
-    expect_same(instant, again.instant);
-    expect_same(final, again.final);
-    EXPECT_GT(share(scans, final, Label::dynamic, Label::dynamic), 0.8);
-    EXPECT_GT(share(scans, final, Label::static_, Label::static_), 0.9);
-}
-
-TEST(DynamicFilter, WithoutPosesAnyNumberOfThreadsGivesTheSameBits) {
-    const auto scans = without_poses(12);
-    Outcome one, four;
-    with_threads(1, [&] { one = run(scans, Config{}); });
-    with_threads(4, [&] { four = run(scans, Config{}); });
-    expect_same(one.instant, four.instant);
-    for (std::size_t i = 0; i < scans.size(); ++i) {
-        EXPECT_EQ(one.instant[i].tracked->T_world_sensor.matrix(),
-                  four.instant[i].tracked->T_world_sensor.matrix());
-    }
-}
-
-TEST(DynamicFilter, PosesForSomeScansOnlyAreAnErrorThatNamesTheScan) {
-    auto scans = drive(4, false);
-    scans[2].scan.has_pose = false;
-    DynamicFilter filter{Config{}};
-    filter.push(scans[0].scan);
-    filter.push(scans[1].scan);
-    try {
-        filter.push(scans[2].scan);
-        ADD_FAILURE() << "nothing was thrown";
-    } catch (const Error& error) {
-        EXPECT_NE(std::string(error.what()).find("scan 2 has no pose"), std::string::npos);
-    }
-}
-
-TEST(DynamicFilter, RefinedPosesAreTold) {
-    const auto scans = drive(8, true);
-    Config config;
-    config.odometry.refine = true;
-    const Outcome result = run(scans, config);
-    for (const Verdict& v : result.instant) {
-        ASSERT_TRUE(v.tracked);
-        const Pose off = scans[v.index].scan.T_world_sensor.inverse() * v.tracked->T_world_sensor;
-        EXPECT_LT(off.translation().norm(), 0.01);
-    }
-}
-
-TEST(DynamicFilter, TimesThatAreNotOnePerPointAreAnError) {
-    auto scans = without_poses(1);
-    scans[0].scan.times.assign(3, 0.0F);
-    EXPECT_THROW(DynamicFilter{Config{}}.push(scans[0].scan), Error);
 }
 
 /// Final verdicts of a filter that is limited to a part of the world.
@@ -643,10 +237,6 @@ TEST(DynamicFilter, InsideOfARegionTheVerdictsAreThoseOfTheWhole) {
     EXPECT_LE(other, within / 1000);
 }
 
-TEST(DynamicFilter, OnlyTheMethodScansFiltersARegion) {
-    EXPECT_THROW(DynamicFilter(small_windows(), Region{}), ConfigError);
-}
-
 /// Scans of an empty room and of one with a box that stands there all the time.
 std::vector<RoomScan> standing(bool box, std::size_t first) {
     const test::Box room{{-20.0, -6.0, 0.0}, {20.0, 6.0, 3.0}}, parked{{3, 2, 0.2}, {5, 3.4, 1.6}};
@@ -681,6 +271,203 @@ TEST(DynamicFilter, WhatOnlyOneDriveSawIsDynamic) {
         EXPECT_GT(share(all, final, Label::dynamic, Label::dynamic), 0.9) << comes;
         EXPECT_GT(share(all, final, Label::static_, Label::static_), 0.99) << comes;
     }
+}
+
+std::vector<Verdict> judge_all(DynamicFilter& method, const std::vector<RoomScan>& scans) {
+    std::vector<Verdict> instant;
+    for (const RoomScan& s : scans) {
+        instant.push_back(method.push(s.scan));
+    }
+    return instant;
+}
+
+std::map<std::uint32_t, float> as_map(const std::vector<StaticVoxel>& voxels) {
+    std::map<std::uint32_t, float> map;
+    for (const StaticVoxel& v : voxels) map[v.voxel] = v.probability;
+    EXPECT_EQ(map.size(), voxels.size());
+    return map;
+}
+
+TEST(DynamicFilter, JudgesEveryScanAtOnceAndDecidesAtTheEnd) {
+    const auto scans = drive(24, true);
+    DynamicFilter method(every_scan());
+    const auto instant = judge_all(method, scans);
+    method.finish();
+    std::vector<Verdict> final;
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+        EXPECT_EQ(instant[i].index, i);
+        EXPECT_EQ(instant[i].labels.size(), scans[i].scan.points.size());
+        final.push_back(method.verdict(scans[i].scan));
+        EXPECT_TRUE(final.back().stays.empty());  // only for `map.time` = latest
+    }
+    EXPECT_GT(test::share(scans, final, Label::dynamic, Label::dynamic), 0.95);
+    EXPECT_GT(test::share(scans, final, Label::static_, Label::static_), 0.98);
+}
+
+TEST(DynamicFilter, SettlingGivesTheProbabilitiesOfTheDecisionFromTheSameEvidence) {
+    auto scans = drive(12, true);
+    scans[5].scan.points[7] = Point::Zero();  // not measured
+    DynamicFilter method(every_scan());
+    judge_all(method, scans);
+    method.finish();
+    for (const RoomScan& s : scans) {
+        const Verdict final = method.verdict(s.scan);
+        const Verdict settled = method.settled(s.scan);
+        EXPECT_EQ(settled.probability, final.probability);
+        for (std::size_t i = 0; i < final.labels.size(); ++i) {
+            // Only the points of feet may differ.
+            if (final.labels[i] == settled.labels[i]) continue;
+            EXPECT_EQ(settled.labels[i], Label::static_);
+        }
+    }
+    EXPECT_EQ(method.settled(scans[5].scan).labels[7], Label::unknown);
+}
+
+TEST(DynamicFilter, TheLocalMapIsTheStaticMapAroundAPose) {
+    DynamicFilter method(every_scan());
+    judge_all(method, drive(12, true));
+    method.finish();
+    const auto all = as_map(method.static_map());
+    ASSERT_GT(all.size(), 1000U);
+    for (const auto& [voxel, probability] : all) EXPECT_GE(probability, 0.5F);
+    Pose corner = Pose::Identity();
+    corner.translation() = Eigen::Vector3d(-6.0, -5.0, 1.0);
+    EXPECT_EQ(as_map(method.local_static_map(corner, 1000.0)), all);
+    const auto near = as_map(method.local_static_map(corner, 4.0));
+    std::size_t expected = 0;
+    for (const StaticVoxel& v : method.static_map()) {
+        const double distance = (v.center - corner.translation()).norm();
+        expected += distance < 3.8 ? 1 : 0;  // its points may lie anywhere in the voxel
+        if (near.contains(v.voxel)) {
+            EXPECT_LT(distance, 4.2);
+            EXPECT_EQ(near.at(v.voxel), v.probability);
+        }
+    }
+    EXPECT_GE(near.size(), expected);
+    EXPECT_GT(expected, 100U);
+}
+
+TEST(DynamicFilter, AHistoryTellsWhoSawThroughAVoxelThatWasRemoved) {
+    auto scans = drive(20, true);
+    for (RoomScan& s : scans) s.scan.index += 100;
+    DynamicFilter method(every_scan());
+    judge_all(method, scans);
+    method.finish();
+    std::vector<std::uint32_t> all(method.size());
+    for (std::uint32_t v = 0; v < all.size(); ++v) all[v] = v;
+    const auto histories = method.histories(all);
+    ASSERT_EQ(histories.size(), all.size());
+    const auto in_map = as_map(method.static_map());
+    std::size_t removed = 0;
+    for (std::uint32_t v = 0; v < all.size(); ++v) {
+        const VoxelHistory& h = histories[v];
+        EXPECT_GE(h.first, 100U);
+        EXPECT_LE(h.first, h.last);
+        EXPECT_LE(h.last, 119U);
+        EXPECT_LE(h.n_own, h.last - h.first + 1);
+        if (!h.probability) continue;
+        EXPECT_EQ(in_map.contains(v), *h.probability >= 0.5F);
+        if (*h.probability >= 0.5F) {
+            EXPECT_EQ(h.probability, in_map.at(v));
+            EXPECT_TRUE(h.free_keyframes.empty());
+            continue;
+        }
+        ++removed;
+        EXPECT_EQ(h.free_keyframes.size(), h.n_free);
+        EXPECT_LE(h.free, static_cast<float>(h.n_free));
+    }
+    EXPECT_GT(removed, 50U);
+}
+
+TEST(DynamicFilter, ContentsNameTheKeyframes) {
+    DynamicFilter method(every_scan());
+    judge_all(method, drive(5, false));
+    const MapContents contents = method.contents();
+    EXPECT_EQ(contents.observer, "keyframes");
+    EXPECT_EQ(contents.observers, 5U);
+    EXPECT_EQ(contents.keyframes, (std::vector<std::size_t>{0, 1, 2, 3, 4}));
+    ASSERT_EQ(contents.throughput.size(), 2U);
+    EXPECT_TRUE(contents.beams);
+    for (const char* stage : {"judge", "integrate", "insertion", "visibility_check", "instances"}) {
+        EXPECT_TRUE(method.times().contains(stage)) << stage;
+    }
+}
+
+// A crate is set down before the sensor, which is at rest, and stays.
+TEST(DynamicFilter, WithTheLatestMapWhatCameAndStaysIsInIt) {
+    const test::Box room{{-6.03, -5.03, 0.02}, {9.03, 5.03, 3.1}};
+    const test::Box crate{{2.5, -0.5, 0.02}, {3.3, 0.5, 1.8}};
+    Pose pose = Pose::Identity();
+    pose.translation() = Eigen::Vector3d(0.0, 0.25, 1.25);
+    std::vector<RoomScan> scans;
+    for (std::size_t i = 0; i < 60; ++i) {
+        std::vector<test::Box> boxes;
+        if (i >= 25) boxes.push_back(crate);
+        scans.push_back(test::scan_room(pose, room, boxes));
+        scans.back().scan.stamp = 0.5 * static_cast<double>(i);
+        scans.back().scan.index = i;
+    }
+    for (const MapTime time : {MapTime::always, MapTime::latest}) {
+        Config config = every_scan();
+        config.map.time = time;
+        DynamicFilter method(config);
+        judge_all(method, scans);
+        method.finish();
+        const auto map = as_map(method.static_map());
+        std::size_t points = 0, dynamic = 0, stay = 0, in_map = 0;
+        for (const RoomScan& s : scans) {
+            const Verdict verdict = method.verdict(s.scan);
+            const auto voxels = method.voxels_of(s.scan);
+            for (std::size_t i = 0; i < s.truth.size(); ++i) {
+                const bool stays = !verdict.stays.empty() && verdict.stays[i];
+                if (s.truth[i] != Label::dynamic) {
+                    EXPECT_FALSE(stays && verdict.labels[i] == Label::static_);
+                    continue;
+                }
+                ++points;
+                dynamic += verdict.labels[i] == Label::dynamic ? 1 : 0;
+                stay += stays ? 1 : 0;
+                in_map += map.contains(voxels[i]) ? 1 : 0;
+                if (stays) {
+                    EXPECT_EQ(verdict.labels[i], Label::dynamic);
+                    EXPECT_EQ(map.at(voxels[i]), 1.0F);
+                }
+            }
+        }
+        ASSERT_GT(points, 1000U);
+        EXPECT_GT(dynamic, points * 8 / 10);  // the rest lies in voxels of the floor
+        if (time == MapTime::latest) {
+            EXPECT_GT(stay, dynamic * 9 / 10);
+            EXPECT_EQ(in_map, points);
+        } else {
+            EXPECT_EQ(stay, 0U);
+            EXPECT_LT(in_map, points * 2 / 10);
+        }
+    }
+}
+
+TEST(DynamicFilter, WhatLiesFarCanBeForgottenAndTheRestGoesOn) {
+    const auto scans = drive(16, true);
+    const std::vector<RoomScan> first(scans.begin(), scans.begin() + 8);
+    const std::vector<RoomScan> rest(scans.begin() + 8, scans.end());
+    DynamicFilter whole(every_scan()), cut(every_scan());
+    judge_all(whole, first);
+    judge_all(cut, first);
+    cut.keep_within(Pose(Eigen::Translation3d(4.0, 0.0, 1.0)), 6.0, SIZE_MAX);
+    EXPECT_LT(cut.size(), whole.size());
+    const auto expected = judge_all(whole, rest), found = judge_all(cut, rest);
+    std::size_t dynamic = 0;
+    for (std::size_t s = 0; s < rest.size(); ++s) {
+        for (std::size_t i = 0; i < rest[s].truth.size(); ++i) {
+            const Point p =
+                (rest[s].scan.T_world_sensor * rest[s].scan.points[i].cast<double>()).cast<float>();
+            // Farther out, the neighbors are missing.
+            if ((p - Point(4.0F, 0.0F, 1.0F)).norm() > 4.0F) continue;
+            EXPECT_EQ(found[s].labels[i], expected[s].labels[i]);
+            dynamic += found[s].labels[i] == Label::dynamic ? 1 : 0;
+        }
+    }
+    EXPECT_GT(dynamic, 50U);
 }
 
 }  // namespace dynamic_filter_test

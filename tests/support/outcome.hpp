@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "dynamic_filter/filter.hpp"
+#include "online/maps.hpp"
 #include "support/room.hpp"
 
 namespace dynamic_filter::test {
@@ -24,15 +24,18 @@ struct Outcome {
 };
 
 inline Outcome run(const std::vector<RoomScan>& scans, const Config& config) {
-    DynamicFilter filter(config);
+    Maps maps(config, {.horizon = 0.0, .max_bytes = 0});
     Outcome result;
-    const auto take = [&](std::vector<Verdict> verdicts) {
-        for (Verdict& v : verdicts) result.instant.push_back(std::move(v));
+    const auto take = [&](Maps::Judged judged) {
+        for (Verdict& v : judged.instant) result.instant.push_back(std::move(v));
     };
-    for (const RoomScan& s : scans) take(filter.push(s.scan));
-    take(filter.finish());
-    for (const RoomScan& s : scans) result.final.push_back(filter.verdict(s.scan));
-    result.submaps = filter.contents().observers;
+    for (const RoomScan& s : scans) {
+        take(maps.judge(s.scan, false));
+        maps.catch_up();
+    }
+    take(maps.finish());
+    for (const RoomScan& s : scans) result.final.push_back(maps.verdict(s.scan));
+    result.submaps = maps.contents().observers;
     return result;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// The keyframes as observers: which scans become keyframes, how far each keyframe looks, and which
+/// The scans that observe: which scans become keyframes, how far each keyframe looks, and which
 /// of them observe a new voxel.
 #pragma once
 
@@ -15,7 +15,7 @@
 namespace dynamic_filter {
 
 /// A keyframe and its image.
-struct Observer {
+struct Keyframe {
     BeamImage image;
     Eigen::Isometry3f T_sensor_map = Eigen::Isometry3f::Identity();
     float reach = 0.0F;     ///< [m] how far the keyframe looks
@@ -23,9 +23,9 @@ struct Observer {
 };
 
 /// Stores the newest keyframes of a drive. Single caller.
-class Observers {
+class Keyframes {
 public:
-    explicit Observers(const Config& config)
+    explicit Keyframes(const Config& config)
         : keyframe_(config.keyframe),
           config_(config.scans.observers),
           farthest_(static_cast<float>(config.scans.sight.farthest)),
@@ -43,12 +43,12 @@ public:
     /// each one stands. Keyframes close in time see nearly the same. So all of the newest keyframes
     /// are used; of those twice as old every second one, and so on.
     struct Asked {
-        const Observer* observer;
+        const Keyframe* keyframe;
         unsigned weight;
     };
     [[nodiscard]] std::vector<Asked> asked_by_new() const;
 
-    [[nodiscard]] const std::deque<Observer>& kept() const { return kept_; }  ///< oldest first
+    [[nodiscard]] const std::deque<Keyframe>& kept() const { return kept_; }  ///< oldest first
     [[nodiscard]] std::size_t total() const {
         return total_;
     }  ///< including those that are no longer kept
@@ -65,7 +65,7 @@ private:
     std::optional<BeamPattern> beams_;
     std::optional<Scan> last_keyframe_;  // only its pose and stamp
     double last_far_look_ = 0.0;         // [s]
-    std::deque<Observer> kept_;
+    std::deque<Keyframe> kept_;
     std::size_t total_ = 0;
 };
 

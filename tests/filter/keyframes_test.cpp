@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "filter/observers.hpp"
+#include "filter/keyframes.hpp"
 
 #include <gtest/gtest.h>
 
 #include "support/room.hpp"
 
 namespace dynamic_filter {
-namespace observers_test {
+namespace keyframes_test {
 
 Scan room_scan(std::size_t index, double stamp, double x) {
     Pose pose = Pose::Identity();
@@ -24,8 +24,8 @@ Config config_of(double interval, double distance) {
     return config;
 }
 
-TEST(Observers, OnlyKeyframesObserve) {
-    Observers observers(config_of(1.0, 100.0));
+TEST(Keyframes, OnlyKeyframesObserve) {
+    Keyframes observers(config_of(1.0, 100.0));
     EXPECT_TRUE(observers.add(room_scan(0, 0.0, 0.0)));
     EXPECT_FALSE(observers.add(room_scan(1, 0.5, 0.0)));
     EXPECT_TRUE(observers.add(room_scan(2, 1.0, 0.0)));
@@ -33,10 +33,10 @@ TEST(Observers, OnlyKeyframesObserve) {
     EXPECT_EQ(observers.kept().back().index, 2U);
 }
 
-TEST(Observers, WhatMovedSoonAfterTheLastLooksNoFartherThanNear) {
+TEST(Keyframes, WhatMovedSoonAfterTheLastLooksNoFartherThanNear) {
     Config config = config_of(1.0, 0.5);
     config.scans.observers.near_reach = 40.0;
-    Observers observers(config);
+    Keyframes observers(config);
     observers.add(room_scan(0, 0.0, 0.0));
     observers.add(room_scan(1, 0.2, 0.6));  // by distance
     observers.add(room_scan(2, 1.3, 0.6));  // by time
@@ -45,10 +45,10 @@ TEST(Observers, WhatMovedSoonAfterTheLastLooksNoFartherThanNear) {
     EXPECT_EQ(observers.kept()[2].reach, 80.0F);
 }
 
-TEST(Observers, KeepsTheNewestOnly) {
+TEST(Keyframes, KeepsTheNewestOnly) {
     Config config = config_of(0.0, 1.0);
     config.scans.max_keyframes = 3;
-    Observers observers(config);
+    Keyframes observers(config);
     for (std::size_t i = 0; i < 7; ++i) observers.add(room_scan(i, static_cast<double>(i), 0.0));
     ASSERT_EQ(observers.kept().size(), 3U);
     EXPECT_EQ(observers.kept().front().index, 4U);
@@ -56,28 +56,28 @@ TEST(Observers, KeepsTheNewestOnly) {
 }
 
 // Those that are asked stand for all: their weights add up to about the number of keyframes.
-TEST(Observers, ANewVoxelAsksTheNewestOneByOneAndOfOlderOnesFewer) {
+TEST(Keyframes, ANewVoxelAsksTheNewestOneByOneAndOfOlderOnesFewer) {
     Config config = config_of(0.0, 1.0);
     config.scans.observers.images_asked = 8.0;
-    Observers observers(config);
+    Keyframes observers(config);
     EXPECT_TRUE(observers.asked_by_new().empty());
     for (std::size_t i = 0; i < 100; ++i) observers.add(room_scan(i, static_cast<double>(i), 0.0));
     const auto asked = observers.asked_by_new();
     EXPECT_LT(asked.size(), 60U);
-    EXPECT_EQ(asked.back().observer->index, 99U);
+    EXPECT_EQ(asked.back().keyframe->index, 99U);
     EXPECT_EQ(asked.back().weight, 1U);
     EXPECT_GT(asked.front().weight, 1U);
     unsigned weights = 0;
     for (std::size_t i = 0; i < asked.size(); ++i) {
         weights += asked[i].weight;
         if (i == 0) continue;
-        EXPECT_LT(asked[i - 1].observer->index, asked[i].observer->index);
+        EXPECT_LT(asked[i - 1].keyframe->index, asked[i].keyframe->index);
     }
     EXPECT_NEAR(weights, 100, 10);
 }
 
-TEST(Observers, AFewPointsDoNotTellTheBeamPattern) {
-    Observers observers(config_of(0.0, 1.0));
+TEST(Keyframes, AFewPointsDoNotTellTheBeamPattern) {
+    Keyframes observers(config_of(0.0, 1.0));
     Scan few;
     few.points = {{1.0F, 0.0F, 0.0F}, {0.0F, 1.0F, 0.0F}};
     observers.add(few);
@@ -87,8 +87,8 @@ TEST(Observers, AFewPointsDoNotTellTheBeamPattern) {
 }
 
 // Another drive may begin at any time of the day.
-TEST(Observers, TheFirstScanOfADriveIsAKeyframeThatLooksFar) {
-    Observers observers(config_of(1.0, 100.0));
+TEST(Keyframes, TheFirstScanOfADriveIsAKeyframeThatLooksFar) {
+    Keyframes observers(config_of(1.0, 100.0));
     observers.add(room_scan(0, 1000.0, 0.0));
     observers.begin_drive();
     EXPECT_TRUE(observers.kept().empty());
@@ -97,5 +97,5 @@ TEST(Observers, TheFirstScanOfADriveIsAKeyframeThatLooksFar) {
     EXPECT_EQ(observers.kept().back().reach, 80.0F);
 }
 
-}  // namespace observers_test
+}  // namespace keyframes_test
 }  // namespace dynamic_filter

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "filter/observers.hpp"
+#include "filter/keyframes.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -8,12 +8,12 @@
 
 namespace dynamic_filter {
 
-bool Observers::is_reliable(const BeamPattern& beams, const Scan& scan) const {
+bool Keyframes::is_reliable(const BeamPattern& beams, const Scan& scan) const {
     return beams.azimuth_spacing > 0.0F && beams.elevation_spacing > 0.0F &&
            scan.points.size() >= static_cast<std::size_t>(config_.least_points);
 }
 
-bool Observers::add(const Scan& scan) {
+bool Keyframes::add(const Scan& scan) {
     if (last_keyframe_ && !is_keyframe(*last_keyframe_, scan, keyframe_)) return false;
     const BeamPattern beams = beams_ ? *beams_ : estimate_beam_pattern({&scan, 1});
     if (!beams_ && is_reliable(beams, scan)) beams_ = beams;
@@ -29,13 +29,13 @@ bool Observers::add(const Scan& scan) {
     return true;
 }
 
-void Observers::begin_drive() {
+void Keyframes::begin_drive() {
     kept_.clear();
     last_keyframe_.reset();
     beams_.reset();
 }
 
-std::vector<Observers::Asked> Observers::asked_by_new() const {
+std::vector<Keyframes::Asked> Keyframes::asked_by_new() const {
     std::vector<Asked> asked;
     if (kept_.empty()) return asked;
     // The lower limit avoids a division by zero for an image without beams.

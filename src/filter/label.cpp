@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "filter/final_map.hpp"
+#include "filter/label.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "dynamic_filter/parallel.hpp"
 #include "filter/vote.hpp"
@@ -9,6 +12,8 @@
 namespace dynamic_filter {
 
 namespace {
+
+constexpr float kSteps = 255.0F;  // of a stored probability
 
 template <class Use>
 void each_within(const EvidenceGrid& grid, int cells, std::uint32_t voxel, const Use& use) {
@@ -50,6 +55,81 @@ std::vector<std::size_t> points_above(const LocatedScan& scan,
 }
 
 }  // namespace
+
+bool InstantLabels::is_due(const Said& said, const EvidenceGrid::State& state) const {
+    const bool same =
+        std::abs(state.score - said.score) <= static_cast<float>(config_.vote.ask_again);
+    if (!same) return true;
+    return said.label == Label::unknown && !is_unknown(state.evidence);
+}
+
+Verdict InstantLabels::label(std::size_t index, const PointVoxels& voxels,
+                             const EvidenceGrid& grid) {
+    said_.resize(grid.size());
+    std::vector<std::uint32_t> due;
+    for (std::size_t i = 0; i < voxels.size(); ++i) {
+        constexpr std::size_t kAhead = 16;  // number of points for which voxels are prefetched
+        if (i + kAhead < voxels.size() && voxels[i + kAhead] != kNoVoxel) {
+            __builtin_prefetch(&grid[voxels[i + kAhead]]);
+            __builtin_prefetch(&said_[voxels[i + kAhead]]);
+        }
+        const std::uint32_t voxel = voxels[i];
+        if (voxel == kNoVoxel || !is_due(said_[voxel], grid[voxel])) continue;
+        // Temporary label, so that the voxel is listed only once.
+        said_[voxel] = {grid[voxel].score, Label::static_, 0};
+        due.push_back(voxel);
+    }
+    const auto occupancy = occupancy_of(grid, due, config_);
+    for (std::size_t i = 0; i < due.size(); ++i) {
+        said_[due[i]].label = label_of(occupancy[i], threshold_);
+        said_[due[i]].probability =
+            static_cast<std::uint8_t>(std::lround(kSteps * occupancy[i].value_or(0.0F)));
+    }
+    Verdict verdict{index, Labels(voxels.size(), Label::unknown),
+                    std::vector<float>(voxels.size(), 0.0F)};
+    for (std::size_t i = 0; i < voxels.size(); ++i) {
+        if (voxels[i] == kNoVoxel) continue;
+        const Said& said = said_[voxels[i]];
+        verdict.labels[i] = said.label;
+        verdict.probability[i] = static_cast<float>(said.probability) / kSteps;
+    }
+    return verdict;
+}
+
+void InstantLabels::keep(std::span<const std::uint32_t> kept) {
+    std::vector<Said> said;
+    said.reserve(kept.size());
+    for (const std::uint32_t v : kept) said.push_back(said_[v]);
+    said_ = std::move(said);
+}
+
+void settle_points(const LocatedScan& scan, const EvidenceGrid& grid, const Config& config,
+                   Verdict& verdict) {
+    PointVoxels own = scan.voxels;
+    std::sort(own.begin(), own.end());
+    own.erase(std::unique(own.begin(), own.end()), own.end());
+    if (!own.empty() && own.back() == kNoVoxel) own.pop_back();
+    const auto occupancy = occupancy_of(grid, own, config.scans);
+    for (std::size_t i = 0; i < scan.voxels.size(); ++i) {
+        if (scan.voxels[i] == kNoVoxel) continue;
+        const auto at = std::lower_bound(own.begin(), own.end(), scan.voxels[i]) - own.begin();
+        const auto& probability = occupancy[static_cast<std::size_t>(at)];
+        verdict.labels[i] = label_of(probability, config.map.occupancy_threshold);
+        verdict.probability[i] = probability.value_or(0.0F);
+    }
+}
+
+std::vector<VoxelOccupancy> static_among(std::span<const std::uint32_t> voxels,
+                                         const EvidenceGrid& grid, const Config& config) {
+    const auto occupancy = occupancy_of(grid, voxels, config.scans);
+    std::vector<VoxelOccupancy> result;
+    for (std::size_t i = 0; i < voxels.size(); ++i) {
+        if (label_of(occupancy[i], config.map.occupancy_threshold) == Label::static_) {
+            result.push_back({voxels[i], *occupancy[i]});
+        }
+    }
+    return result;
+}
 
 std::vector<VoxelDecision> decide_voxels(const EvidenceGrid& grid, const Config& config) {
     std::vector<std::uint32_t> all(grid.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Instances: clusters of scans are tracked over time, so that a moving object is judged as a
+/// Objects: clusters of scans are tracked over time, so that a moving object is judged as a
 /// whole.
 #pragma once
 
@@ -27,11 +27,11 @@ namespace dynamic_filter {
 /// beside a car that passes. So a voxel counts only if it was seen empty, or was not seen at all,
 /// before the track came.
 ///
-/// Source: docs/how-it-works.md, "Instances". Single caller. Memory: 8 bytes for each voxel of the
+/// Source: docs/how-it-works.md, "Objects". Single caller. Memory: 8 bytes for each voxel of the
 /// tracks in sight.
-class Instances {
+class Objects {
 public:
-    explicit Instances(const ScansConfig::Instances& config) : config_(config) {}
+    explicit Objects(const ScansConfig::Instances& config) : config_(config) {}
 
     /// Uses the scan that was last added to the grid. `labels` are its instant verdicts; points of
     /// moving objects become dynamic there. Scans that follow sooner than `every` are skipped.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tracking/pose_tracker.hpp"
+#include "tracking/tracker.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include "support/room.hpp"
 
 namespace dynamic_filter {
-namespace pose_tracker_test {
+namespace tracker_test {
 
 using test::drive;
 using test::RoomScan;
@@ -31,19 +31,19 @@ OdometryConfig refining() {
 }
 
 /// Tracks each scan, and learns all of it.
-std::vector<Pose> poses_by(PoseTracker& tracker, std::vector<Scan> scans) {
+std::vector<Pose> poses_by(Tracker& tracker, std::vector<Scan> scans) {
     std::vector<Pose> poses;
     for (Scan& scan : scans) {
-        tracker.track(scan);
+        tracker.place(scan);
         tracker.learn({});
         poses.push_back(scan.T_world_sensor);
     }
     return poses;
 }
 
-std::string error_of(PoseTracker& tracker, Scan scan) {
+std::string error_of(Tracker& tracker, Scan scan) {
     try {
-        tracker.track(scan);
+        tracker.place(scan);
     } catch (const Error& error) {
         return error.what();
     }
@@ -59,28 +59,27 @@ double off(const std::vector<Pose>& poses, const std::vector<Scan>& truth) {
     return std::sqrt(sum / static_cast<double>(poses.size()));
 }
 
-TEST(PoseTracker, GivenPosesAreTakenAsTheyAre) {
-    PoseTracker tracker({});
+TEST(Tracker, GivenPosesAreTakenAsTheyAre) {
+    Tracker tracker({});
     for (Scan scan : scans_of(4, true)) {
         const Scan before = scan;
-        EXPECT_FALSE(tracker.track(scan));
+        EXPECT_FALSE(tracker.place(scan));
         EXPECT_EQ(scan.T_world_sensor.matrix(), before.T_world_sensor.matrix());
         EXPECT_EQ(scan.points, before.points);
     }
-    std::vector<Verdict> verdicts(1);
-    EXPECT_TRUE(tracker.attach(verdicts).empty());
-    EXPECT_FALSE(verdicts[0].tracked);
-    EXPECT_FALSE(tracker.begins_anew());
+    tracker.learn({});  // there is nothing to learn
     EXPECT_EQ(tracker.times().count(), 0U);
 }
 
-TEST(PoseTracker, ScansWithoutPosesGetThem) {
+TEST(Tracker, ScansWithoutPosesGetThem) {
     const auto truth = scans_of(20, true);
-    PoseTracker tracker({});
+    Tracker tracker({});
     auto scans = scans_of(20, false);
     for (std::size_t i = 0; i < scans.size(); ++i) {
-        EXPECT_TRUE(tracker.track(scans[i]));
+        const auto tracked = tracker.place(scans[i]);
         tracker.learn({});
+        ASSERT_TRUE(tracked);
+        EXPECT_EQ(tracked->T_world_sensor.matrix(), scans[i].T_world_sensor.matrix());
         EXPECT_TRUE(scans[i].has_pose);
         const Pose expected = truth[0].T_world_sensor.inverse() * truth[i].T_world_sensor;
         EXPECT_LT(log(expected.inverse() * scans[i].T_world_sensor).norm(), 0.03) << i;
@@ -88,33 +87,33 @@ TEST(PoseTracker, ScansWithoutPosesGetThem) {
     EXPECT_EQ(tracker.times().count(), 40U);
 }
 
-TEST(PoseTracker, OnlySomeScansWithPosesIsAnErrorThatNamesTheScan) {
+TEST(Tracker, OnlySomeScansWithPosesIsAnErrorThatNamesTheScan) {
     for (const bool first_has : {false, true}) {
-        PoseTracker tracker({});
+        Tracker tracker({});
         auto scans = scans_of(3, first_has);
         scans[1].has_pose = !first_has;
-        tracker.track(scans[0]);
+        tracker.place(scans[0]);
         const std::string error = error_of(tracker, scans[1]);
         EXPECT_EQ(error, first_has ? "scan 1 has no pose, but those before had one"
                                    : "scan 1 has a pose, but those before had none");
     }
 }
 
-TEST(PoseTracker, TimesMustBeAsManyAsPoints) {
+TEST(Tracker, TimesMustBeAsManyAsPoints) {
     for (const bool with_poses : {false, true}) {
-        PoseTracker tracker(refining());
+        Tracker tracker(refining());
         auto scans = scans_of(1, with_poses);
         scans[0].times.assign(7, 0.0F);
         EXPECT_EQ(error_of(tracker, scans[0]), "scan 0 has 7 times, but 3840 points");
     }
 }
 
-TEST(PoseTracker, MotionDuringAScanIsUndone) {
-    PoseTracker tracker({});
+TEST(Tracker, MotionDuringAScanIsUndone) {
+    Tracker tracker({});
     for (Scan& scan : scans_of(4, false)) {
         scan.times.assign(scan.points.size(), 0.2F);  // [s] after the stamp
         const Points before = scan.points;
-        tracker.track(scan);
+        tracker.place(scan);
         tracker.learn({});
         EXPECT_TRUE(scan.times.empty());
         const float moved = (scan.points[0] - before[0]).x(), expected = 0.2F * 2.0F / 16.0F;
@@ -122,47 +121,28 @@ TEST(PoseTracker, MotionDuringAScanIsUndone) {
     }
 }
 
-TEST(PoseTracker, VerdictsAreToldTheirScansPosesOnce) {
-    PoseTracker tracker({});
-    auto scans = scans_of(3, false);
-    std::vector<Verdict> verdicts;
-    for (Scan& scan : scans) {
-        tracker.track(scan);
-        tracker.learn({});
-        verdicts.push_back({scan.index, Labels(5 + scan.index, Label::static_), {}});
-    }
-    EXPECT_EQ(tracker.attach(verdicts), verdicts[2].labels);
-    for (std::size_t i = 0; i < scans.size(); ++i) {
-        ASSERT_TRUE(verdicts[i].tracked);
-        EXPECT_EQ(verdicts[i].tracked->T_world_sensor.matrix(), scans[i].T_world_sensor.matrix());
-        verdicts[i].tracked.reset();
-    }
-    EXPECT_TRUE(tracker.attach(verdicts).empty());
-    for (const Verdict& verdict : verdicts) EXPECT_FALSE(verdict.tracked);
-}
-
-TEST(PoseTracker, AfterARestartTheWorldIsTheNextScansSensorFrame) {
-    PoseTracker tracker({});
+TEST(Tracker, AfterARestartTheWorldIsTheNextScansSensorFrame) {
+    Tracker tracker({});
     auto scans = scans_of(6, false);
     for (std::size_t i = 0; i < scans.size(); ++i) {
         if (i == 3) tracker.restart();
-        tracker.track(scans[i]);
+        tracker.place(scans[i]);
         tracker.learn({});
     }
     EXPECT_TRUE(scans[3].T_world_sensor.isApprox(Pose::Identity()));
     EXPECT_FALSE(scans[4].T_world_sensor.isApprox(Pose::Identity(), 1e-3));
 }
 
-TEST(PoseTracker, RefinedExactPosesStayWhereTheyAre) {
+TEST(Tracker, RefinedExactPosesStayWhereTheyAre) {
     const auto scans = scans_of(30, true);
-    PoseTracker tracker(refining());
+    Tracker tracker(refining());
     const auto poses = poses_by(tracker, scans);
     for (std::size_t i = 0; i < scans.size(); ++i) {
         EXPECT_LT((poses[i].translation() - scans[i].T_world_sensor.translation()).norm(), 0.01);
     }
 }
 
-TEST(PoseTracker, RefinedNoisyPosesAreNearerToTheTruth) {
+TEST(Tracker, RefinedNoisyPosesAreNearerToTheTruth) {
     const auto truth = scans_of(30, true);
     auto scans = truth;
     test::Random random(1);
@@ -172,7 +152,7 @@ TEST(PoseTracker, RefinedNoisyPosesAreNearerToTheTruth) {
                               random.pose(0.03 * std::sqrt(3.0), 0.2 * std::numbers::pi / 180.0);
         given.push_back(scan.T_world_sensor);
     }
-    PoseTracker tracker(refining());
+    Tracker tracker(refining());
     auto poses = poses_by(tracker, scans);
     // the first one is taken as given
     const Pose back = truth[0].T_world_sensor * given[0].inverse();
@@ -180,19 +160,19 @@ TEST(PoseTracker, RefinedNoisyPosesAreNearerToTheTruth) {
     EXPECT_LT(off(poses, truth), 0.3 * off(given, truth));
 }
 
-TEST(PoseTracker, WhereGivenPosesDriftSlowlyTheyAreFollowed) {
+TEST(Tracker, WhereGivenPosesDriftSlowlyTheyAreFollowed) {
     auto scans = scans_of(60, true);
     const std::vector<Scan> truth = scans;
     for (Scan& scan : scans) scan.T_world_sensor.translation() *= 1.05;  // 5 % of the way
     OdometryConfig config = refining();
     config.return_over = 1.0;  // [m]; the way is 3.7 m
-    PoseTracker tracker(config);
+    Tracker tracker(config);
     const auto poses = poses_by(tracker, scans);
     const Eigen::Vector3d last = scans.back().T_world_sensor.translation();
     EXPECT_GT((truth.back().T_world_sensor.translation() - last).norm(), 0.17);
     EXPECT_LT((poses.back().translation() - last).norm(), 0.07);
     config.return_over = 1e6;  // never
-    PoseTracker faithful(config);
+    Tracker faithful(config);
     EXPECT_LT(
         (poses_by(faithful, scans).back().translation() - scans[0].T_world_sensor.translation() -
          truth.back().T_world_sensor.translation() + truth[0].T_world_sensor.translation())
@@ -200,29 +180,28 @@ TEST(PoseTracker, WhereGivenPosesDriftSlowlyTheyAreFollowed) {
         0.03);
 }
 
-TEST(PoseTracker, AfterARestartRefinedPosesBeginAtTheGivenOne) {
+TEST(Tracker, AfterARestartRefinedPosesBeginAtTheGivenOne) {
     auto scans = scans_of(12, true);
     for (std::size_t i = 6; i < 12; ++i) scans[i].T_world_sensor.translation().x() += 1000.0;
-    PoseTracker tracker(refining());
+    Tracker tracker(refining());
     for (std::size_t i = 0; i < scans.size(); ++i) {
         if (i == 6) tracker.restart();
         const Eigen::Vector3d given = scans[i].T_world_sensor.translation();
-        tracker.track(scans[i]);
+        tracker.place(scans[i]);
         tracker.learn({});
         EXPECT_LT((scans[i].T_world_sensor.translation() - given).norm(), 0.01) << i;
     }
 }
 
-TEST(PoseTracker, BeginsAnewWithTheScanThatTheOdometryGaveUpAt) {
+TEST(Tracker, BeginsAnewWithTheScanThatTheOdometryGaveUpAt) {
     auto scans = scans_of(14, false);
     for (std::size_t i = 3; i < 13; ++i) scans[i].points.clear();
-    PoseTracker tracker({});
+    Tracker tracker({});
     for (Scan& scan : scans) {
-        tracker.track(scan);
-        EXPECT_EQ(tracker.begins_anew(), scan.index == 12) << scan.index;
+        EXPECT_EQ(tracker.place(scan)->begins_anew, scan.index == 12) << scan.index;
         tracker.learn({});
     }
 }
 
-}  // namespace pose_tracker_test
+}  // namespace tracker_test
 }  // namespace dynamic_filter

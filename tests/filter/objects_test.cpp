@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "filter/instances.hpp"
+#include "filter/objects.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 namespace dynamic_filter {
-namespace instances_test {
+namespace objects_test {
 
 /// Ground 1.8 m below the sensor, a bench, and a person at `x` who may walk into it.
 struct Glance {
@@ -42,7 +42,7 @@ struct Glance {
 
 struct Followed {
     EvidenceGrid grid{0.2F, ScansConfig{}.evidence};
-    Instances instances{ScansConfig{}.instances};
+    Objects instances{ScansConfig{}.instances};
     PointVoxels voxels;
     Labels labels;
 
@@ -76,7 +76,7 @@ std::ptrdiff_t dynamic_points(const Followed& f, const std::vector<bool>& of) {
     return count;
 }
 
-TEST(Instances, WhoWasSeenToComeIsDynamicWhileAtRest) {
+TEST(Objects, WhoWasSeenToComeIsDynamicWhileAtRest) {
     Followed f;
     for (int i = 0; i < 8; ++i) f.see({0.2 * i, -4.0F + 0.3F * static_cast<float>(i)}, true);
     for (int i = 8; i < 60; ++i) f.see({0.2 * i, -1.9F}, false);
@@ -89,7 +89,7 @@ TEST(Instances, WhoWasSeenToComeIsDynamicWhileAtRest) {
     EXPECT_EQ(f.moved(last, last.bench).second, 0.0F);
 }
 
-TEST(Instances, WhoLeavesWasDynamicBefore) {
+TEST(Objects, WhoLeavesWasDynamicBefore) {
     Followed f;
     for (int i = 0; i < 10; ++i) f.see({0.2 * i, -4.0F}, false);
     const Glance there(2.0, -4.0F);
@@ -101,7 +101,7 @@ TEST(Instances, WhoLeavesWasDynamicBefore) {
     EXPECT_LE(f.moved(there, there.person).second, 1.0F);
 }
 
-TEST(Instances, WhatOnlyFlickersWhereItIsDoesNotMove) {
+TEST(Objects, WhatOnlyFlickersWhereItIsDoesNotMove) {
     Followed f;
     for (int i = 0; i < 30; ++i) f.see({0.2 * i, -4.0F}, true);
     const Glance last(6.0, -4.0F);
@@ -110,7 +110,7 @@ TEST(Instances, WhatOnlyFlickersWhereItIsDoesNotMove) {
 }
 
 // They are one cluster for a while; the bench was there before.
-TEST(Instances, ABenchThatAPersonBrushesStaysStatic) {
+TEST(Objects, ABenchThatAPersonBrushesStaysStatic) {
     Followed f;
     float x = 1.0F;
     for (int i = 0; i < 50; ++i, x += 0.2F) f.see({0.2 * i, x}, true);
@@ -120,7 +120,7 @@ TEST(Instances, ABenchThatAPersonBrushesStaysStatic) {
     EXPECT_LT(f.moved(last, last.bench).second, 0.5F);
 }
 
-TEST(Instances, SurviveThatVoxelsAreForgotten) {
+TEST(Objects, SurviveThatVoxelsAreForgotten) {
     Followed whole, cut;
     const auto walk = [](int i) { return -4.0F + 0.3F * static_cast<float>(i); };
     for (int i = 0; i < 2; ++i) {  // not yet known to move
@@ -152,7 +152,7 @@ double dynamic_share(const Followed& f, const std::vector<bool>& of) {
            static_cast<double>(std::count(of.begin(), of.end(), true));
 }
 
-TEST(Instances, AScanThatFollowsTooSoonIsLeftAsItIs) {
+TEST(Objects, AScanThatFollowsTooSoonIsLeftAsItIs) {
     Followed f;
     for (int i = 0; i < 8; ++i) f.see({0.2 * i, -4.0F + 0.3F * static_cast<float>(i)}, true);
     const Glance too_soon(1.5, -1.9F), in_time(1.6, -1.9F);
@@ -162,7 +162,7 @@ TEST(Instances, AScanThatFollowsTooSoonIsLeftAsItIs) {
     EXPECT_GT(dynamic_share(f, in_time.person), 0.8);
 }
 
-TEST(Instances, AFewDynamicVoxelsDoNotMakeATrackMove) {
+TEST(Objects, AFewDynamicVoxelsDoNotMakeATrackMove) {
     Followed f;
     for (int i = 0; i < 30; ++i) {
         Glance sight(0.2 * i);
@@ -187,7 +187,7 @@ Glance van(int scan, const std::vector<float>& steps) {
 
 // It goes farther in a scan than a center may jump; only its speed tells where to expect it. Then
 // it stops at once, and only its last place fits.
-TEST(Instances, AVanIsFollowedAsItSpeedsUpAndAsItStops) {
+TEST(Objects, AVanIsFollowedAsItSpeedsUpAndAsItStops) {
     const std::vector<float> steps{0.5F, 0.7F, 0.9F, 1.1F, 1.2F, 1.2F, 1.2F, 1.2F};
     Followed f;
     for (int i = 0; i <= 8; ++i) f.see(van(i, steps), true);
@@ -196,7 +196,7 @@ TEST(Instances, AVanIsFollowedAsItSpeedsUpAndAsItStops) {
 }
 
 // Without the first steps there is no speed, and each scan begins a track of its own.
-TEST(Instances, WhatJumpsIsNotFollowed) {
+TEST(Objects, WhatJumpsIsNotFollowed) {
     const std::vector<float> steps(6, 1.2F);
     Followed f;
     for (int i = 0; i <= 6; ++i) f.see(van(i, steps), true);
@@ -220,7 +220,7 @@ Glance few_voxels(double stamp, int step, bool is_large) {
     return sight;
 }
 
-TEST(Instances, SmallObjectsMayChangeTheirSizeByTheToleranceToo) {
+TEST(Objects, SmallObjectsMayChangeTheirSizeByTheToleranceToo) {
     Followed f;
     for (int i = 0; i < 10; ++i) f.see(few_voxels(0.2 * i, i, i % 2 == 0), true);
     for (int i = 10; i < 30; ++i) f.see(few_voxels(0.2 * i, 9, false), false);
@@ -228,7 +228,7 @@ TEST(Instances, SmallObjectsMayChangeTheirSizeByTheToleranceToo) {
 }
 
 // A bag is left behind where the track was; the person takes the track along.
-TEST(Instances, TheClusterThatSharesMostContinuesTheTrack) {
+TEST(Objects, TheClusterThatSharesMostContinuesTheTrack) {
     const auto sight_of = [](int i) {
         Glance sight(0.2 * i);
         const float x = -6.0F + 0.4F * static_cast<float>(std::min(i, 10));
@@ -243,5 +243,5 @@ TEST(Instances, TheClusterThatSharesMostContinuesTheTrack) {
     EXPECT_EQ(dynamic_share(f, sight_of(29).bench), 0.0);
 }
 
-}  // namespace instances_test
+}  // namespace objects_test
 }  // namespace dynamic_filter

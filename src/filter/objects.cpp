@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "filter/instances.hpp"
+#include "filter/objects.hpp"
 
 #include <algorithm>
 #include <tuple>
@@ -17,8 +17,8 @@ bool came_with(std::uint32_t start, const Evidence& e) { return e.since >= start
 
 }  // namespace
 
-void Instances::update(const Scan& scan, const PointVoxels& voxels, EvidenceGrid& grid,
-                       Labels& labels) {
+void Objects::update(const Scan& scan, const PointVoxels& voxels, EvidenceGrid& grid,
+                     Labels& labels) {
     if (last_stamp_ && scan.stamp - *last_stamp_ < config_.every) return;
     const std::uint32_t newest = grid.scans() - 1;
     // Number of scans for which this one stands.
@@ -41,10 +41,9 @@ void Instances::update(const Scan& scan, const PointVoxels& voxels, EvidenceGrid
     }
 }
 
-std::vector<Instances::Cluster> Instances::describe(const Clusters& found,
-                                                    const PointVoxels& voxels,
-                                                    const EvidenceGrid& grid,
-                                                    const Labels& labels) const {
+std::vector<Objects::Cluster> Objects::describe(const Clusters& found, const PointVoxels& voxels,
+                                                const EvidenceGrid& grid,
+                                                const Labels& labels) const {
     std::vector<std::vector<std::pair<std::uint32_t, bool>>> members(found.count);
     for (std::size_t i = 0; i < voxels.size(); ++i) {
         if (found.of_points[i] == kNoCluster) continue;
@@ -69,7 +68,7 @@ std::vector<Instances::Cluster> Instances::describe(const Clusters& found,
 /// True if the cluster may be the object of the track: its size is similar, and its center is near
 /// the last or the expected center of the track. Without this test, the track of an object would
 /// continue with another object that it touches.
-bool Instances::fits(const Track& track, const Cluster& cluster, double stamp) const {
+bool Objects::fits(const Track& track, const Cluster& cluster, double stamp) const {
     const auto elapsed = static_cast<float>(stamp - track.seen.stamp);
     const Point expected = track.seen.center + elapsed * track.velocity;
     const float jump =
@@ -82,8 +81,7 @@ bool Instances::fits(const Track& track, const Cluster& cluster, double stamp) c
 }
 
 /// Gives each cluster the track that it overlaps most. Each track is given to at most one cluster.
-void Instances::match(std::vector<Cluster>& clusters, const EvidenceGrid& grid,
-                      double stamp) const {
+void Objects::match(std::vector<Cluster>& clusters, const EvidenceGrid& grid, double stamp) const {
     std::vector<std::tuple<std::size_t, std::size_t, Id>> matches;  // shared voxels, cluster, track
     for (std::size_t c = 0; c < clusters.size(); ++c) {
         std::map<Id, std::size_t> shared;
@@ -111,7 +109,7 @@ void Instances::match(std::vector<Cluster>& clusters, const EvidenceGrid& grid,
 }
 
 /// Continues the track of the cluster, or begins a new one. The cluster stands for `scans` scans.
-void Instances::follow(Cluster& cluster, EvidenceGrid& grid, double stamp, std::uint32_t scans) {
+void Objects::follow(Cluster& cluster, EvidenceGrid& grid, double stamp, std::uint32_t scans) {
     if (cluster.voxels.size() < static_cast<std::size_t>(config_.fewest)) {
         cluster.track.reset();
         return;
@@ -149,7 +147,7 @@ void Instances::follow(Cluster& cluster, EvidenceGrid& grid, double stamp, std::
 }
 
 /// Removes the tracks that were not seen for too long.
-void Instances::forget(double stamp) {
+void Objects::forget(double stamp) {
     const auto is_lost = [&](double seen) { return stamp - seen > config_.lost; };
     std::erase_if(tracks_, [&](const auto& track) { return is_lost(track.second.seen.stamp); });
     for (auto it = last_there_.begin(); it != last_there_.end();) {
@@ -159,7 +157,7 @@ void Instances::forget(double stamp) {
     }
 }
 
-void Instances::keep(std::span<const std::uint32_t> kept) {
+void Objects::keep(std::span<const std::uint32_t> kept) {
     tsl::robin_map<std::uint32_t, std::uint32_t> renumbered;
     for (std::size_t i = 0; i < kept.size(); ++i) {
         renumbered[kept[i]] = static_cast<std::uint32_t>(i);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tracking/pose_tracker.hpp"
+#include "tracking/tracker.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -16,14 +16,15 @@ using Clock = std::chrono::steady_clock;
 
 }  // namespace
 
-bool PoseTracker::track(Scan& scan) {
+std::optional<Tracked> Tracker::place(Scan& scan) {
     if (with_poses_.value_or(scan.has_pose) != scan.has_pose) {
         throw Error("scan " + std::to_string(scan.index) +
                     (scan.has_pose ? " has a pose, but those before had none"
                                    : " has no pose, but those before had one"));
     }
     with_poses_ = scan.has_pose;
-    if (scan.has_pose && !config_.refine) return false;
+    is_learning_ = !scan.has_pose || config_.refine;
+    if (!is_learning_) return std::nullopt;
     const auto start = Clock::now();
     if (!scan.times.empty() && scan.times.size() != scan.points.size()) {
         throw Error("scan " + std::to_string(scan.index) + " has " +
@@ -41,16 +42,14 @@ bool PoseTracker::track(Scan& scan) {
     scan.has_pose = true;
     if (!scan.times.empty()) scan.points = undo_motion(scan.points, scan.times, tracked.velocity);
     scan.times.clear();
-    newest_ = scan.index;
-    untold_[newest_] = tracked;
     times_.add(seconds_since(start));
-    return true;
+    return tracked;
 }
 
 /// Combines two sources: the odometry is accurate from scan to scan, and the given poses over long
 /// distances. So the frame of the odometry is slowly moved in the world, in proportion to the
 /// distance driven.
-Tracked PoseTracker::refine(const Scan& scan) {
+Tracked Tracker::refine(const Scan& scan) {
     const Pose T_world_given = scan.T_world_sensor;
     std::optional<Pose> guess;
     if (odometry_) {
@@ -72,24 +71,8 @@ Tracked PoseTracker::refine(const Scan& scan) {
     return tracked;
 }
 
-Labels PoseTracker::attach(std::vector<Verdict>& verdicts) {
-    Labels newest;
-    for (Verdict& verdict : verdicts) {
-        const auto tracked = untold_.extract(verdict.index);
-        if (tracked.empty()) continue;
-        verdict.tracked = tracked.mapped();
-        if (verdict.index == newest_) newest = verdict.labels;
-    }
-    return newest;
-}
-
-bool PoseTracker::begins_anew() const {
-    const auto newest = untold_.find(newest_);
-    return newest != untold_.end() && newest->second.begins_anew;
-}
-
-void PoseTracker::learn(const Labels& labels) {
-    if (!odometry_) return;
+void Tracker::learn(const Labels& labels) {
+    if (!is_learning_) return;
     const auto start = Clock::now();
     odometry_->learn(labels);
     times_.add(seconds_since(start));

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+/// Decides what each point is: static, dynamic or unknown. The label of a point follows from the
+/// occupancy of its voxel (vote.hpp); the final label also from where the point lies in it.
+///
+/// - instant labels: from the evidence up to the newest scan;
+/// - settled labels: from the evidence so far, for any scan;
+/// - final labels: from the whole recording.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "dynamic_filter/filter.hpp"
+#include "dynamic_filter/settings.hpp"
+#include "filter/contact.hpp"
+#include "filter/evidence_grid.hpp"
+#include "geometry/map_frame.hpp"
+
+namespace dynamic_filter {
+
+/// A voxel and its probability of being occupied.
+struct VoxelOccupancy {
+    std::uint32_t voxel = kNoVoxel;
+    float probability = 0.0F;  ///< 0..1
+};
+
+/// Label of a voxel with this occupancy; an empty probability gives `unknown`.
+inline Label label_of(std::optional<float> probability, double threshold) {
+    if (!probability) return Label::unknown;
+    return *probability >= static_cast<float>(threshold) ? Label::static_ : Label::dynamic;
+}
+
+/// Instant labels. Stores the latest label of each voxel. A voxel is judged again only when its own
+/// score has changed enough; most voxels keep their label. Single caller.
+class InstantLabels {
+public:
+    explicit InstantLabels(const Config& config)
+        : config_(config.scans), threshold_(config.map.occupancy_threshold) {}
+
+    /// The verdict on the scan that was last added to the grid; `voxels` are those of its points.
+    Verdict label(std::size_t index, const PointVoxels& voxels, const EvidenceGrid& grid);
+
+    /// Renumbers the voxels: only those with the old numbers `kept` remain, in that order.
+    void keep(std::span<const std::uint32_t> kept);
+
+private:
+    struct Said {
+        // Score at the latest label; 2 is above all scores, so it means "never judged".
+        float score = 2.0F;
+        Label label = Label::unknown;
+        std::uint8_t probability = 0;  // of being occupied, in 1/255
+    };
+    [[nodiscard]] bool is_due(const Said& said, const EvidenceGrid::State& state) const;
+
+    ScansConfig config_;
+    double threshold_;
+    std::vector<Said> said_;  // by voxel
+};
+
+/// Settled labels: writes them, and the probabilities, into `verdict`, which must be all unknown.
+void settle_points(const LocatedScan& scan, const EvidenceGrid& grid, const Config& config,
+                   Verdict& verdict);
+
+/// The static ones among the voxels, from the evidence so far.
+std::vector<VoxelOccupancy> static_among(std::span<const std::uint32_t> voxels,
+                                         const EvidenceGrid& grid, const Config& config);
+
+/// The decision on a voxel in the end.
+struct VoxelDecision {
+    std::optional<float> probability;  ///< probability of being occupied; empty: unknown
+    /// Static surface, if a static voxel touches a dynamic one.
+    std::optional<ContactSurface> contact;
+};
+
+/// Decides every voxel of the grid. Runs in parallel.
+std::vector<VoxelDecision> decide_voxels(const EvidenceGrid& grid, const Config& config);
+
+/// For each dynamic voxel: the scan (in the order of the scans) from which on the voxel is occupied
+/// until the end of the recording. It is empty unless that last run has as many keyframes as are
+/// counted per run (see record()), and points in as many scans. Used for `map.time` = latest.
+std::vector<std::optional<std::uint32_t>> occupied_since(const std::vector<VoxelDecision>& decided,
+                                                         const EvidenceGrid& grid,
+                                                         const Config& config);
+
+/// Final labels: writes them, and the probabilities, into `verdict`, which must be all unknown. A
+/// point of a static voxel is dynamic if it lies above the static surface of the voxel, and if a
+/// dynamic voxel nearby has points in the same scan. Thread-safe.
+void decide_points(const LocatedScan& scan, const std::vector<VoxelDecision>& decided,
+                   const EvidenceGrid& grid, const Config& config, Verdict& verdict);
+
+}  // namespace dynamic_filter
