@@ -85,7 +85,7 @@ py::tuple run(const fs::path& data, const std::optional<fs::path>& output, py::d
     {
         const py::gil_scoped_release others_go_on;
         const Interruptible guard;
-        code = app::run(o);
+        code = app::run(o).exit_code;
         if (code != app::kInterrupted) {
             if (!output) app::link_latest(*o.output);
             metrics = io::read_file(*o.output / "metrics.json");

@@ -8,8 +8,7 @@
 #include "commands/render.hpp"
 #include "commands/shared_options.hpp"
 #include "commands/write_simulation.hpp"
-#include "recording/frames.hpp"
-#include "run/run_reports.hpp"
+#include "run/run.hpp"
 #include "score/report.hpp"
 
 namespace dynamic_filter::app {
@@ -46,20 +45,22 @@ int demo(const DemoOptions& o) {
                        std::filesystem::exists(recording / "poses.txt");
     OutputFolder output(o.output, Contents::demo, replaced_if(again));
     OutputFolder recorded(recording, Contents::recording, replaced_if(again));
-    OutputFolder result(o.output / "result", Contents::result, replaced_if(again));
-    StageClock clock;
+    RunOptions run_options;
+    run_options.data.data = recording;
+    run_options.data.format = "kitti";
+    run_options.output = o.output / "result";
+    run_options.overwrite = again;
+    run_options.after = "simulate";
     sim::SimulationOptions scene;
     scene.pedestrians = kPedestrians;
     write_simulation(scene, recorded.path());
     recorded.commit();
 
-    const io::Sequence sequence = open({.data = recording, .format = "kitti", .open = {}});
-    clock.finish("simulate");
-    const RunSummary summary = run_sequence(sequence, preset("default"), {}, result, clock);
-    result.commit();
+    const RunResult result = run(run_options);
+    if (result.recordings.empty()) return result.exit_code;  // interrupted
     // Seen from where the whole hall is in view.
     RenderOptions picture;
-    picture.data.data = result.name();
+    picture.data.data = o.output / "result";
     picture.width = 1600;
     picture.height = 560;
     picture.azimuth_deg = 85.0;
@@ -69,8 +70,7 @@ int demo(const DemoOptions& o) {
     io::write_png(output.path() / "after.png", picture_of(picture));
     output.commit();
 
-    fmt::print("\n{}", to_text(summary));
-    print_table(summary.scores->voxel.at("excluded"));
+    print_table(result.recordings.front().scores->voxel.at("excluded"));
     fmt::print(
         "\npictures {0}/before.png (removed points in red) and {0}/after.png\n"
         "report   {0}/result/report.html (open it in a browser)\n"

@@ -9,8 +9,8 @@
 #include "commands/shared_options.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/parallel.hpp"
-#include "run/city.hpp"
 #include "run/filter_tiles.hpp"
+#include "run/job.hpp"
 #include "run/run.hpp"
 #include "score/report.hpp"
 
@@ -32,28 +32,28 @@ struct Totals {
     std::vector<double> by_part;
 };
 
-Totals totals_of(const City& city, const std::vector<std::size_t>& part_of, std::size_t parts) {
+Totals totals_of(const Job& job, const std::vector<std::size_t>& part_of, std::size_t parts) {
     Totals totals{.by_part = std::vector<double>(parts)};
-    for (const PlannedDrive& drive : city.plan.drives) totals.scans += used_scans(drive).size();
-    for (std::size_t t = 0; t < city.plan.tiles.size(); ++t) {
-        const TileWork& work = city.plan.tiles[t];
+    for (const PlannedDrive& drive : job.plan.drives) totals.scans += used_scans(drive).size();
+    for (std::size_t t = 0; t < job.plan.tiles.size(); ++t) {
+        const TileWork& work = job.plan.tiles[t];
         totals.visits += work.scans.size();
         totals.voxels += work.voxels;
-        totals.memory = std::max(totals.memory, memory_of(work, city.plan, city.config));
+        totals.memory = std::max(totals.memory, memory_of(work, job.plan, job.config));
         totals.cost += work.cost();
         totals.by_part[part_of[t] - 1] += work.cost();
     }
     return totals;
 }
 
-std::string plan_text(const City& city, std::size_t parts) {
-    const Totals t = totals_of(city, part_of_tiles(city.plan.tiles, parts), parts);
+std::string plan_text(const Job& job, std::size_t parts) {
+    const Totals t = totals_of(job, part_of_tiles(job.plan.tiles, parts), parts);
     std::string text = fmt::format(
         "drives   {}, {} scans\n"
         "tiles    {}, about {:.1f} million voxels; a scan reaches {:.1f} of them on average\n"
         "memory   about {:.2f} GB for a process with the largest tile\n"
         "time     about {:.2f} hours of one core\n",
-        city.drives.size(), t.scans, city.plan.tiles.size(), 1e-6 * static_cast<double>(t.voxels),
+        job.drives.size(), t.scans, job.plan.tiles.size(), 1e-6 * static_cast<double>(t.voxels),
         static_cast<double>(t.visits) / static_cast<double>(std::max<std::size_t>(t.scans, 1)),
         1e-9 * static_cast<double>(process_memory(t.memory)), t.cost / 3600.0);
     if (parts > 1) {
@@ -64,22 +64,22 @@ std::string plan_text(const City& city, std::size_t parts) {
     return text;
 }
 
-std::string plan_json(const City& city, std::size_t parts) {
-    const std::vector<std::size_t> part_of = part_of_tiles(city.plan.tiles, parts);
-    const Totals totals = totals_of(city, part_of, parts);
+std::string plan_json(const Job& job, std::size_t parts) {
+    const std::vector<std::size_t> part_of = part_of_tiles(job.plan.tiles, parts);
+    const Totals totals = totals_of(job, part_of, parts);
     nlohmann::ordered_json json{{"scans", totals.scans},
                                 {"visits", totals.visits},
                                 {"cost_seconds", totals.cost},
                                 {"memory_bytes", process_memory(totals.memory)},
                                 {"tiles", nlohmann::ordered_json::array()}};
-    for (std::size_t t = 0; t < city.plan.tiles.size(); ++t) {
-        const TileWork& work = city.plan.tiles[t];
+    for (std::size_t t = 0; t < job.plan.tiles.size(); ++t) {
+        const TileWork& work = job.plan.tiles[t];
         json["tiles"].push_back({{"name", name_of(work.tile)},
                                  {"part", part_of[t]},
                                  {"voxels", work.voxels},
                                  {"scans", work.scans.size()},
                                  {"cost_seconds", work.cost()},
-                                 {"memory_bytes", memory_of(work, city.plan, city.config)}});
+                                 {"memory_bytes", memory_of(work, job.plan, job.config)}});
     }
     return text_of(json);
 }
@@ -88,21 +88,20 @@ std::string plan_json(const City& city, std::size_t parts) {
 
 int plan(const PlanOptions& options) {
     const RunOptions& o = options.run;
-    City city = open_city(expand(o.city.recordings), o);
+    Job job = open_tiled_job(o, expand(o.recordings));
     catch_interrupts();
     with_threads(o.threads, [&] {
-        city.plan = make_plan(city.drives, city.config, o.data, o.city.tile_voxels, o.quiet);
+        job.plan = make_plan(job.drives, job.config, o.data, o.tile_voxels, o.quiet);
     });
     if (interrupted()) return kInterrupted;
-    tell_notes(city, o.quiet);
+    tell_notes(job, o);
     if (o.output) {
         if (fs::exists(*o.output) && !o.overwrite) {
             throw ConfigError(o.output->string() + ": exists; choose another -o, or --overwrite");
         }
-        write_plan(*o.output, city.plan, city.run);
+        write_plan(*o.output, job.plan, job.mark);
     }
-    fmt::print("{}",
-               options.json ? plan_json(city, options.parts) : plan_text(city, options.parts));
+    fmt::print("{}", options.json ? plan_json(job, options.parts) : plan_text(job, options.parts));
     return kDone;
 }
 

@@ -15,13 +15,12 @@ void add_run(Program& program) {
     add_config_options(c, o->config);
     add_selection_options(c, o->data);
     const Option part = c.text(
-        "--part", o->city.part,
+        "--part", o->part,
         "I/N: filter only the tiles of part I of N; `dynamicfilter merge` puts the parts together");
-    c.flag("--mpi", o->city.mpi, "share the tiles out among the processes that mpirun started")
+    c.flag("--mpi", o->mpi, "share the tiles out among the processes that mpirun started")
         .excludes(part);
-    c.text("--memory", o->city.memory,
-           "most memory to use, for instance 1.5G: filter tile by tile");
-    c.path("--plan", o->city.plan,
+    c.text("--memory", o->memory, "most memory to use, for instance 1.5G: filter tile by tile");
+    c.path("--plan", o->plan,
            "file that `dynamicfilter plan -o` wrote, so that the scans need not be read to plan "
            "the tiles");
     add_tile_voxels(c, *o);
@@ -55,8 +54,8 @@ void add_run(Program& program) {
     c.flag("!--no-report", o->report, "do not write report.html").excludes(view);
     add_quiet(c, o->quiet);
     c.action([o] {
-        o->data.data = o->city.recordings.front();
-        return run(*o);
+        o->data.data = o->recordings.front();
+        return run(*o).exit_code;
     });
 }
 

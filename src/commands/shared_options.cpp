@@ -12,7 +12,7 @@ namespace dynamic_filter::app {
 
 void add_recordings(Command& command, RunOptions& options) {
     command
-        .paths("DATA", options.city.recordings,
+        .paths("DATA", options.recordings,
                "a bag (.mcap, .bag, .db3), or a folder with scans and poses; several drives "
                "through one world, or a "
                ".txt file that lists them, give one map")
@@ -57,7 +57,7 @@ void add_config_options(Command& command, ConfigOptions& options) {
 }
 
 void add_tile_voxels(Command& command, RunOptions& options) {
-    command.whole("--tile-voxels", options.city.tile_voxels, {.low = kFewestTileVoxels},
+    command.whole("--tile-voxels", options.tile_voxels, {.low = kFewestTileVoxels},
                   "most voxels in a tile; fewer need less memory, and more time");
 }
 

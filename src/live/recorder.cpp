@@ -104,7 +104,7 @@ int finish_recording(const std::filesystem::path& bag, const std::filesystem::pa
         const std::string key(setting.key);
         run.config.assignments.push_back(key + "=" + get(config.filter, key));
     });
-    return app::run(run);
+    return app::run(run).exit_code;
 }
 
 }  // namespace dynamic_filter::live

@@ -79,7 +79,7 @@ class VoxelRows {
 public:
     std::vector<std::uint32_t> rows_of(const std::vector<ShownPoint>& cloud) {
         return column(cloud, [&](const ShownPoint& p) {
-            if (p.place == OnlineFilter::kNoPlace) return kNone;
+            if (p.place == kNoVoxelOfPage) return kNone;
             const auto [it, is_new] =
                 rows_.emplace(p.place, static_cast<std::uint32_t>(places_.size()));
             if (is_new) places_.push_back(p.place);
@@ -101,14 +101,14 @@ std::uint32_t row_of(const std::vector<ScanNote>& scans, std::size_t index) {
 }
 
 void add_voxels(const ViewInput& in, const std::vector<std::uint64_t>& places, PageRun& run) {
-    std::vector<std::size_t> keyframes = in.filter.contents().keyframes;
+    std::vector<std::size_t> keyframes = in.keyframes;
     constexpr std::size_t kMost = std::numeric_limits<std::uint16_t>::max();
     if (keyframes.size() > kMost) keyframes.erase(keyframes.begin(), keyframes.end() - kMost);
     std::vector<std::uint8_t> probability;
     std::vector<std::uint16_t> evidence, pass;
     std::vector<float> score;
     std::vector<std::uint32_t> span, pass_begin;
-    for (const VoxelHistory& h : in.filter.histories(places)) {
+    for (const VoxelHistory& h : in.histories(places)) {
         probability.push_back(h.probability
                                   ? static_cast<std::uint8_t>(std::lround(254.0F * *h.probability))
                                   : std::uint8_t{255});
@@ -252,7 +252,7 @@ PageRun view_of(const io::Cloud& cloud) {
         if (!points[i].allFinite()) continue;
         constexpr std::uint8_t kStatic = 1U | 3U << 2U | 3U << 4U;
         finite.push_back({points[i], intensity.empty() ? 0.0F : static_cast<float>(intensity[i]), 0,
-                          kStatic, OnlineFilter::kNoPlace});
+                          kStatic, kNoVoxelOfPage});
     }
     ThinnedCloud thinned(kMapPoints);
     thinned.add(finite);

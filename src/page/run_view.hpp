@@ -3,15 +3,16 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <vector>
 
-#include "dynamic_filter/online.hpp"
+#include "dynamic_filter/filter.hpp"
 #include "dynamic_filter/recording.hpp"
 #include "page/page.hpp"
 #include "page/thinned_cloud.hpp"
-#include "run/label_store.hpp"
 
 namespace dynamic_filter::app {
 
@@ -31,12 +32,20 @@ ScanNote note_of(const Labels& labels, const Labels& instant, const Labels& trut
 
 struct ViewInput {
     const io::Sequence& sequence;
-    const OnlineFilter& filter;          ///< finished
     const std::vector<ScanNote>& scans;  ///< that were used, in order
-    const LabelStore& instant;           ///< by index in the sequence; empty where not kept
     std::filesystem::path labels;        ///< folder of the final verdicts
+    /// The instant verdict on a scan of the recording; empty where it was not kept.
+    std::function<Labels(std::size_t)> instant;
+    // The evidence behind the verdicts.
+    /// For each point of a scan, an identifier of its voxel; kNoVoxelOfPage: no voxel.
+    std::function<std::vector<std::uint64_t>(const Scan&)> voxels_of;
+    std::function<std::vector<VoxelHistory>(std::span<const std::uint64_t>)> histories;
+    std::vector<std::size_t> keyframes;  ///< Scan::index
     bool has_evidence = false;           ///< scans observe, so there are counters
 };
+
+/// See ViewInput::voxels_of.
+inline constexpr std::uint64_t kNoVoxelOfPage = UINT64_MAX;
 
 /// Arrays of the run, and the part of its `info` that goes with them. Reads the scans again.
 PageRun view_of(const ViewInput& input);

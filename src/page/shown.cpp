@@ -46,10 +46,10 @@ std::vector<ShownPoint> draw(const ViewInput& in, std::size_t row, const io::Fra
     const auto chosen = drawn(frame, labels, index, most);
     Scan scan{{}, frame.T_world_sensor, frame.stamp, index};
     for (const std::uint32_t i : chosen) scan.points.push_back(frame.points[i]);
-    const auto places = in.filter.places_of(scan);
+    const auto places = in.voxels_of(scan);
     Pose T_page_sensor = frame.T_world_sensor;
     T_page_sensor.translation() -= origin;
-    const Labels instant = in.instant.get(index);
+    const Labels instant = in.instant(index);
     std::vector<ShownPoint> points;
     for (std::size_t k = 0; k < chosen.size(); ++k) {
         const std::uint32_t i = chosen[k];

@@ -49,18 +49,18 @@ struct Seen {
 };
 
 struct TileRun {
-    const City& city;
+    const Job& job;
     const TileWork& work;
     const std::filesystem::path& folder;
-    TileWriter verdicts{folder / tile_file(work.tile), city.run};
-    Sightings sightings{city.drives.size()};
+    TileWriter verdicts{folder / tile_file(work.tile), job.mark};
+    Sightings sightings{job.drives.size()};
     io::Cloud map = empty_tile_map(sightings.words());
     TileSummary summary{.tile = work.tile, .drives = {}, .map_mark = {}};
     std::optional<eval::ScanScores> scorer{};  // of the drive that is decided, if it has truth
 
     [[nodiscard]] bool contains(const Eigen::Vector3d& world) const {
         return work.tile.is_whole ||
-               tile_at(cell_at(world, city.plan.cell), work.tile.level) == work.tile;
+               tile_at(cell_at(world, job.plan.cell), work.tile.level) == work.tile;
     }
     [[nodiscard]] DynamicFilter new_filter() const;
     [[nodiscard]] Eigen::Vector3d scoring_origin() const;
@@ -77,8 +77,8 @@ struct TileRun {
 };
 
 /// The pose of the first scan, from which the filter's frame has its height.
-Pose first_pose(const City& city) {
-    const PlannedDrive& drive = city.plan.drives.front();
+Pose first_pose(const Job& job) {
+    const PlannedDrive& drive = job.plan.drives.front();
     Pose pose = Pose::Identity();
     const std::vector<std::size_t> used = used_scans(drive);
     if (!used.empty()) pose.translation() = drive.scans[used.front()].position;
@@ -86,22 +86,22 @@ Pose first_pose(const City& city) {
 }
 
 DynamicFilter TileRun::new_filter() const {
-    if (work.tile.is_whole) return DynamicFilter(city.config);
-    const double size = city.config.map.voxel_size;
-    const double height = nearby_origin(first_pose(city), 4.0 * size).z();
-    return {city.config, region_of(work.tile, size, height)};
+    if (work.tile.is_whole) return DynamicFilter(job.config);
+    const double size = job.config.map.voxel_size;
+    const double height = nearby_origin(first_pose(job), 4.0 * size).z();
+    return {job.config, region_of(work.tile, size, height)};
 }
 
 Eigen::Vector3d TileRun::scoring_origin() const {
-    if (work.tile.is_whole) return nearby_origin(first_pose(city), eval::kVoxelSize);
+    if (work.tile.is_whole) return nearby_origin(first_pose(job), eval::kVoxelSize);
     Pose corner = Pose::Identity();
-    corner.translation() = region_of(work.tile, city.config.map.voxel_size, 0.0).origin;
+    corner.translation() = region_of(work.tile, job.config.map.voxel_size, 0.0).origin;
     return nearby_origin(corner, eval::kVoxelSize);
 }
 
 /// Calls use(number, scan, frame) for the scans in order; `prepare` (number, frame) runs in
 /// parallel before. False if it was interrupted.
-bool each_scan(const City& city, const ScanGroup& group, const std::vector<std::size_t>& numbers,
+bool each_scan(const Job& job, const ScanGroup& group, const std::vector<std::size_t>& numbers,
                const std::function<void(std::size_t, io::Frame&)>& prepare,
                const std::function<void(std::size_t, io::Frame&)>& use) {
     for (std::size_t begin = 0; begin < numbers.size();) {
@@ -112,7 +112,7 @@ bool each_scan(const City& city, const ScanGroup& group, const std::vector<std::
             scans.push_back(group[numbers[begin]].scan);
             number_of[scans.back()] = numbers[begin];
         }
-        const io::Sequence& sequence = city.drives[drive].sequence;
+        const io::Sequence& sequence = job.drives[drive].sequence;
         for_each_frame(
             sequence, scans,
             [&](std::size_t i, MaybeFrame& maybe) {
@@ -150,7 +150,7 @@ std::vector<std::vector<std::size_t>> inside_by_drive(const ScanGroup& group,
 /// First pass: every scan goes through the filter.
 bool TileRun::filter(DynamicFilter& filter, const ScanGroup& scans, LabelStore& instants) const {
     std::uint32_t drive = scans.front().drive;
-    return each_scan(city, scans, all_of(scans), {}, [&](std::size_t number, io::Frame& frame) {
+    return each_scan(job, scans, all_of(scans), {}, [&](std::size_t number, io::Frame& frame) {
         if (std::exchange(drive, scans[number].drive) != scans[number].drive) filter.begin_drive();
         instants.put(number, filter.push(take_scan(frame, number)).labels);
     });
@@ -164,13 +164,13 @@ bool TileRun::look_again(DynamicFilter& filter, const ScanGroup& scans) const {
         drive_of.push_back(n == 0 ? 0 : drive_of.back() + (begins ? 1 : 0));
         earlier.push_back(n);
     }
-    return each_scan(city, scans, earlier, {}, [&](std::size_t number, io::Frame& frame) {
+    return each_scan(job, scans, earlier, {}, [&](std::size_t number, io::Frame& frame) {
         filter.look_again(drive_of[number], take_scan(frame, number));
     });
 }
 
 Seen TileRun::look(const DynamicFilter& filter, const io::Frame& frame, std::size_t number) const {
-    Seen seen{.piece = cut(frame, work.tile, city.plan.cell), .verdict = {}, .voxels = {}};
+    Seen seen{.piece = cut(frame, work.tile, job.plan.cell), .verdict = {}, .voxels = {}};
     seen.verdict =
         filter.verdict({seen.piece.points, frame.T_world_sensor, frame.stamp, number}, seen.voxels);
     for (std::size_t i = 0; i < seen.voxels.size(); ++i) {
@@ -202,7 +202,7 @@ bool TileRun::decide(const DynamicFilter& filter, const ScanGroup& scans,
         score(frame.T_world_sensor, one, instant);
         finals.put(number, labels);
     };
-    if (!each_scan(city, scans, numbers, prepare, use)) return false;
+    if (!each_scan(job, scans, numbers, prepare, use)) return false;
     return !scorer || score_near(scans, numbers, finals, instants);
 }
 
@@ -218,7 +218,7 @@ bool TileRun::score_near(const ScanGroup& scans, const std::vector<std::size_t>&
     std::vector<std::vector<Points>> near(scans.size());
     const auto prepare = [&](std::size_t number, io::Frame& frame) {
         if (frame.truth.empty()) return;
-        const Piece piece = cut(frame, work.tile, city.plan.cell);
+        const Piece piece = cut(frame, work.tile, job.plan.cell);
         const Labels final = finals.get(number);
         const Labels instant = labels_of(piece, instants.get(number));
         near[number] =
@@ -228,7 +228,7 @@ bool TileRun::score_near(const ScanGroup& scans, const std::vector<std::size_t>&
     const auto use = [&](std::size_t number, io::Frame&) {
         if (!near[number].empty()) scorer->add_near(std::exchange(near[number], {}));
     };
-    if (!each_scan(city, scans, numbers, prepare, use)) return false;
+    if (!each_scan(job, scans, numbers, prepare, use)) return false;
     summary.drives.push_back({.drive = scans[numbers.front()].drive,
                               .final = scorer->sums(0),
                               .instant = scorer->sums(1)});
@@ -246,14 +246,14 @@ void TileRun::add_to_map(const DynamicFilter& filter) {
     }
     summary.voxels += sightings.voxels();
     summary.keyframes += filter.contents().observers;
-    sightings = Sightings(city.drives.size());
+    sightings = Sightings(job.drives.size());
 }
 
 }  // namespace
 
-bool filter_tile(const City& city, const TileWork& work, const std::filesystem::path& folder) {
-    TileRun tile{.city = city, .work = work, .folder = folder};
-    for (const ScanGroup& scans : groups_of(city.plan, work.scans)) {
+bool filter_tile(const Job& job, const TileWork& work, const std::filesystem::path& folder) {
+    TileRun tile{.job = job, .work = work, .folder = folder};
+    for (const ScanGroup& scans : groups_of(job.plan, work.scans)) {
         DynamicFilter filter = tile.new_filter();
         LabelStore instants(folder);
         if (!tile.filter(filter, scans, instants)) return false;

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "run/city.hpp"
+#include "run/job.hpp"
 
 namespace dynamic_filter::app {
 
@@ -12,6 +12,6 @@ namespace dynamic_filter::app {
 /// `folder`: the verdicts on the points inside of it, and its part of the map. The bytes depend on
 /// nothing but the recordings, the settings and the tile. False if it was interrupted; no file is
 /// left then. Memory: the voxels of the tile and its surroundings, and the images of keyframes.
-bool filter_tile(const City& city, const TileWork& work, const std::filesystem::path& folder);
+bool filter_tile(const Job& job, const TileWork& work, const std::filesystem::path& folder);
 
 }  // namespace dynamic_filter::app

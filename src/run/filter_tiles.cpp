@@ -78,23 +78,23 @@ std::size_t memory_limit_of(const std::string& text) {
                       ": expected a size such as 1.5G or 800M, or a number of bytes");
 }
 
-std::size_t tiles_at_a_time(const City& city, const std::vector<std::size_t>& tiles,
+std::size_t tiles_at_a_time(const Job& job, const std::vector<std::size_t>& tiles,
                             const Effort& effort) {
     std::size_t largest = 1;
     for (const std::size_t t : tiles) {
-        largest = std::max(largest, memory_of(city.plan.tiles[t], city.plan, city.config));
+        largest = std::max(largest, memory_of(job.plan.tiles[t], job.plan, job.config));
     }
     const auto threads =
         static_cast<std::size_t>(effort.threads > 0 ? effort.threads : available_threads());
     const std::size_t fit =
         effort.memory > kBytesOfProgram ? (effort.memory - kBytesOfProgram) / largest : 0;
-    if (fit == 0) refuse_memory(largest, city.plan.most_voxels);
+    if (fit == 0) refuse_memory(largest, job.plan.most_voxels);
     return std::min({threads, fit, std::max<std::size_t>(1, tiles.size())});
 }
 
-bool filter_tiles(const City& city, const std::vector<std::size_t>& tiles,
+bool filter_tiles(const Job& job, const std::vector<std::size_t>& tiles,
                   const std::filesystem::path& folder, Workers& workers, const Effort& effort) {
-    const std::size_t at_a_time = tiles_at_a_time(city, tiles, effort);
+    const std::size_t at_a_time = tiles_at_a_time(job, tiles, effort);
     const int threads = effort.threads > 0 ? effort.threads : available_threads();
     Progress progress("tiles", tiles.size(), effort.quiet);
     std::mutex lock;
@@ -103,9 +103,9 @@ bool filter_tiles(const City& city, const std::vector<std::size_t>& tiles,
     const auto work = [&] {
         while (const auto next = workers.next(tiles.size())) {
             if (stops || interrupted()) return;
-            const TileWork& tile = city.plan.tiles[tiles[*next]];
-            if (!is_done(folder / tile_file(tile.tile), city.run)) {
-                if (!filter_tile(city, tile, folder)) return;
+            const TileWork& tile = job.plan.tiles[tiles[*next]];
+            if (!is_done(folder / tile_file(tile.tile), job.mark)) {
+                if (!filter_tile(job, tile, folder)) return;
             }
             const std::lock_guard hold(lock);
             progress.advance();

@@ -30,12 +30,12 @@ struct Effort {
 
 /// How many tiles are filtered at the same time. Throws ConfigError if the memory is too small for
 /// one; the message says what to do.
-std::size_t tiles_at_a_time(const City& city, const std::vector<std::size_t>& tiles,
+std::size_t tiles_at_a_time(const Job& job, const std::vector<std::size_t>& tiles,
                             const Effort& effort);
 
 /// Filters those of the tiles (indices in the plan) that are not in `folder` yet; all processes of
 /// `workers` share them out. False if it was interrupted.
-bool filter_tiles(const City& city, const std::vector<std::size_t>& tiles,
+bool filter_tiles(const Job& job, const std::vector<std::size_t>& tiles,
                   const std::filesystem::path& folder, Workers& workers, const Effort& effort);
 
 }  // namespace dynamic_filter::app

@@ -10,7 +10,7 @@
 #include "run/run.hpp"
 #include "run/run_state.hpp"
 #include "run/tile_file.hpp"
-#include "run/write_city.hpp"
+#include "run/write_tiles.hpp"
 
 namespace dynamic_filter::app {
 
@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 auto key_of(const Part& part) {
     std::vector<fs::path> recordings;
     for (const DriveSource& source : part.sources) recordings.push_back(source.recording);
-    return std::tuple(part.number.parts, recordings, part.run.city.tile_voxels, part.run.maps,
+    return std::tuple(part.number.parts, recordings, part.run.tile_voxels, part.run.maps,
                       part.run.report);
 }
 
@@ -38,20 +38,20 @@ std::vector<Part> read_parts(const std::vector<fs::path>& folders) {
 }
 
 /// The folder that holds the files of each tile: that of its part.
-std::map<Tile, fs::path> find_tiles(const City& city, const std::vector<Part>& parts,
+std::map<Tile, fs::path> find_tiles(const Job& job, const std::vector<Part>& parts,
                                     const std::vector<fs::path>& folders) {
     const std::size_t count = parts.front().number.parts;
-    const std::vector<std::size_t> part_of = part_of_tiles(city.plan.tiles, count);
-    std::vector<std::size_t> order = by_cost(city.plan.tiles);  // so that the first part is named
+    const std::vector<std::size_t> part_of = part_of_tiles(job.plan.tiles, count);
+    std::vector<std::size_t> order = by_cost(job.plan.tiles);  // so that the first part is named
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return part_of[a] < part_of[b]; });
     std::map<Tile, fs::path> found;
     for (const std::size_t t : order) {
-        const Tile& tile = city.plan.tiles[t].tile;
+        const Tile& tile = job.plan.tiles[t].tile;
         for (std::size_t p = 0; p < parts.size() && !found.contains(tile); ++p) {
             const fs::path tiles = folders[p] / kTilesFolder;
             const bool holds =
-                parts[p].number.part == part_of[t] && is_done(tiles / tile_file(tile), city.run);
+                parts[p].number.part == part_of[t] && is_done(tiles / tile_file(tile), job.mark);
             if (holds) found[tile] = tiles;
         }
         if (found.contains(tile)) continue;
@@ -72,25 +72,27 @@ int merge(const MergeOptions& o) {
     run.output = o.output;
     run.threads = o.threads;
     run.quiet = o.quiet;
-    City city = open_city(parts.front().sources, run);
-    city.plan = read_plan(o.parts.front() / kTilesFolder / "plan", city.run, city.config);
-    prepare(city.drives, city.plan);
-    tell_notes(city, true);
-    const auto folders = find_tiles(city, parts, o.parts);
+    Job job = open_tiled_job(run, parts.front().sources);
+    job.plan = read_plan(o.parts.front() / kTilesFolder / "plan", job.mark, job.config);
+    prepare(job.drives, job.plan);
+    RunOptions only_warnings = run;
+    only_warnings.quiet = true;
+    tell_notes(job, only_warnings);
+    const auto folders = find_tiles(job, parts, o.parts);
     for (const fs::path& folder : o.parts)
         refuse_same_folder(folder, o.output, "is one of the parts");
-    const std::string state = state_of_output(city, run);
-    if (!o.overwrite && is_complete(o.output, state)) {
+    const std::string mark = mark_of_output(job, run);
+    if (!o.overwrite && is_complete(o.output, mark)) {
         if (!o.quiet) fmt::print("complete {}\n", o.output.string());
         return kDone;
     }
     // Goes on in the folder of an interrupted merge of the same parts, also without --overwrite.
     OutputFolder output(o.output, Contents::result,
-                        is_begun(o.output, state) ? Existing::resume : replaced_if(o.overwrite));
-    write_state(output, state);
+                        is_begun(o.output, mark) ? Existing::resume : replaced_if(o.overwrite));
+    write_state(output, mark);
     clock.finish("prepare");
-    return conclude(
-        city, [&](const Tile& tile) { return folders.at(tile); }, false, run, output, clock);
+    const auto folder_of_tile = [&](const Tile& tile) { return folders.at(tile); };
+    return finish_tiles(job, folder_of_tile, run, output, clock).exit_code;
 }
 
 }  // namespace dynamic_filter::app

@@ -83,7 +83,7 @@ void write_part(const fs::path& folder, const Part& part) {
                     {"parts", part.number.parts},
                     {"drives", json_of(part.sources)},
                     {"reading", json_of(run.data)},
-                    {"tile_voxels", run.city.tile_voxels},
+                    {"tile_voxels", run.tile_voxels},
                     {"maps", run.maps},
                     {"report", run.report}};
     io::write_file(folder / kPartFile, json.dump(2) + "\n");
@@ -110,7 +110,7 @@ Part read_part(const fs::path& folder) {
             part.sources.push_back(std::move(source));
         }
         part.run.data = data_of(json.at("reading"));
-        part.run.city.tile_voxels = json.at("tile_voxels");
+        part.run.tile_voxels = json.at("tile_voxels");
         part.run.maps = json.at("maps");
         part.run.report = json.at("report");
         part.run.config.file = folder / "config.toml";

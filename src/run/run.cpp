@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: MIT
+#include "run/run.hpp"
+
 #include <fmt/format.h>
+
+#include <memory>
 
 #include "base/exit_code.hpp"
 #include "base/progress.hpp"
-#include "check/advice.hpp"
-#include "check/motion.hpp"
-#include "dynamic_filter/check.hpp"
 #include "dynamic_filter/error.hpp"
+#include "dynamic_filter/file.hpp"
 #include "dynamic_filter/parallel.hpp"
-#include "recording/frames.hpp"
-#include "run/run.hpp"
-#include "run/run_city.hpp"
+#include "run/filter_tiles.hpp"
+#include "run/filter_whole.hpp"
+#include "run/job.hpp"
 #include "run/run_edits.hpp"
-#include "run/run_reports.hpp"
 #include "run/run_state.hpp"
+#include "run/workers.hpp"
+#include "run/write_tiles.hpp"
 #include "settings/config_file.hpp"
 
 namespace dynamic_filter::app {
@@ -22,107 +25,197 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a run was begun with: whoever resumes it must come with the same.
-std::string begun_with(const io::Sequence& sequence, const Config& config, const Extras& extras) {
-    return fmt::format("version {}\n{}{}{}{}", DYNAMIC_FILTER_VERSION, state_of(sequence),
-                       extras.maps ? "" : "no maps\n", extras.report ? "" : "no report\n",
-                       to_toml(config));
+constexpr const char* kPlan = "plan";
+
+/// The folder of the result. Throws ConfigError if it holds what must stay.
+fs::path choose_folder(const Job& job, const RunOptions& o) {
+    if (!o.output) return default_output();
+    for (const Drive& drive : job.drives) {
+        refuse_same_folder(drive.sequence.root, *o.output);
+        refuse_same_folder(drive.sequence.scan_files.front().parent_path(), *o.output);
+    }
+    if (o.overwrite) refuse_foreign_labels(*o.output);
+    return *o.output;
 }
 
-void tell(const std::vector<std::string>& notes, bool quiet) {
-    if (quiet) return;
-    for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
+/// Opens the folder of the result. From here on, Ctrl-C keeps what is done.
+std::unique_ptr<OutputFolder> open_folder(const RunOptions& o, const fs::path& folder) {
+    if (o.catches) catch_interrupts();
+    return std::make_unique<OutputFolder>(folder, Contents::result,
+                                          o.resume ? Existing::resume : replaced_if(o.overwrite));
 }
 
-void tell_written(const RunSummary& summary, std::size_t scans, const fs::path& folder,
-                  bool quiet) {
-    if (summary.interrupted) {
+RunResult tell_complete(const fs::path& folder, bool quiet) {
+    if (!quiet) fmt::print("complete {}\n", folder.string());
+    return {.exit_code = kDone, .recordings = {}};
+}
+
+void link_to_latest(const RunOptions& o, const OutputFolder& output) {
+    if (o.output || link_latest(output.name())) return;
+    fmt::print(stderr, "note: no link results/latest\n");
+}
+
+// One recording in memory.
+
+RunResult tell_interrupted(const RunSummary& summary, std::size_t scans, OutputFolder& output) {
+    if (output.path() != output.name()) {
+        fmt::print("interrupted; the earlier result in {} stays\n", output.name().string());
+    } else {
+        output.commit();
+        const std::string folder = output.name().string();
         fmt::print(
-            "interrupted: {} of {} scans are written to {}; the same command with -o {} --resume "
+            "{}interrupted: {} of {} scans are written to {}; the same command with -o {} --resume "
             "goes on\n",
-            summary.scans, scans, folder.string(), folder.string());
-    } else if (!quiet) {
-        fmt::print("written  {}\n", folder.string());
+            to_text(summary), summary.scans, scans, folder, folder);
     }
+    return {.exit_code = kInterrupted, .recordings = {}};
 }
 
-}  // namespace
-
-int run(const RunOptions& o) {
-    if (is_city(o)) return run_city(o);
-    StageClock clock;
-    if (!o.after.empty()) clock.finish(o.after);
-    Config config = load_config(o.config);
-    io::Sequence sequence = open(o.data);
-    const bool named = o.output.has_value();
-    if (named) {
-        refuse_same_folder(o.data.data, *o.output);
-        refuse_same_folder(sequence.scan_files.front().parent_path(), *o.output);
-    }
-    if (o.resume && !named) throw ConfigError("--resume needs the folder to go on with: -o DIR");
-    if (o.overwrite && named) refuse_foreign_labels(*o.output);
-    const fs::path folder = named ? *o.output : default_output();
-    const std::optional<Edits> edits = edits_for(folder, o, config);
+RunResult run_whole(Job& job, const RunOptions& o, StageClock& clock) {
+    const fs::path folder = choose_folder(job, o);
+    const io::Sequence& sequence = job.drives.front().sequence;
+    const std::optional<Edits> edits = edits_for(folder, o, job.config);
     std::optional<LiveView> live;
     if (o.view) {
         live.emplace(o.port, folder.filename().string(), o.data.data.string(), sequence.size());
         fmt::print(stderr, "view     {}\n", live->url());
     }
-    if (o.catches) catch_interrupts();  // from here on there is a folder
-    OutputFolder output(folder, Contents::result,
-                        o.resume ? Existing::resume : replaced_if(o.overwrite));
-    std::vector<std::string> chosen;
-    with_threads(o.threads, [&] {
-        chosen = choose_motion(sequence, config, {.refine = o.refine, .deskew = o.data.deskew});
-    });
-    sequence.notes.insert(sequence.notes.end(), chosen.begin(), chosen.end());
-    const Extras extras{.maps = o.maps, .report = o.report};
-    const std::string state = begun_with(sequence, config, extras);
-    if (o.resume) refuse_other_run(output, state);
-    if (o.resume && is_complete(output.path(), state)) {
-        output.commit();
-        if (!o.quiet) fmt::print("complete {}\n", output.name().string());
-        return kDone;
+    const auto output = open_folder(o, folder);
+    choose_job_motion(job, o);
+    const std::string mark = mark_of_output(job, o);
+    if (o.resume) refuse_other_run(*output, mark);
+    if (o.resume && is_complete(output->path(), mark)) {
+        output->commit();
+        return tell_complete(output->name(), o.quiet);
     }
-    tell(sequence.notes, o.quiet);
-    for (const io::Finding& found : io::check_recording(sequence, io::Depth::quick).findings) {
-        fmt::print(stderr, "warning: {}\n", warning_of(found, o.data));
-    }
+    tell_notes(job, o);
     if (interrupted()) {
         fmt::print("interrupted before the first scan was filtered; nothing was written\n");
-        return kInterrupted;
+        return {.exit_code = kInterrupted, .recordings = {}};
     }
-    write_state(output, state);
+    write_state(*output, mark);
     clock.finish("prepare");
-    const Pace pace{.threads = o.threads,
-                    .online = o.online ? std::optional(o.speed) : std::nullopt};
-    const RunSummary summary =
-        run_sequence(sequence, config, pace, output, clock,
-                     {.live = live ? &*live : nullptr, .quiet = o.quiet}, extras);
 
-    tell(summary.notes, o.quiet);
-    for (const std::string& line : sequence.losses) fmt::print(stderr, "lost     {}\n", line);
-    for (const std::string& line : summary.rejected) fmt::print(stderr, "rejected {}\n", line);
-    for (const std::string& line : summary.dropped) fmt::print(stderr, "dropped {}\n", line);
-    if (edits && !summary.interrupted) apply_to_run(output.path(), *edits, o.quiet);
-    if (!summary.interrupted) write_complete(output, state);
-    if (summary.interrupted && output.path() != output.name()) {
-        fmt::print("interrupted; the earlier result in {} stays\n", output.name().string());
-        return kInterrupted;
+    RunSummary summary = filter_whole(job, o, *output, clock, live ? &*live : nullptr);
+    for (const std::string& note : summary.notes) {
+        if (!o.quiet) fmt::print(stderr, "note: {}\n", note);
     }
-    output.commit();
-    if (live) live->finish(output.name() / "report.html");
-    if (!o.quiet) fmt::print("{}", to_text(summary));
-    tell_written(summary, sequence.size(), output.name(), o.quiet);
-    if (!named && !link_latest(output.name())) fmt::print(stderr, "note: no link results/latest\n");
+    const bool all = tell_losses("", sequence, summary);
+    if (summary.interrupted) return tell_interrupted(summary, sequence.size(), *output);
+    if (edits) apply_to_run(output->path(), *edits, o.quiet);
+    write_complete(*output, mark);
+    output->commit();
+    if (live) live->finish(output->name() / "report.html");
+    if (!o.quiet) fmt::print("{}written  {}\n", to_text(summary), output->name().string());
+    link_to_latest(o, *output);
     if (2 * summary.unknown > summary.points) {
         fmt::print(stderr,
                    "note: most points are unknown; are the first poses of another place?\n");
     }
-    if (interrupted()) return kInterrupted;  // also while it scored and reported: all is there
+    if (interrupted()) return {.exit_code = kInterrupted, .recordings = {}};  // all is there
     if (live) live->linger();
-    const bool all = summary.rejected.empty() && summary.dropped.empty() && sequence.losses.empty();
-    return all ? kDone : kRejected;
+    return {.exit_code = all ? kDone : kRejected, .recordings = {std::move(summary)}};
+}
+
+// Several recordings, or one tile by tile.
+
+void use_plan(Job& job, const fs::path& file) {
+    job.plan = read_plan(file, job.mark, job.config);
+    prepare(job.drives, job.plan);
+}
+
+/// Takes the plan from --plan, else from the file in the folder, else makes it. Saves it in the
+/// file.
+void find_plan(Job& job, const RunOptions& o, const fs::path& file) {
+    if (o.plan) {
+        write_plan(file, job.plan, job.mark);
+        return;
+    }
+    if (fs::exists(file)) {
+        use_plan(job, file);
+        return;
+    }
+    with_threads(o.threads, [&] {
+        job.plan = make_plan(job.drives, job.config, o.data, o.tile_voxels, o.quiet);
+    });
+    if (!interrupted()) write_plan(file, job.plan, job.mark);
+}
+
+/// After all_done() was false on all processes.
+RunResult stop(const OutputFolder* output) {
+    if (output && !interrupted()) {
+        throw Error("another process of this run failed, as it says; --resume goes on");
+    }
+    if (output) {
+        fmt::print("interrupted; the tiles that are done stay in {}, and --resume goes on\n",
+                   output->path().string());
+    }
+    return {.exit_code = kInterrupted, .recordings = {}};
+}
+
+RunResult finish_part(const Job& job, const RunOptions& o, OutputFolder& output,
+                      std::size_t tiles) {
+    io::write_file(output.path() / "config.toml", to_toml(job.config));
+    write_part(output.path(), {.number = *job.part, .sources = job.sources, .run = o});
+    write_complete(output, mark_of_output(job, o));
+    output.commit();
+    if (!o.quiet) {
+        fmt::print("written  {}: {} of {} tiles; `dynamicfilter merge` puts parts together\n",
+                   output.name().string(), tiles, job.plan.tiles.size());
+    }
+    return {.exit_code = kDone, .recordings = {}};
+}
+
+/// Only the first process holds the folder of the result; the others write tiles into it.
+RunResult run_tiles(Job& job, const RunOptions& o, StageClock& clock) {
+    const Effort effort{
+        .threads = o.threads, .memory = memory_limit_of(o.memory), .quiet = o.quiet};
+    const std::unique_ptr<Workers> workers = o.mpi ? mpi_workers() : alone();
+    const fs::path folder = choose_folder(job, o);
+    const bool leads = workers->rank() == 0;
+    const std::string mark = mark_of_output(job, o);
+    // A part is looked through again, because one of its tiles may have been damaged since.
+    if (o.resume && !job.part && is_complete(folder, mark)) {
+        if (!leads) return {};
+        fs::remove_all(folder / kTilesFolder);  // if a process was killed before it could
+        return tell_complete(folder, o.quiet);
+    }
+    if (o.plan) use_plan(job, *o.plan);  // before anything is left in the folder
+    const auto output = leads ? open_folder(o, folder) : nullptr;
+    if (!leads) catch_interrupts();
+    const fs::path tiles_folder = (output ? output->path() : folder) / kTilesFolder;
+    if (leads) {
+        if (o.resume) refuse_other_run(*output, mark);
+        write_state(*output, mark);
+        fs::create_directories(tiles_folder);
+        find_plan(job, o, tiles_folder / kPlan);
+        tell_notes(job, o);
+    }
+    if (!workers->all_done(!interrupted())) return stop(output.get());
+    if (!leads && !o.plan) use_plan(job, tiles_folder / kPlan);
+    clock.finish("plan");
+
+    const std::vector<std::size_t> tiles =
+        job.part ? tiles_of_part(job.plan.tiles, job.part->part, job.part->parts)
+                 : by_cost(job.plan.tiles);
+    const bool well = filter_tiles(job, tiles, tiles_folder, *workers, effort);
+    if (!workers->all_done(well)) return stop(output.get());
+    clock.finish("filter");
+    if (!leads) return {};
+    if (job.part) return finish_part(job, o, *output, tiles.size());
+    RunResult result = finish_tiles(
+        job, [&](const Tile&) { return tiles_folder; }, o, *output, clock);
+    link_to_latest(o, *output);
+    return result;
+}
+
+}  // namespace
+
+RunResult run(const RunOptions& o) {
+    StageClock clock;
+    if (!o.after.empty()) clock.finish(o.after);
+    Job job = open_job(o);
+    return job.is_tiled ? run_tiles(job, o, clock) : run_whole(job, o, clock);
 }
 
 }  // namespace dynamic_filter::app

@@ -9,25 +9,16 @@
 #include <vector>
 
 #include "recording/data_options.hpp"
+#include "run/summary.hpp"
 #include "settings/config_file.hpp"
 
 namespace dynamic_filter::app {
 
 inline constexpr std::size_t kFewestTileVoxels = 1000;  ///< smaller tiles are mostly halo
 
-/// Several recordings of one world, or one that is larger than memory; see docs/city.md.
-struct CityOptions {
-    std::vector<std::filesystem::path> recordings;  ///< or lists of them
-    std::string part;                               ///< "I/N", or empty: all tiles, and the merge
-    std::string memory;                             ///< "1.5G", or empty
-    std::optional<std::filesystem::path> plan;      ///< left by `plan -o`
-    std::size_t tile_voxels = 1'500'000;            ///< most in a tile
-    bool mpi = false;
-};
-
 struct RunOptions {
-    DataOptions data;
-    CityOptions city;
+    std::vector<std::filesystem::path> recordings;  ///< one or several, or lists of them
+    DataOptions data;                               ///< how to read them; with the only recording
     std::optional<std::filesystem::path> output;
     ConfigOptions config;
     int threads = 0;
@@ -39,9 +30,15 @@ struct RunOptions {
     bool maps = true, report = true;             ///< left beside the labels
     bool view = false;
     std::uint16_t port = 0;  ///< of the view; 0: any
-    bool quiet = false;      ///< says only what is wrong
-    bool catches = true;     ///< interrupts; otherwise the caller does
-    std::string after;       ///< stage of timing.json for what the process did before; may be empty
+    // Several recordings of one world, or one that is larger than memory; see docs/city.md.
+    std::string part;                           ///< "I/N", or empty: all tiles, and the merge
+    std::string memory;                         ///< "1.5G", or empty
+    std::optional<std::filesystem::path> plan;  ///< left by `plan -o`
+    std::size_t tile_voxels = 1'500'000;        ///< most in a tile
+    bool mpi = false;                           ///< shares the tiles with other processes
+    bool quiet = false;                         ///< says only what is wrong
+    bool catches = true;                        ///< interrupts; otherwise the caller does
+    std::string after;  ///< stage of timing.json for what the process did before; may be empty
 };
 
 struct MergeOptions {
@@ -51,8 +48,14 @@ struct MergeOptions {
     bool overwrite = false, quiet = false;
 };
 
-/// Filters one recording or several. Returns the exit code; throws an Error.
-int run(const RunOptions& options);
+/// What a run leaves in the process.
+struct RunResult {
+    int exit_code = 0;
+    std::vector<RunSummary> recordings;  ///< empty if the run is not complete
+};
+
+/// Filters one recording or several. Throws an Error.
+RunResult run(const RunOptions& options);
 /// Puts the parts of a run together. Returns the exit code; throws an Error.
 int merge(const MergeOptions& options);
 

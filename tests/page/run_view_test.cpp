@@ -5,7 +5,9 @@
 
 #include <cstring>
 
+#include "dynamic_filter/online.hpp"
 #include "dynamic_filter/writers.hpp"
+#include "run/label_store.hpp"
 #include "support/room.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -88,6 +90,16 @@ protected:
             notes_.push_back(note);
         }
     }
+    [[nodiscard]] ViewInput input() const {
+        return {.sequence = sequence_,
+                .scans = notes_,
+                .labels = folder_ / "labels_out",
+                .instant = [this](std::size_t scan) { return instant_.get(scan); },
+                .voxels_of = [this](const Scan& scan) { return filter_.places_of(scan); },
+                .histories = [this](const auto& voxels) { return filter_.histories(voxels); },
+                .keyframes = filter_.contents().keyframes,
+                .has_evidence = true};
+    }
     test::TemporaryFolder folder_;
     std::vector<test::RoomScan> scans_ = test::drive(12, true);
     LabelStore instant_{folder_.path()};
@@ -101,8 +113,7 @@ protected:
 };
 
 TEST_F(RunView, HoldsEveryPointWhereThereIsRoom) {
-    const PageRun run =
-        view_of({sequence_, filter_, notes_, instant_, folder_ / "labels_out", true});
+    const PageRun run = view_of(input());
     std::size_t points = 0;
     for (const auto& s : scans_) points += s.scan.points.size();
     EXPECT_EQ(run.info["points_total"], points);
@@ -133,8 +144,7 @@ TEST_F(RunView, HoldsEveryPointWhereThereIsRoom) {
 }
 
 TEST_F(RunView, SaysWhyAPointIsGone) {
-    const PageRun run =
-        view_of({sequence_, filter_, notes_, instant_, folder_ / "labels_out", true});
+    const PageRun run = view_of(input());
     const auto verdict = column<std::uint8_t>(run, "map-verdict");
     const auto voxel = column<std::uint32_t>(run, "map-voxel");
     const auto probability = column<std::uint8_t>(run, "voxel-probability");
@@ -166,8 +176,7 @@ TEST_F(RunView, SaysWhyAPointIsGone) {
 }
 
 TEST_F(RunView, IsTheSameEveryTime) {
-    const ViewInput input{sequence_, filter_, notes_, instant_, folder_ / "labels_out", true};
-    EXPECT_EQ(embedded(view_of(input), 0), embedded(view_of(input), 0));
+    EXPECT_EQ(embedded(view_of(input()), 0), embedded(view_of(input()), 0));
 }
 
 TEST(CloudView, IsStaticAndWithoutARun) {

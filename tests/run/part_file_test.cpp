@@ -27,7 +27,7 @@ TEST(PartFile, GivesBackHowTheRecordingsAreRead) {
     part.run.data.open.first = 5;
     part.run.data.open.last = 90;
     part.run.data.open.topic = "/points";
-    part.run.city.tile_voxels = 12345;
+    part.run.tile_voxels = 12345;
     part.run.maps = false;
     write_part(folder.path(), part);
     const Part read = read_part(folder.path());
@@ -42,7 +42,7 @@ TEST(PartFile, GivesBackHowTheRecordingsAreRead) {
     EXPECT_EQ(read.run.data.open.first, 5U);
     EXPECT_EQ(read.run.data.open.last, 90U);
     EXPECT_EQ(read.run.data.open.topic, "/points");
-    EXPECT_EQ(read.run.city.tile_voxels, 12345U);
+    EXPECT_EQ(read.run.tile_voxels, 12345U);
     EXPECT_FALSE(read.run.maps);
     EXPECT_TRUE(read.run.report);
 }

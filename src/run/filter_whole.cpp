@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: MIT
+#include "run/filter_whole.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <thread>
+#include <utility>
+
+#include "base/progress.hpp"
+#include "check/motion.hpp"
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/file.hpp"
+#include "dynamic_filter/online.hpp"
+#include "dynamic_filter/parallel.hpp"
+#include "page/page.hpp"
+#include "page/run_view.hpp"
+#include "recording/frames.hpp"
+#include "run/label_store.hpp"
+#include "run/scored_scans.hpp"
+#include "run/write_scans.hpp"
+#include "score/report.hpp"
+#include "settings/config_file.hpp"
+
+namespace dynamic_filter::app {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Json = nlohmann::ordered_json;
+
+/// Lives from the first reading of the scans to the reports.
+struct Whole {
+    Job& job;
+    const RunOptions& o;
+    const OutputFolder& output;
+    StageClock& clock;
+    LiveView* live;
+    io::Sequence& sequence = job.drives.front().sequence;
+    RunSummary summary{};
+    std::vector<bool> accepted = std::vector<bool>(sequence.size());
+    std::vector<std::optional<Tracked>> tracked{};  ///< by scan; if poses are found or refined
+    LabelStore instant{output.path()};              ///< verdicts of scans that are scored or shown
+    std::vector<ScanNote> scan_notes{};
+    std::optional<eval::ScanScores> scorer{};  ///< of final and instant verdicts, if there is truth
+    Eigen::Vector3d scoring_origin = Eigen::Vector3d::Zero();
+    std::mutex notices_lock{};
+    std::vector<Notice> notices{};
+    OnlineFilter filter{job.config, limits(), callbacks()};  // the last: it uses the others
+
+    /// Verdicts are written at the end, so nothing is forgotten.
+    [[nodiscard]] OnlineOptions limits() const {
+        const bool drops = o.online && o.speed > 0.0;
+        return {.overload = drops ? Overload::drop_oldest : Overload::wait,
+                .horizon = 0.0,
+                .max_bytes = 0,
+                .threads = o.threads};
+    }
+    OnlineCallbacks callbacks() {
+        return {.instant = [this](const Verdict& verdict) { keep(verdict); },
+                .settled = {},
+                .notice =
+                    [this](const Notice& notice) {
+                        const std::lock_guard hold(notices_lock);
+                        notices.push_back(notice);
+                    }};
+    }
+    void keep(const Verdict& verdict) {
+        tracked[verdict.index] = verdict.tracked;
+        const bool is_wanted =
+            sequence.has_truth() || (o.report && is_shown(verdict.index, sequence.size()));
+        if (is_wanted) instant.put(verdict.index, verdict.labels);
+        if (live) live->feed().judged(verdict.index, verdict.labels, verdict.tracked);
+    }
+};
+
+std::vector<std::size_t> accepted_scans(const Whole& whole) {
+    std::vector<std::size_t> scans;
+    for (std::size_t i = 0; i < whole.accepted.size(); ++i) {
+        if (whole.accepted[i]) scans.push_back(i);
+    }
+    return scans;
+}
+
+void reject(Whole& whole, std::size_t i, const std::string& why) {
+    whole.summary.rejected.push_back(fmt::format("{}: {}", io::stem(whole.sequence, i), why));
+}
+
+/// Puts the filter's notices about scans into the summary.
+void take_notices(Whole& whole) {
+    for (const Notice& notice : whole.notices) {
+        const std::string line =
+            fmt::format("{}: {}", io::stem(whole.sequence, notice.index), notice.text);
+        if (notice.kind == NoticeKind::jump || notice.kind == NoticeKind::restart) {
+            whole.summary.notes.push_back(line);
+            continue;
+        }
+        whole.accepted[notice.index] = false;
+        (notice.kind == NoticeKind::dropped ? whole.summary.dropped : whole.summary.rejected)
+            .push_back(line);
+    }
+}
+
+/// Waits until the sensor would have sent the scan.
+void keep_pace(const Whole& whole, Clock::time_point start, double stamp) {
+    const double speed = (whole.o.online ? whole.o.speed : 0.0);
+    if (speed <= 0.0) return;
+    const double due = (stamp - whole.sequence.stamps.front()) / speed;
+    while (!interrupted()) {
+        const double left = due - seconds_since(start);
+        if (left <= 0.0) return;
+        std::this_thread::sleep_for(std::chrono::duration<double>(std::min(left, 0.1)));
+    }
+}
+
+/// The poses that were found or refined are the recording's from now on.
+void take_poses(Whole& whole) {
+    const auto was_tracked = [](const auto& tracked) { return tracked.has_value(); };
+    if (std::none_of(whole.tracked.begin(), whole.tracked.end(), was_tracked)) return;
+    io::use_poses(whole.sequence, whole.tracked);
+    write_poses(whole.output.path() / "poses.txt", whole.sequence);
+    whole.summary.notes.push_back(track_text(whole.tracked));
+}
+
+/// First reading: every usable scan goes through the filter.
+void filter_scans(Whole& whole) {
+    Progress progress("filter", whole.sequence.size(), whole.o.quiet);
+    whole.tracked.resize(whole.sequence.size());
+    std::vector<io::Field> fields;
+    std::optional<Clock::time_point> start;
+    const auto use = [&](std::size_t i, MaybeFrame& maybe) {
+        if (!start) start = Clock::now();
+        if (!maybe.frame) {
+            reject(whole, i, maybe.error);
+        } else if (!fields.empty() && maybe.frame->cloud.fields != fields) {
+            reject(whole, i, io::kOtherFields);
+        } else {
+            if (fields.empty()) fields = maybe.frame->cloud.fields;
+            whole.accepted[i] = true;
+            if (!maybe.frame->truth_fault.empty()) {
+                whole.summary.notes.push_back(maybe.frame->truth_fault +
+                                              "; the scan is filtered, but not scored");
+            }
+            keep_pace(whole, *start, maybe.frame->stamp);
+            if (whole.live) {
+                whole.live->feed().expect(maybe.frame->points, maybe.frame->T_world_sensor,
+                                          maybe.frame->stamp, i);
+            }
+            whole.filter.push(take_scan(*maybe.frame, i));
+        }
+        progress.advance();
+        return !(whole.summary.interrupted = interrupted());
+    };
+    for_each_frame(whole.sequence, all_scans(whole.sequence), {}, use);
+    whole.filter.finish();
+    take_notices(whole);
+    take_poses(whole);
+    const bool none =
+        std::find(whole.accepted.begin(), whole.accepted.end(), true) == whole.accepted.end();
+    if (none && !whole.summary.interrupted) {
+        throw no_scan_is_usable(whole.sequence, whole.summary.rejected);
+    }
+}
+
+void note(Whole& whole, std::size_t i, const io::Frame& frame, const Labels& labels,
+          const Labels& instant) {
+    ScanNote note = note_of(labels, instant, frame.truth);
+    note.index = i;
+    note.position = frame.T_world_sensor.translation();
+    note.stamp = frame.stamp;
+    whole.summary.count(labels);
+    whole.scan_notes.push_back(note);
+}
+
+/// Second reading: final verdicts, label files, maps.
+void write_results(Whole& whole) {
+    const std::vector<std::size_t> scans = accepted_scans(whole);
+    Progress progress("write", scans.size(), whole.o.quiet);
+    if (whole.sequence.has_truth()) {
+        whole.scorer.emplace(eval::kVoxelSize, 2);
+        whole.scoring_origin = scoring_origin(whole.sequence, eval::kVoxelSize);
+    }
+    const auto decide = [&](std::size_t i, const io::Frame& frame) {
+        return whole.filter.verdict({frame.points, frame.T_world_sensor, frame.stamp, i});
+    };
+    const auto use = [&](std::size_t i, const io::Frame& frame, const Verdict& verdict) {
+        const Labels instant = whole.instant.get(i);
+        if (whole.scorer && !frame.truth.empty()) {
+            whole.scorer->add(labelled(frame, whole.scoring_origin),
+                              std::array<const Labels*, 2>{&verdict.labels, &instant});
+        }
+        note(whole, i, frame, verdict.labels, instant);
+        if (whole.live) {
+            whole.live->feed().corrected(i, frame.points, verdict.labels);
+        }
+        progress.advance();
+    };
+    write_scans(whole.sequence, scans, whole.job.config, whole.o.maps, whole.output.path(),
+                {.decide = decide, .use = use});
+}
+
+/// Third reading, over recordings with ground truth: which removed points lie near one that stays.
+/// While the scans were written, all else was counted.
+void score(Whole& whole) {
+    const auto folder = whole.output.path() / "labels";
+    std::vector<std::vector<Points>> near(whole.sequence.size());
+    const auto find = [&](std::size_t i, MaybeFrame& maybe) {
+        if (maybe.frame->truth.empty()) return;
+        const Labels labels = io::read_labels(folder / (io::stem(whole.sequence, i) + ".label"));
+        const Labels instant = whole.instant.get(i);
+        near[i] = whole.scorer->near_removed(labelled(*maybe.frame, whole.scoring_origin),
+                                             std::array<const Labels*, 2>{&labels, &instant});
+    };
+    const auto use = [&](std::size_t i, MaybeFrame&) {
+        if (!near[i].empty()) whole.scorer->add_near(std::exchange(near[i], {}));
+        return true;  // half of it would be wrong scores; a second interruption kills
+    };
+    for_each_frame(whole.sequence, accepted_scans(whole), find, use);
+    whole.summary.scores = whole.scorer->scores(0);
+    whole.summary.instant_scores = whole.scorer->scores(1);
+}
+
+/// What the filter holds, and how fast its stages were.
+void take_contents(Whole& whole) {
+    RunSummary& s = whole.summary;
+    s.contents = whole.filter.contents();
+    const StageTimes times = whole.filter.times();
+    for (const Throughput& t : s.contents.throughput) {
+        const auto stage = times.find(t.stage);
+        const double seconds = stage == times.end() ? 0.0 : stage->second.total();
+        s.rates.push_back(
+            {t.stage, t.item, seconds > 0.0 ? static_cast<double>(t.count) / seconds : 0.0});
+    }
+}
+
+Json timing(const Whole& whole) {
+    const RunSummary& s = whole.summary;
+    Json json = timing_of(s.scans, whole.clock, whole.o.threads);
+    for (const RunSummary::Rate& rate : s.rates) {
+        json[rate.stage] = {{rate.item + "_per_second", rate.per_second}};
+    }
+    json["stages"] = to_json(whole.filter.times());
+    json[s.contents.observer] = s.contents.observers;
+    json["voxels"] = s.contents.voxels;
+    if (whole.o.online) {
+        const Counters c = whole.filter.counters();
+        json["online"] = {{"speed", whole.o.speed},   {"in", c.in},
+                          {"processed", c.processed}, {"dropped", c.dropped},
+                          {"rejected", c.rejected},   {"queued", c.queued}};
+    }
+    return json;
+}
+
+/// What the page says of the run in words.
+void describe(PageRun& run, const Whole& whole) {
+    const RunSummary& s = whole.summary;
+    const Config& config = whole.job.config;
+    run.info["name"] = whole.output.name().filename().string();
+    run.info["command"] = "run";
+    run.info["version"] = DYNAMIC_FILTER_VERSION;
+    run.info["input"] = whole.sequence.root.string();
+    run.info["format"] = io::to_string(whole.sequence.format);
+    run.info["created"] = fmt::format("{:%FT%TZ}", fmt::gmtime(std::time(nullptr)));
+    for (const char* name : {"default", "paper"}) {
+        if (to_toml(config) == to_toml(preset(name))) run.info["preset"] = name;
+    }
+    run.info["voxel_size"] = config.map.voxel_size;
+    run.info["occupancy_threshold"] = config.map.occupancy_threshold;
+    run.info["keyframes_total"] = s.contents.keyframes.empty() ? 0 : s.contents.observers;
+    run.info["config"] = to_toml(config);
+    run.info["counts"] = {{"static", s.still}, {"dynamic", s.dynamic}, {"unknown", s.unknown}};
+    run.info["notes"] = whole.sequence.notes;
+    for (const std::string& note : s.notes) run.info["notes"].push_back(note);
+    run.info["rejected"] = s.rejected;
+    run.info["dropped"] = s.dropped;
+}
+
+/// The page that explains the result.
+void write_page(Whole& whole, const Json& metrics) {
+    if (!whole.o.report) return;
+    if (viewer_page().empty()) {
+        whole.summary.notes.emplace_back(
+            "no report.html: this command was built without the viewer; run script/bootstrap and "
+            "script/build");
+        return;
+    }
+    const OnlineFilter& filter = whole.filter;
+    PageRun run =
+        view_of({.sequence = whole.sequence,
+                 .scans = whole.scan_notes,
+                 .labels = whole.output.path() / "labels",
+                 .instant = [&](std::size_t scan) { return whole.instant.get(scan); },
+                 .voxels_of = [&](const Scan& scan) { return filter.places_of(scan); },
+                 .histories = [&](const auto& voxels) { return filter.histories(voxels); },
+                 .keyframes = whole.summary.contents.keyframes,
+                 .has_evidence = filter.judges_each_scan()});
+    describe(run, whole);
+    run.info["scores"] = metrics;
+    run.info["timing"] = timing(whole);  // but for the page itself
+    const std::string text = embedded(run, 0);
+    io::write_file(whole.output.path() / "report.html", page_with({&text, 1}));
+    whole.clock.finish("report");
+}
+
+void write_reports(Whole& whole) {
+    const std::filesystem::path& folder = whole.output.path();
+    take_contents(whole);
+    const Json metrics = metrics_of(whole.summary, whole.sequence.losses);
+    write_page(whole, metrics);
+    io::write_file(folder / "metrics.json", text_of(metrics));
+    whole.summary.seconds = whole.clock.total();
+    RunSummary logged = whole.summary;
+    logged.notes.insert(logged.notes.begin(), whole.sequence.notes.begin(),
+                        whole.sequence.notes.end());
+    io::write_file(folder / "run.log", log_of(whole.sequence, logged) + to_text(whole.summary));
+    io::write_file(folder / "timing.json", text_of(timing(whole)));
+}
+
+}  // namespace
+
+RunSummary filter_whole(Job& job, const RunOptions& options, const OutputFolder& output,
+                        StageClock& clock, LiveView* live) {
+    RunSummary summary;
+    with_threads(options.threads, [&] {
+        Whole whole{.job = job, .o = options, .output = output, .clock = clock, .live = live};
+        io::write_file(output.path() / "config.toml", to_toml(job.config));
+        filter_scans(whole);
+        clock.finish("filter");
+        write_results(whole);
+        clock.finish("write");
+        whole.summary.interrupted |= interrupted();
+        if (whole.scorer && !whole.summary.interrupted) {
+            score(whole);
+            clock.finish("score");
+        }
+        write_reports(whole);
+        summary = std::move(whole.summary);
+    });
+    return summary;
+}
+
+}  // namespace dynamic_filter::app

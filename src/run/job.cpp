@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include "run/job.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "check/advice.hpp"
+#include "check/motion.hpp"
+#include "dynamic_filter/check.hpp"
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/parallel.hpp"
+#include "recording/frames.hpp"
+#include "run/run_state.hpp"
+#include "settings/config_file.hpp"
+
+namespace dynamic_filter::app {
+
+namespace {
+
+void refuse_what_tiles_cannot(const RunOptions& o, const Config& config) {
+    const auto refuse = [](const std::string& what, const std::string& instead) {
+        throw ConfigError(what + " does not go with several recordings, --part, --memory or --mpi" +
+                          instead);
+    };
+    if (o.online) refuse("--online", "");
+    if (o.view) refuse("--view", "");
+    if (o.edits) refuse("--edits", "");
+    if (o.refine == "on" || config.odometry.refine) {
+        refuse("refining poses", "; refine those of each drive first, in a run of its own");
+    }
+    if (config.method != Method::scans) refuse("--preset paper", "; use the default preset");
+}
+
+void refuse_unnamed(const RunOptions& o) {
+    if (o.output) return;
+    if (!o.part.empty() || o.mpi) {
+        throw ConfigError("--part and --mpi need a name for the result: -o DIR");
+    }
+    if (o.resume && !is_tiled(o)) {
+        throw ConfigError("--resume needs the folder to go on with: -o DIR");
+    }
+}
+
+/// The beginning of every mark.
+std::string version_text() { return fmt::format("version {}\n", DYNAMIC_FILTER_VERSION); }
+
+}  // namespace
+
+bool is_tiled(const RunOptions& o) {
+    const bool is_list = o.recordings.size() == 1 && o.recordings.front().extension() == ".txt";
+    return o.recordings.size() > 1 || is_list || !o.part.empty() || o.mpi || !o.memory.empty() ||
+           o.plan.has_value();
+}
+
+Job open_tiled_job(const RunOptions& o, std::vector<DriveSource> sources) {
+    Job job{.config = load_config(o.config),
+            .sources = std::move(sources),
+            .drives = {},
+            .is_tiled = true,
+            .part = {},
+            .plan = {},
+            .mark = {}};
+    if (!o.part.empty()) job.part = part_number_of(o.part);
+    refuse_what_tiles_cannot(o, job.config);
+    job.drives = open_drives(job.sources, o.data);
+    job.mark = version_text() + fmt::format("tiles of {} voxels\n", o.tile_voxels);
+    for (const Drive& drive : job.drives) job.mark += state_of(drive.sequence);
+    job.mark += to_toml(job.config);
+    return job;
+}
+
+Job open_job(const RunOptions& o) {
+    if (o.mpi && (o.overwrite || !o.part.empty())) {
+        throw ConfigError("--mpi does not go with --overwrite or --part");
+    }
+    refuse_unnamed(o);
+    if (is_tiled(o)) return open_tiled_job(o, expand(o.recordings));
+    Job job{.config = load_config(o.config),
+            .sources = {{.recording = o.data.data}},
+            .drives = {},
+            .is_tiled = false,
+            .part = {},
+            .plan = {},
+            .mark = {}};
+    job.drives.push_back({.name = o.data.data.filename().string(), .sequence = open(o.data)});
+    return job;
+}
+
+void choose_job_motion(Job& job, const RunOptions& o) {
+    io::Sequence& sequence = job.drives.front().sequence;
+    with_threads(o.threads, [&] {
+        const auto chosen =
+            choose_motion(sequence, job.config, {.refine = o.refine, .deskew = o.data.deskew});
+        sequence.notes.insert(sequence.notes.end(), chosen.begin(), chosen.end());
+    });
+    job.mark = version_text() + state_of(sequence) + to_toml(job.config);
+}
+
+std::string mark_of_output(const Job& job, const RunOptions& o) {
+    return job.mark + (o.maps ? "" : "no maps\n") + (o.report ? "" : "no report\n") +
+           (o.part.empty() ? "" : "part " + o.part + "\n");
+}
+
+std::filesystem::path folder_of(const Job& job, std::size_t drive,
+                                const std::filesystem::path& output) {
+    return job.drives.size() == 1 ? output : output / "drives" / job.drives[drive].name;
+}
+
+void tell_notes(const Job& job, const RunOptions& o) {
+    const auto note = [&](const std::string& text) {
+        if (!o.quiet) fmt::print(stderr, "note: {}\n", text);
+    };
+    const auto warn = [](const std::string& text) { fmt::print(stderr, "warning: {}\n", text); };
+    if (!job.is_tiled) {
+        const io::Sequence& sequence = job.drives.front().sequence;
+        for (const std::string& text : sequence.notes) note(text);
+        for (const auto& found : io::check_recording(sequence, io::Depth::quick).findings) {
+            warn(warning_of(found, o.data));
+        }
+        return;
+    }
+    for (const std::string& text : job.plan.warnings) warn(text);
+    for (std::size_t d = 0; d < job.drives.size(); ++d) {
+        const std::string name = job.drives[d].name + ": ";
+        for (const std::string& text : job.plan.drives[d].notes) note(name + text);
+        for (const std::string& text : job.plan.drives[d].warnings) warn(name + text);
+    }
+}
+
+}  // namespace dynamic_filter::app

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+/// What a run works on: recordings, settings, and the mark by which its files are known again.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamic_filter/settings.hpp"
+#include "recording/drives.hpp"
+#include "run/part_file.hpp"
+#include "run/plan.hpp"
+#include "run/run.hpp"
+
+namespace dynamic_filter::app {
+
+struct Job {
+    Config config;
+    std::vector<DriveSource> sources;  ///< the recordings as they were given
+    std::vector<Drive> drives;
+    /// True: filtered tile by tile, which needs a plan. False: one recording, in memory.
+    bool is_tiled = false;
+    std::optional<PartNumber> part;  ///< empty: all tiles
+    Plan plan;                       ///< of a tiled job; empty until it is made or read
+    /// What the run was begun with: the mark of the files of its tiles. For one recording in
+    /// memory it is known after choose_job_motion().
+    std::string mark;
+};
+
+/// True if the options ask for several recordings, a part or a limit of memory.
+bool is_tiled(const RunOptions& options);
+
+/// Opens recordings and settings; writes nothing. Throws ConfigError if options contradict each
+/// other.
+Job open_job(const RunOptions& options);
+/// The job of a run over tiles of these recordings.
+Job open_tiled_job(const RunOptions& options, std::vector<DriveSource> sources);
+
+/// The only recording of a job in memory: undoes its motion and refines its poses where that is
+/// better, as the options say. What was chosen is among its notes afterwards.
+void choose_job_motion(Job& job, const RunOptions& options);
+
+/// What the folder of the result was begun with, for run_state.hpp.
+std::string mark_of_output(const Job& job, const RunOptions& options);
+
+/// Where the files of a drive go: a single drive has the folder of the result.
+std::filesystem::path folder_of(const Job& job, std::size_t drive,
+                                const std::filesystem::path& output);
+
+/// Tells the user what was found in the drives before they are filtered.
+void tell_notes(const Job& job, const RunOptions& options);
+
+}  // namespace dynamic_filter::app

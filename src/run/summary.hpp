@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+/// What a run found in one recording, and how it tells it: metrics.json, run.log, timing.json and
+/// the console. The two ways to filter (filter_whole.hpp, filter_tile.hpp) fill the same summary.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/stage_clock.hpp"
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/filter.hpp"
+#include "dynamic_filter/recording.hpp"
+#include "dynamic_filter/scores.hpp"
+
+namespace dynamic_filter::app {
+
+struct RunSummary {
+    std::size_t scans = 0;  ///< that have a verdict
+    std::vector<std::string> rejected;
+    std::vector<std::string> dropped;  ///< online: what it could not keep up with
+    std::vector<std::string> notes;
+    std::vector<std::string> warnings;  ///< what is suspicious in the recording
+    std::size_t points = 0, still = 0, dynamic = 0, unknown = 0;
+    MapContents contents;  ///< of the filter's maps; empty if tiles were filtered
+    Seconds seconds;       ///< of the whole process, until the reports were written
+    /// Items per second of busy wall time, for each main stage in order.
+    struct Rate {
+        std::string stage, item;
+        double per_second = 0.0;
+    };
+    std::vector<Rate> rates;
+    std::optional<eval::Scores> scores, instant_scores;
+    bool interrupted = false;
+
+    /// Counts a scan with these final labels.
+    void count(const Labels& labels);
+};
+
+/// The scans that cannot be used.
+InputError no_scan_is_usable(const io::Sequence& sequence,
+                             const std::vector<std::string>& rejected);
+
+/// metrics.json. `losses`: what of the recording cannot be read.
+nlohmann::ordered_json metrics_of(const RunSummary& summary,
+                                  const std::vector<std::string>& losses);
+/// run.log but for its closing lines.
+std::string log_of(const io::Sequence& sequence, const RunSummary& summary);
+/// timing.json as far as all runs have it.
+nlohmann::ordered_json timing_of(std::size_t scans, const StageClock& clock, int threads);
+
+/// "12 scans (1 rejected); 345 points: 90.0 % static, ..."
+std::string points_text(const RunSummary& summary);
+/// The closing lines of a recording that was filtered in memory.
+std::string to_text(const RunSummary& summary);
+
+/// Prints what was rejected, dropped and lost; each line begins with `name`. True if there is none.
+bool tell_losses(const std::string& name, const io::Sequence& sequence, const RunSummary& summary);
+
+}  // namespace dynamic_filter::app
