@@ -14,6 +14,7 @@
 
 #include "dynamic_filter/cloud.hpp"
 #include "dynamic_filter/types.hpp"
+#include "live/bus.hpp"
 #include "live/live_config.hpp"
 #include "recording/frame_tree.hpp"
 #include "recording/pose_source.hpp"
