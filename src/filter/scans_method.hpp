@@ -11,8 +11,8 @@
 
 namespace dynamic_filter {
 
-/// Memory: about 92 bytes per voxel, 28 more after finish(), and six bytes per pixel of each of the
-/// newest `scans.max_keyframes` keyframes.
+/// Memory: voxel_bytes.hpp says what a voxel needs. Each of the newest `scans.max_keyframes`
+/// keyframes needs six bytes per pixel.
 class ScansMethod final : public FilterMethod {
 public:
     /// With `bounds`, only points within them have voxels and verdicts.

@@ -4,21 +4,15 @@
 #include <algorithm>
 #include <utility>
 
+#include "filter/voxel_bytes.hpp"
 #include "geometry/voxel.hpp"
 
 namespace dynamic_filter {
 
-namespace {
-
-/// Memory of the map per voxel, including the reserve of its containers.
-constexpr std::size_t kBytesPerVoxel = 172;
-
-}  // namespace
-
 MapSegments::MapSegments(const Config& config, const OnlineOptions& options)
     : config_(config),
       horizon_(options.horizon),
-      most_(options.max_bytes > 0 ? options.max_bytes / kBytesPerVoxel : SIZE_MAX) {
+      most_(options.max_bytes > 0 ? options.max_bytes / kOnlineVoxelBytes : SIZE_MAX) {
     add(0);
 }
 

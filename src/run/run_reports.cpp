@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <numbers>
+
 #include "dynamic_filter/file.hpp"
 #include "dynamic_filter/parallel.hpp"
 #include "page/page.hpp"
@@ -59,8 +61,8 @@ void write_log(const Pass& pass) {
     for (const std::string& line : pass.summary.dropped) log += "dropped  " + line + "\n";
     if (const auto beams = pass.summary.contents.beams) {
         log += fmt::format("beams    {:.2f} deg along azimuth, {:.2f} deg along elevation\n",
-                           beams->azimuth_spacing * 180.0 / M_PI,
-                           beams->elevation_spacing * 180.0 / M_PI);
+                           beams->azimuth_spacing * 180.0 / std::numbers::pi,
+                           beams->elevation_spacing * 180.0 / std::numbers::pi);
     }
     if (pass.summary.interrupted) log += "interrupted: only the scans filtered so far are here\n";
     io::write_file(pass.output.path() / "run.log", log + to_text(pass.summary));

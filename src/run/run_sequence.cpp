@@ -14,6 +14,7 @@
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
 #include "dynamic_filter/parallel.hpp"
+#include "formats/label_files.hpp"
 #include "recording/frames.hpp"
 #include "run/run_reports.hpp"
 #include "run/scored_scans.hpp"
@@ -165,7 +166,7 @@ void score(Pass& pass) {
     std::vector<std::vector<Points>> near(pass.sequence.size());
     const auto find = [&](std::size_t i, MaybeFrame& maybe) {
         if (maybe.frame->truth.empty()) return;
-        const Labels labels = io::read_labels(folder / (io::stem(pass.sequence, i) + ".label"));
+        const Labels labels = io::read_labels(io::label_file(folder, io::stem(pass.sequence, i)));
         const Labels instant = pass.instant.get(i);
         near[i] = pass.scorer->near_removed(labelled(*maybe.frame, pass.scoring_origin),
                                             std::array<const Labels*, 2>{&labels, &instant});
