@@ -172,7 +172,7 @@ void add_convert(Program& program) {
     Command c = program.command("convert", "Write a recording or a cloud in another format");
     const auto o = std::make_shared<ConvertOptions>();
     c.path("IN", o->data.data, "recording or cloud file").required();
-    c.path("OUT", o->output,
+    c.path("OUT,-o,--output", o->output,
            "bag (.mcap, .bag, .db3), folder, or cloud file (.pcd, .ply, .las, .npy, .bin): of a "
            "recording, all its points "
            "in the world's frame")

@@ -130,7 +130,7 @@ void add_eval(Program& program) {
              "leave out points nearer to the sensor than this [m]");
     c.number("--max-range", o->ranges.max, {0.0, 1e6},
              "leave out points farther from the sensor [m]");
-    c.path("--json", o->json, "also write all scores to this file");
+    c.path("-o,--json", o->json, "also write all scores to this file");
     c.action([o] {
         if (!o->labels && !o->map)
             throw ConfigError("give what is to be scored: --labels or --map");

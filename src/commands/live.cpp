@@ -29,7 +29,7 @@ void add_live_options(Command& command, live::LiveOptions& options) {
     command.number("--look", options.look, {0.1, 3600.0}, "with --dry-run: how long to listen [s]")
         .needs(dry_run);
     Option record = command.path(
-        "--record", options.record,
+        "-o,--record", options.record,
         "also write the drive to a bag beside this folder and, after Ctrl-C, the result of `run` "
         "to the folder");
     record.excludes(dry_run);

@@ -509,6 +509,10 @@ TEST_F(Command, InfoDescribesFilesAndFolders) {
     expect_said("is a ROS 1 bag; force --format bag");
     EXPECT_EQ(run("check recording.data --format bag"), 0) << said();
     EXPECT_EQ(run("convert recording.data b.mcap --format bag"), 0) << said();
+    EXPECT_EQ(run("info recording.data --format bag"), 0) << said();
+    expect_said("/points");
+    EXPECT_EQ(run("convert recording.data --format bag -o c.mcap"), 0) << said();
+    EXPECT_EQ(slurp(folder_ / "c.mcap"), slurp(folder_ / "b.mcap"));
 }
 
 TEST_F(Command, InfoSaysWhetherThereArePoses) {
