@@ -119,22 +119,23 @@ HttpServer::~HttpServer() {
 
 std::string HttpServer::url() const { return fmt::format("http://127.0.0.1:{}/", port_); }
 
-/// Makes room for one more: where all places are taken, the oldest connection that has not asked
-/// yet gives way, so that connections that say nothing keep nobody out. False if all are answered.
-bool HttpServer::make_room(std::list<Connection>& connections) const {
-    if (connections.size() < limits_.connections) return true;
-    const auto silent =
-        std::ranges::find_if(connections, [](const Connection& c) { return !c.answering; });
-    if (silent == connections.end()) return false;
-    close(silent->descriptor);
-    connections.erase(silent);
-    return true;
+/// Whether one more may come: where all places are taken, one that has not asked yet gives way.
+bool HttpServer::has_room(const std::list<Connection>& connections) const {
+    return connections.size() < limits_.connections ||
+           !std::ranges::all_of(connections, &Connection::answering);
 }
 
-void HttpServer::accept_all(std::list<Connection>& connections) const {
-    while (make_room(connections)) {
+/// So connections that say nothing keep nobody out. No more than that at a time, so that those
+/// before them are read and answered in between.
+void HttpServer::accept_some(std::list<Connection>& connections) const {
+    for (std::size_t i = 0; i < limits_.connections && has_room(connections); ++i) {
         const int descriptor = accept_at(listener_);
         if (descriptor < 0) return;
+        if (connections.size() >= limits_.connections) {
+            const auto oldest = std::ranges::find(connections, false, &Connection::answering);
+            close(oldest->descriptor);
+            connections.erase(oldest);
+        }
         connections.push_back({.descriptor = descriptor, .limits = limits_});
         // What asks at once is not silent when others come.
         connections.back().read(handler_, port_);
@@ -145,9 +146,7 @@ void HttpServer::serve() {
     std::list<Connection> connections;
     std::vector<pollfd> polled;
     while (true) {
-        const bool room = connections.size() < limits_.connections ||
-                          !std::ranges::all_of(connections, &Connection::answering);
-        polled = {{wake_[0], POLLIN, 0}, {room ? listener_ : -1, POLLIN, 0}};
+        polled = {{wake_[0], POLLIN, 0}, {has_room(connections) ? listener_ : -1, POLLIN, 0}};
         for (const Connection& c : connections) {
             polled.push_back({c.descriptor, static_cast<short>(c.answering ? POLLOUT : POLLIN), 0});
         }
@@ -166,7 +165,7 @@ void HttpServer::serve() {
             if (c->over) close(c->descriptor);
             c = c->over ? connections.erase(c) : std::next(c);
         }
-        if (polled[1].revents != 0) accept_all(connections);
+        if (polled[1].revents != 0) accept_some(connections);
     }
     for (const Connection& c : connections) close(c.descriptor);
 }

@@ -49,8 +49,8 @@ public:
 private:
     struct Connection;
     void serve();
-    void accept_all(std::list<Connection>& connections) const;
-    bool make_room(std::list<Connection>& connections) const;
+    void accept_some(std::list<Connection>& connections) const;
+    [[nodiscard]] bool has_room(const std::list<Connection>& connections) const;
 
     HttpHandler handler_;
     HttpLimits limits_;
