@@ -50,16 +50,21 @@ Labels labels_of(const ConvertOptions& o, const io::Sequence& sequence, std::siz
                     folder.string(), labels.size(), frame.points.size(), io::stem(sequence, i)));
 }
 
-/// The setting of the run that left the labels; the default for other labels.
-bool keeps_unknown(const ConvertOptions& o) {
-    if (o.labels) {
-        const fs::path result = io::label_folder(*o.labels) / "..";
-        for (const fs::path& folder : {result, result / ".."}) {  // of one drive, or of several
-            if (!fs::exists(folder / kRunState) || !fs::exists(folder / "config.toml")) continue;
-            return load_config({.file = folder / "config.toml"}).map.keep_unknown;
+/// The settings of the run that left the labels; the default ones for other labels.
+Config settings_of(const ConvertOptions& o) {
+    if (!o.labels) return {};
+    const fs::path result = io::label_folder(*o.labels) / "..";
+    for (const fs::path& folder : {result, result / ".."}) {  // of one drive, or of several
+        const fs::path file = (folder / "config.toml").lexically_normal();
+        if (!fs::exists(folder / kRunState) || !fs::exists(file)) continue;
+        try {
+            return load_config({.file = file});
+        } catch (const ConfigError& error) {  // of another version
+            say(fmt::format("{}; so unknown points are written as with map.keep_unknown = true",
+                            error.what()));
         }
     }
-    return Config{}.map.keep_unknown;
+    return {};
 }
 
 /// Refuses options that are for the map of several drives only.
@@ -80,7 +85,10 @@ int convert_recording(const ConvertOptions& o) {
     for (const std::string& line : sequence.losses) fmt::print(stderr, "lost     {}\n", line);
     catch_interrupts();
     ConvertOptions of_sink = o;
-    of_sink.keep_unknown = keeps_unknown(o);
+    // Only bags ask for it.
+    if (io::BagWriter::recognises(o.output)) {
+        of_sink.keep_unknown = settings_of(o).map.keep_unknown;
+    }
     const std::unique_ptr<Sink> sink = make_sink(of_sink);
     std::vector<std::size_t> scans(sequence.size());
     std::iota(scans.begin(), scans.end(), 0U);

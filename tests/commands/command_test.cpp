@@ -688,6 +688,9 @@ TEST_F(Command, ConvertPutsUnknownPointsWhereTheRunDid) {
             EXPECT_EQ(points_on(folder_ / "split.mcap", "/points_dynamic"), moving);
         }
     }
+    test::spill(folder_ / "false/config.toml", "[map]\nkeeps = 1\n");
+    EXPECT_EQ(run("convert " + data + " split.mcap --overwrite --labels false"), 0) << said();
+    expect_said("as with map.keep_unknown = true");
 }
 
 TEST_F(Command, ConvertWritesMapsAndSplitScans) {
