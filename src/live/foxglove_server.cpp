@@ -99,7 +99,8 @@ struct FoxgloveServer::Engine {
     std::vector<std::string> notices;
 
     // Only for the service thread:
-    int listener = -1;  // libwebsockets closes it
+    int listener = -1;         // libwebsockets closes it
+    lws* listening = nullptr;  // the same to libwebsockets
     std::map<lws*, Handshaking> handshakes;
     std::uint64_t accepted_count = 0;
     std::vector<Accepted> accepted;
@@ -181,7 +182,8 @@ void FoxgloveServer::Engine::open() {
     context = lws_create_context(&info);
     host = context == nullptr ? nullptr : lws_create_vhost(context, &info);
     if (host == nullptr) close(listener);
-    if (host == nullptr || adopt_file(listener) == nullptr) {
+    listening = host == nullptr ? nullptr : adopt_file(listener);
+    if (listening == nullptr) {
         throw OutputError(app::address_text(options.address, port),
                           "cannot listen: libwebsockets does not start; is there memory left?");
     }
@@ -224,6 +226,7 @@ int FoxgloveServer::Engine::on_file(lws* wsi, lws_callback_reasons reason, void*
         switch (reason) {
             case LWS_CALLBACK_RAW_RX_FILE:
                 if (engine.handshakes.contains(wsi)) return engine.read_handshake(wsi) ? 0 : -1;
+                if (wsi != engine.listening) return -1;  // it gave way
                 engine.accept_some();
                 return 0;
             case LWS_CALLBACK_RAW_CLOSE_FILE:
