@@ -51,7 +51,9 @@ int filter(int argc, char** argv) {
     add_live_options(command, options);
     command.action([&] {
         live::Ros1Bus bus(arguments.remappings, live::changing_settings(), kLongestStart);
-        return live::live(bus, options);
+        const live::LiveConfig config =
+            live::load_live_config(options.config, bus.take_parameters());
+        return live::live(bus, options, config);
     });
     return program.run(arguments.own);
 }

@@ -14,15 +14,20 @@
 ///   judging, and every later push(), ask(), flush() and finish() rethrows that exception.
 #pragma once
 
+#include <concepts>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "dynamic_filter/filter.hpp"
+#include "dynamic_filter/parallel.hpp"
+#include "dynamic_filter/settings.hpp"
 
 namespace dynamic_filter {
 
@@ -38,7 +43,7 @@ struct OnlineOptions {
     std::size_t queue = 2;
     Overload overload = Overload::drop_oldest;  ///< what happens when the queue is full
     double horizon = 200.0;  ///< [m] the map farther away than this is removed; 0: no limit
-    /// [bytes] Limit on the memory of the map, counted as 160 bytes per voxel (method "submaps":
+    /// [bytes] Limit on the memory of the map, counted as 172 bytes per voxel (method "submaps":
     /// per point of the submaps). Above it, the farthest parts are removed until three quarters of
     /// the limit are used. The map is copied to do so, which needs more memory for a moment. 0: no
     /// limit.
@@ -49,6 +54,27 @@ struct OnlineOptions {
     std::size_t settle_after = 0;
     int threads = 0;  ///< threads for the computations; 0: all cores
 };
+
+/// Calls f(setting, member) for every number of the options.
+template <class C, class F>
+requires std::same_as<std::remove_const_t<C>, OnlineOptions>
+void visit(C& options, F&& f) {
+    constexpr double kAny = std::numeric_limits<double>::infinity();
+    f(Setting{"queue", "1", "", "number of scans that may wait", 1, kAny}, options.queue);
+    f(Setting{"horizon", "m", "", "the map farther away than this is removed; 0: no limit", 0,
+              kAny},
+      options.horizon);
+    f(Setting{"max_bytes", "B", "", "limit on the memory of the map; 0: no limit", 0, kAny},
+      options.max_bytes);
+    f(Setting{"settle_after", "1", "",
+              "a scan is settled after this number of later scans; 0: none", 0, kAny},
+      options.settle_after);
+    f(Setting{"threads", "1", "", "threads for the computations; 0: all cores", 0, kMostThreads},
+      options.threads);
+}
+
+/// Returns one sentence for each number that is out of bounds.
+std::vector<std::string> violations(const OnlineOptions& options);
 
 /// Kind of an event that the log of a robot should record. With every kind except `jump` and
 /// `restart`, the scan gets no verdict.

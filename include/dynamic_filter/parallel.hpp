@@ -20,6 +20,9 @@ namespace dynamic_filter {
 void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t)>& body);
 
+/// The most threads that may be asked for; oneTBB stores this number in 16 bits.
+inline constexpr int kMostThreads = 1024;
+
 /// Runs `work` so that each parallel_for inside it uses at most `threads` threads (0 or less: all
 /// cores). Returns when `work` has returned; an exception of `work` is rethrown.
 void with_threads(int threads, const std::function<void()>& work);

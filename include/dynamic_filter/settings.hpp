@@ -21,8 +21,10 @@
 /// - Errors: ConfigError from the functions that say so.
 #pragma once
 
+#include <concepts>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace dynamic_filter {
@@ -41,16 +43,19 @@ constexpr unsigned methods_of(Method method) { return 1U << static_cast<unsigned
 /// The set of all methods.
 constexpr unsigned kAllMethods = 7U;
 
-/// The description of a setting for users. Bounds are inclusive; for switches and choices both are
-/// 0.
+/// The description of a setting for users. Bounds are inclusive; for all but numbers both are 0.
 struct Setting {
-    std::string_view key;            ///< path of the field in Config, such as "map.voxel_size"
+    std::string_view key;            ///< path of the field in its struct, such as "map.voxel_size"
     std::string_view unit;           ///< "m", "deg", "1", ...
     std::string_view symbol;         ///< the symbol or the section of the paper
     std::string_view help;           ///< what the setting does
     double min = 0.0;                ///< in `unit`
     double max = 0.0;                ///< in `unit`
     unsigned methods = kAllMethods;  ///< the methods in which it has an effect
+    /// The words of a choice, separated by blanks and in the order of the enumerators. Of a text:
+    /// the texts that it may be; empty: any.
+    std::string_view choices{};
+    bool while_running = false;  ///< whether `live` accepts another value while it runs
 };
 
 /// When a scan becomes a keyframe (Sec. III-B): as soon as one of the two limits is reached.
@@ -507,9 +512,11 @@ void visit_submaps(C& config, F&& f) {
     field(kBoth, "front_end.tau_per_metre", "1", "III-B1",
           "share of the range of the point that is added to front_end.tau", 0, 1,
           front.tau_per_metre);
-    field(kPaper, "front_end.reverting", "", "III-B2",
-          "how removed points are reverted to static: map, visibility (as Removert does) or none",
-          0, 0, front.reverting);
+    f(Setting{"front_end.reverting", "", "III-B2",
+              "how removed points are reverted to static: map, visibility (as Removert does) or "
+              "none",
+              0, 0, kPaper, "map visibility none"},
+      front.reverting);
     field(kPaper, "front_end.revert_radius", "m", "r",
           "reverting uses static neighbors within this distance", 0.05, 10, front.revert_radius);
     field(kPaper, "front_end.revert_neighbors", "1", "k",
@@ -569,10 +576,12 @@ struct Config {
 
 /// Calls f(setting, member) for every field, in the order of the struct.
 template <class C, class F>
+requires std::same_as<std::remove_const_t<C>, Config>
 void visit(C& c, F&& f) {
     f(Setting{"method", "", "Table II",
               "how moving objects are found: scans (each keyframe is an observer), submaps (the "
-              "paper's method) or removert (the method with which the paper compares)"},
+              "paper's method) or removert (the method with which the paper compares)",
+              0, 0, kAllMethods, "scans submaps removert"},
       c.method);
     f(Setting{"map.voxel_size", "m", "III-C1", "edge length of a voxel", 0.02, 5},
       c.map.voxel_size);
@@ -591,7 +600,7 @@ void visit(C& c, F&& f) {
               "what the static map holds: only what never moved (always), or what was in each "
               "place when the place was last seen, so also objects that came and stayed (latest); "
               "labels are the same for both",
-              0, 0, methods_of(Method::scans)},
+              0, 0, methods_of(Method::scans), "always latest"},
       c.map.time);
     visit_odometry(c.odometry, f);
     f(Setting{"keyframe.interval", "s", "III-B",
@@ -611,8 +620,8 @@ void visit(C& c, F&& f) {
 Config preset(std::string_view name);
 
 /// Sets one field from text, as `--set key=value` does. Throws ConfigError if the key is unknown
-/// (the message names the most similar key) or if the value cannot be read (the message says what
-/// was expected). This function does not check bounds; violations() does.
+/// (the message names the most similar key), or if the value cannot be read or is out of bounds
+/// (the message says what was expected).
 void set(Config& config, std::string_view key, std::string_view value);
 
 /// Returns the value of a field as text that set() can read. Throws ConfigError if the key is

@@ -27,8 +27,7 @@ std::unique_ptr<KeptFilter> make_filter(const py::object& config, int threads,
                                         std::size_t max_bytes) {
     const OnlineOptions options{
         .overload = Overload::wait, .horizon = horizon, .max_bytes = max_bytes, .threads = threads};
-    refuse_threads(threads);
-    if (!(horizon >= 0.0)) throw py::value_error("horizon: expected metres, 0 (none) or more");
+    for (const std::string& fault : violations(options)) throw py::value_error(fault);
     return std::make_unique<KeptFilter>(app::load_config(config_options(config)), options,
                                         number_kept(keep));
 }
@@ -168,7 +167,7 @@ keep: True keeps every scan for labels(), corrections(), pose() and status(), at
 newest pose.
 horizon: [m] the map farther away is removed; at a break of the trajectory, the whole map is
 removed. 0: nothing is removed.
-max_bytes: limit on the memory of the map; 0: no limit. A voxel takes about 160 bytes.
+max_bytes: limit on the memory of the map; 0: no limit. A voxel takes about 172 bytes.
 
 One filter serves one sensor. Scans are numbered from 0 in their order; refused scans get no number.
 Input arrays are copied; returned arrays belong to the caller. Any thread may call; the GIL is

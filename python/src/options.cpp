@@ -5,6 +5,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "dynamic_filter/error.hpp"
+#include "dynamic_filter/online.hpp"
 #include "python/src/module.hpp"
 
 namespace dynamic_filter::python {
@@ -100,8 +101,9 @@ app::DataOptions data_options(const std::filesystem::path& data, py::dict& optio
 }
 
 void refuse_threads(int threads) {
-    if (threads >= 0 && threads <= 1024) return;
-    throw py::value_error("threads: expected 0 (all cores) to 1024");
+    for (const std::string& fault : violations(OnlineOptions{.threads = threads})) {
+        throw py::value_error(fault);
+    }
 }
 
 void refuse_unknown(const char* function, const py::dict& options) {

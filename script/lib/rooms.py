@@ -19,7 +19,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 
 # Rooms that compute read no files and print nothing: this is all they may include of base.
-BASE = "dynamic_filter/error.hpp dynamic_filter/parallel.hpp dynamic_filter/stage_times.hpp base/best_kernel.hpp"
+BASE = ("dynamic_filter/error.hpp dynamic_filter/parallel.hpp dynamic_filter/stage_times.hpp base/best_kernel.hpp "
+        "base/numbers.hpp")
 
 # What each room may include beside itself: rooms above it in this list, or single headers of theirs.
 ROOMS = {

@@ -6,6 +6,7 @@
 
 #include <sstream>
 
+#include "base/crc.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
 
@@ -24,10 +25,6 @@ const Bytef* raw(std::span<const std::byte> bytes) {
 }
 
 }  // namespace
-
-std::uint32_t crc_of(std::span<const std::byte> bytes) {
-    return static_cast<std::uint32_t>(crc32_z(crc32_z(0, nullptr, 0), raw(bytes), bytes.size()));
-}
 
 std::vector<std::byte> packed(std::span<const std::byte> bytes) {
     uLongf size = compressBound(bytes.size());

@@ -13,8 +13,6 @@
 
 namespace dynamic_filter::app {
 
-std::uint32_t crc_of(std::span<const std::byte> bytes);  ///< CRC-32, as zlib and gzip have it
-
 std::vector<std::byte> packed(std::span<const std::byte> bytes);  ///< by zlib, fast
 /// Throws InputError that names `file` if the bytes are not `size` packed ones.
 std::vector<std::byte> unpacked(std::span<const std::byte> bytes, std::size_t size,

@@ -234,6 +234,11 @@ fs::path OutputFolder::subfolder(const char* name) const {
     return path() / name;
 }
 
+void refuse_existing(const fs::path& output, bool overwrite) {
+    if (overwrite || !fs::exists(output)) return;
+    throw ConfigError(output.string() + ": exists; choose another -o, or --overwrite");
+}
+
 void refuse_same_folder(const fs::path& input, const fs::path& output, const std::string& what) {
     std::error_code ignored;
     if (fs::equivalent(input, output, ignored)) {

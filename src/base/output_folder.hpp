@@ -23,6 +23,9 @@ inline Existing replaced_if(bool overwrite) {
     return overwrite ? Existing::replace : Existing::refuse;
 }
 
+/// Throws ConfigError if a file is there that must not be replaced.
+void refuse_existing(const std::filesystem::path& output, bool overwrite);
+
 /// A folder that one process fills. Locked while it lives: a second process gets a ConfigError.
 /// Throws OutputError if it cannot be made.
 class OutputFolder {

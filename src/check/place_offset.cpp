@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/numbers.hpp"
 #include "dynamic_filter/error.hpp"
 #include "geometry/voxel.hpp"
 #include "tracking/coarse_search.hpp"
@@ -61,9 +62,7 @@ public:
             }
         }
         if (depths.size() < kEnough) return 0.0;
-        const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
-        std::nth_element(depths.begin(), middle, depths.end());
-        return static_cast<double>(*middle);
+        return static_cast<double>(median(std::move(depths)));
     }
 
 private:

@@ -9,6 +9,7 @@
 #include <functional>
 
 #include "base/degree.hpp"
+#include "base/numbers.hpp"
 #include "dynamic_filter/motion.hpp"
 
 namespace dynamic_filter::io {
@@ -93,11 +94,7 @@ std::pair<double, double> typical_error(const std::vector<TwoTracks>& tracks, st
         shifts.push_back(errors.segment<3>(i).norm());
         turns.push_back(errors.segment<3>(i + 3).norm());
     }
-    if (shifts.empty()) return {0.0, 0.0};
-    const auto middle = static_cast<std::ptrdiff_t>(shifts.size() / 2);
-    std::nth_element(shifts.begin(), shifts.begin() + middle, shifts.end());
-    std::nth_element(turns.begin(), turns.begin() + middle, turns.end());
-    return {shifts[shifts.size() / 2], turns[turns.size() / 2]};
+    return {median(std::move(shifts)), median(std::move(turns))};
 }
 
 std::string offset_text(double seconds) {

@@ -8,7 +8,7 @@
 #include <map>
 #include <optional>
 
-#include "base/median.hpp"
+#include "base/numbers.hpp"
 #include "check/overlay.hpp"
 #include "check/samples.hpp"
 #include "dynamic_filter/error.hpp"

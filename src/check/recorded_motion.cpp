@@ -7,7 +7,7 @@
 #include <numbers>
 #include <tuple>
 
-#include "base/median.hpp"
+#include "base/numbers.hpp"
 #include "check/pose_mistakes.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/parallel.hpp"

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <set>
 
+#include "base/numbers.hpp"
 #include "dynamic_filter/error.hpp"
 #include "formats/clouds/time_field.hpp"
 #include "geometry/voxel.hpp"
@@ -50,7 +52,7 @@ Points upright(const Points& points) {
 /// place, one direction has one range. Two returns of one beam have exactly the same direction and
 /// are not counted.
 double share_of_doubles(const Points& points) {
-    constexpr float kPixel = 0.2F * 3.14159265F / 180.0F, kSame = 0.02F * kPixel;
+    constexpr float kPixel = 0.2F * std::numbers::pi_v<float> / 180.0F, kSame = 0.02F * kPixel;
     struct Direction {
         float azimuth, elevation, range;
     };
@@ -107,10 +109,7 @@ float typical_range(const Points& points) {
     for (const Point& p : points) {
         if (is_measured(p)) ranges.push_back(p.norm());
     }
-    if (ranges.empty()) return 0.0F;
-    const auto middle = ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() / 2);
-    std::nth_element(ranges.begin(), middle, ranges.end());
-    return *middle;
+    return median(std::move(ranges));
 }
 
 Sample sample_of(const Sequence& sequence, const Frame& frame) {

@@ -2,6 +2,7 @@
 #include "commands/cleaning.hpp"
 
 #include <algorithm>
+#include <numbers>
 #include <numeric>
 
 #include "base/progress.hpp"
@@ -110,7 +111,7 @@ io::Image stacked(io::Image above, const io::Image& below) {
 }  // namespace
 
 Camera camera_for(const Eigen::AlignedBox3f& box, int width, int height, const RenderOptions& o) {
-    constexpr double kRadian = M_PI / 180.0;
+    constexpr double kRadian = std::numbers::pi / 180.0;
     const float aspect = static_cast<float>(width) / static_cast<float>(height);
     return o.from_above ? from_above(box, aspect)
                         : from_aside(box, aspect, static_cast<float>(kRadian * o.azimuth_deg),

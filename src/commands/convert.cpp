@@ -18,8 +18,10 @@
 #include "export/convert_map.hpp"
 #include "export/convert_options.hpp"
 #include "export/sinks.hpp"
+#include "formats/label_files.hpp"
 #include "formats/voxel_map/map_index.hpp"
 #include "recording/frames.hpp"
+#include "settings/config_file.hpp"
 
 namespace fs = std::filesystem;
 
@@ -39,14 +41,30 @@ Labels labels_of(const ConvertOptions& o, const io::Sequence& sequence, std::siz
         const bool has_own = !sequence.has_truth() || !frame.truth.empty();
         return has_own ? frame.truth : Labels(frame.points.size(), Label::unknown);
     }
-    const fs::path folder =
-        fs::is_directory(*o.labels / "labels") ? *o.labels / "labels" : *o.labels;
-    Labels labels = io::read_labels(folder / (io::stem(sequence, i) + ".label"));
+    const fs::path folder = io::label_folder(*o.labels);
+    Labels labels = io::read_labels(io::label_file(folder, io::stem(sequence, i)));
     if (labels.size() == frame.points.size()) return labels;
     throw ConfigError(
         fmt::format("{}: {} labels for the {} points of scan {}; are they of another "
                     "recording?",
                     folder.string(), labels.size(), frame.points.size(), io::stem(sequence, i)));
+}
+
+/// The settings of the run that left the labels; the default ones for other labels.
+Config settings_of(const ConvertOptions& o) {
+    if (!o.labels) return {};
+    const fs::path result = io::label_folder(*o.labels) / "..";
+    for (const fs::path& folder : {result, result / ".."}) {  // of one drive, or of several
+        const fs::path file = (folder / "config.toml").lexically_normal();
+        if (!fs::exists(folder / kRunState) || !fs::exists(file)) continue;
+        try {
+            return load_config({.file = file});
+        } catch (const ConfigError& error) {  // of another version
+            say(fmt::format("{}; so unknown points are written as with map.keep_unknown = true",
+                            error.what()));
+        }
+    }
+    return {};
 }
 
 /// Refuses options that are for the map of several drives only.
@@ -66,7 +84,12 @@ int convert_recording(const ConvertOptions& o) {
     for (const std::string& note : sequence.notes) fmt::print(stderr, "note: {}\n", note);
     for (const std::string& line : sequence.losses) fmt::print(stderr, "lost     {}\n", line);
     catch_interrupts();
-    const std::unique_ptr<Sink> sink = make_sink(o);
+    ConvertOptions of_sink = o;
+    // Only bags ask for it.
+    if (io::BagWriter::recognises(o.output)) {
+        of_sink.keep_unknown = settings_of(o).map.keep_unknown;
+    }
+    const std::unique_ptr<Sink> sink = make_sink(of_sink);
     std::vector<std::size_t> scans(sequence.size());
     std::iota(scans.begin(), scans.end(), 0U);
     std::vector<std::string> rejected, notes;
@@ -157,7 +180,7 @@ void add_convert(Program& program) {
     Command c = program.command("convert", "Write a recording or a cloud in another format");
     const auto o = std::make_shared<ConvertOptions>();
     c.path("IN", o->data.data, "recording or cloud file").required();
-    c.path("OUT", o->output,
+    c.path("OUT,-o,--output", o->output,
            "bag (.mcap, .bag, .db3), folder, or cloud file (.pcd, .ply, .las, .npy, .bin): of a "
            "recording, all its points "
            "in the world's frame")

@@ -47,9 +47,7 @@ HttpAnswer json_answer(std::string words) {
 Edits edits_of(const fs::path& run) {
     const fs::path file = run / kEditsFile;
     if (fs::exists(file)) return read_edits(file);
-    Config config;
-    apply_toml(config, run / "config.toml");
-    return {config.map.voxel_size, {}};
+    return {load_config({.file = run / "config.toml"}).map.voxel_size, {}};
 }
 
 /// While no other process writes into the run.

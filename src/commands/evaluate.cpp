@@ -13,6 +13,7 @@
 #include "dynamic_filter/cloud.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
+#include "formats/label_files.hpp"
 #include "recording/data_options.hpp"
 #include "recording/frames.hpp"
 #include "run/scored_scans.hpp"
@@ -36,11 +37,10 @@ eval::ScanSource noting(eval::ScanSource source, std::vector<std::atomic<bool>>&
 eval::ScanSource with_labels(const io::Sequence& sequence, const Eigen::Vector3d& origin,
                              const std::filesystem::path& folder, const RangeLimits& ranges) {
     // Given the output folder of a run, its labels are meant.
-    const auto labels =
-        std::filesystem::is_directory(folder / "labels") ? folder / "labels" : folder;
+    const auto labels = io::label_folder(folder);
     if (!std::filesystem::is_directory(labels)) throw InputError(labels, "", "is not a folder");
     const auto labels_of = [&sequence, labels](std::size_t i) -> std::optional<Labels> {
-        const auto file = labels / (io::stem(sequence, i) + ".label");
+        const auto file = io::label_file(labels, io::stem(sequence, i));
         if (!std::filesystem::exists(file)) return std::nullopt;
         return io::read_labels(file);
     };
@@ -130,7 +130,7 @@ void add_eval(Program& program) {
              "leave out points nearer to the sensor than this [m]");
     c.number("--max-range", o->ranges.max, {0.0, 1e6},
              "leave out points farther from the sensor [m]");
-    c.path("--json", o->json, "also write all scores to this file");
+    c.path("-o,--json", o->json, "also write all scores to this file");
     c.action([o] {
         if (!o->labels && !o->map)
             throw ConfigError("give what is to be scored: --labels or --map");

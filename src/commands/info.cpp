@@ -15,6 +15,7 @@
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/recording.hpp"
 #include "formats/voxel_map/map_index.hpp"
+#include "recording/frames.hpp"
 
 namespace dynamic_filter::app {
 
@@ -112,17 +113,17 @@ void describe_first(io::Sequence s) {
     }
 }
 
-void describe_sequence(const std::filesystem::path& folder) {
-    const io::Sequence s = io::open_sequence(folder);
-    fmt::print("{}\n  format  {}\n", folder.string(), io::to_string(s.format));
+void describe_sequence(const DataOptions& o) {
+    const io::Sequence s = o.format.empty() ? io::open_sequence(o.data) : open(o);
+    fmt::print("{}\n  format  {}\n", o.data.string(), io::to_string(s.format));
     describe_scans(s);
     describe_first(s);
 }
 
 /// Its topics are told before: several of clouds, or none, are no mistake here.
-void describe_scans_of_bag(const std::filesystem::path& path) {
+void describe_scans_of_bag(const DataOptions& o) {
     try {
-        const io::Sequence s = io::open_sequence(path);
+        const io::Sequence s = o.format.empty() ? io::open_sequence(o.data) : open(o);
         describe_scans(s);
         describe_first(s);
     } catch (const Error& error) {
@@ -187,16 +188,17 @@ void describe_map(const std::filesystem::path& path) {
 
 }  // namespace
 
-int info(const std::filesystem::path& file) {
-    if (is_city_map(file)) {
+int info(const DataOptions& o) {
+    const std::filesystem::path& file = o.data;
+    if (o.format.empty() && is_city_map(file)) {
         describe_map(file);
-    } else if (io::Bag::recognises(file)) {
+    } else if (o.format == "bag" || (o.format.empty() && io::Bag::recognises(file))) {
         describe_bag(file);
-        describe_scans_of_bag(file);
-    } else if (std::filesystem::is_regular_file(file)) {
+        describe_scans_of_bag(o);
+    } else if (o.format.empty() && std::filesystem::is_regular_file(file)) {
         describe_cloud(file, io::read_cloud(file));
     } else {
-        describe_sequence(file);  // also a scene that is named behind its folder
+        describe_sequence(o);  // also a scene that is named behind its folder
     }
     return kDone;
 }
@@ -204,9 +206,11 @@ int info(const std::filesystem::path& file) {
 void add_info(Program& program) {
     Command c = program.command(
         "info", "Describe a point cloud file, a recording, or the map of several drives");
-    const auto file = std::make_shared<std::filesystem::path>();
-    c.path("FILE", *file, "point cloud file, bag or folder").required();
-    c.action([file] { return info(*file); });
+    const auto o = std::make_shared<DataOptions>();
+    c.path("FILE", o->data, "point cloud file, bag or folder").required();
+    c.choice("--format", o->format, {"kitti", "benchmark", "folder", "bag"},
+             "format of a recording (default: recognised by its files)");
+    c.action([o] { return info(*o); });
 }
 
 }  // namespace dynamic_filter::app

@@ -3,26 +3,25 @@
 
 #include "commands/all.hpp"
 #include "live/dds_bus.hpp"
-#include "live/live_config.hpp"
 
 namespace dynamic_filter::app {
 
 namespace {
 
 int live_on_dds(const live::LiveOptions& options) {
-    const live::LiveConfig config = live::load_live_config(options, {});  // for the bus alone
+    const live::LiveConfig config = live::load_live_config(options.config, {});
     live::DdsBus bus({.domain = config.bus.domain, .network = config.bus.network});
-    return live::live(bus, options);
+    return live::live(bus, options, config);
 }
 
 }  // namespace
 
 void add_live_options(Command& command, live::LiveOptions& options) {
-    command.path("LIVE", options.file,
+    command.path("LIVE", options.config.file,
                  "TOML file with settings of live and of the filter (default: none)");
-    command.words("--set", options.assignments,
+    command.words("--set", options.config.assignments,
                   "change one setting, for instance input.cloud=/points");
-    command.choice("--preset", options.preset, {"default", "paper"},
+    command.choice("--preset", options.config.preset, {"default", "paper"},
                    "which settings of the filter to begin with");
     const Option dry_run =
         command.flag("--dry-run", options.dry_run,
@@ -30,7 +29,7 @@ void add_live_options(Command& command, live::LiveOptions& options) {
     command.number("--look", options.look, {0.1, 3600.0}, "with --dry-run: how long to listen [s]")
         .needs(dry_run);
     Option record = command.path(
-        "--record", options.record,
+        "-o,--record", options.record,
         "also write the drive to a bag beside this folder and, after Ctrl-C, the result of `run` "
         "to the folder");
     record.excludes(dry_run);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "base/exit_code.hpp"
+#include "base/output_folder.hpp"
 #include "base/progress.hpp"
 #include "check/motion.hpp"
 #include "commands/all.hpp"
@@ -25,9 +26,7 @@ struct OdometryOptions {
 
 int odometry(const OdometryOptions& o) {
     const Config config = load_config(o.config);
-    if (!o.overwrite && std::filesystem::exists(o.output)) {
-        throw ConfigError(o.output.string() + ": exists; choose another -o, or --overwrite");
-    }
+    refuse_existing(o.output, o.overwrite);
     DataOptions without_poses = o.data;
     without_poses.open.poses = "none";
     io::Sequence sequence = open(without_poses);

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/exit_code.hpp"
+#include "base/output_folder.hpp"
 #include "base/progress.hpp"
 #include "commands/all.hpp"
 #include "commands/shared_options.hpp"
@@ -96,9 +97,7 @@ int plan(const PlanOptions& options) {
     if (interrupted()) return kInterrupted;
     tell_notes(job, o);
     if (o.output) {
-        if (fs::exists(*o.output) && !o.overwrite) {
-            throw ConfigError(o.output->string() + ": exists; choose another -o, or --overwrite");
-        }
+        refuse_existing(*o.output, o.overwrite);
         write_plan(*o.output, job.plan, job.mark);
     }
     fmt::print("{}", options.json ? plan_json(job, options.parts) : plan_text(job, options.parts));

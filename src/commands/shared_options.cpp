@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "dynamic_filter/parallel.hpp"
 #include "recording/data_options.hpp"
 #include "run/run.hpp"
 #include "settings/config_file.hpp"
@@ -62,7 +63,7 @@ void add_tile_voxels(Command& command, RunOptions& options) {
 }
 
 Option add_threads(Command& command, int& threads) {
-    return command.whole("--threads", threads, {.high = 1024},
+    return command.whole("--threads", threads, {.high = kMostThreads},
                          "number of threads; 0 uses all cores");
 }
 

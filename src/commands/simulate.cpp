@@ -13,6 +13,7 @@
 #include "commands/shared_options.hpp"
 #include "commands/write_simulation.hpp"
 #include "dynamic_filter/writers.hpp"
+#include "formats/label_files.hpp"
 
 namespace dynamic_filter::app {
 
@@ -65,7 +66,7 @@ void write_scan(const sim::SimulationOptions& options, const std::filesystem::pa
     } else {
         io::write_bin(scans / (stem + ".bin"), scan.points, scan.intensity, io::Durable::contents);
     }
-    io::write_numbered_labels(folder / "labels" / (stem + ".label"), numbered_labels(scan),
+    io::write_numbered_labels(io::label_file(folder / "labels", stem), numbered_labels(scan),
                               io::Durable::contents);
 }
 

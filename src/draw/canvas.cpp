@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/numbers.hpp"
+
 namespace dynamic_filter::app {
 
 namespace {
@@ -54,10 +56,8 @@ Eigen::AlignedBox3f box_of(const Points& points, float share) {
         std::transform(points.begin(), points.end(), values.begin(),
                        [&](const Point& p) { return p[axis]; });
         const auto at = [&](float part) {
-            const auto n =
-                static_cast<std::ptrdiff_t>(part * static_cast<float>(values.size() - 1));
-            std::nth_element(values.begin(), values.begin() + n, values.end());
-            return values[static_cast<std::size_t>(n)];
+            return value_at_rank(
+                values, static_cast<std::size_t>(part * static_cast<float>(values.size() - 1)));
         };
         low[axis] = at(share);
         high[axis] = at(1.0F - share);

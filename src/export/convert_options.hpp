@@ -18,6 +18,7 @@ struct ConvertOptions {
                          ///< by the output's name
     std::string origin;  ///< of 3dtiles: LAT,LON[,HEIGHT]; may be empty
     bool overwrite = false;
+    bool keep_unknown = true;  ///< map.keep_unknown of the result whose labels are written
 };
 
 }  // namespace dynamic_filter::app

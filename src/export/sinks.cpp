@@ -12,6 +12,8 @@
 #include "dynamic_filter/bag.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/writers.hpp"
+#include "formats/label_files.hpp"
+#include "geometry/kept.hpp"
 #include "recording/frames.hpp"
 #include "recording/world_records.hpp"
 
@@ -48,7 +50,7 @@ public:
         fields_ = frame.cloud.fields;
         io::write_bin(scans_ / (name + ".bin"), frame.points, intensities(frame.cloud));
         if (!labels.empty()) {
-            io::write_labels(output_.subfolder("labels") / (name + ".label"), labels);
+            io::write_labels(io::label_file(output_.subfolder("labels"), name), labels);
         }
         poses_.push_back(frame.T_world_sensor);
         stamps_.push_back(frame.stamp);
@@ -124,10 +126,11 @@ private:
 class BagSink final : public Sink {
 public:
     /// `map`: a cloud in the world's frame that is written, too.
-    BagSink(const fs::path& file, std::optional<fs::path> map)
+    BagSink(const fs::path& file, std::optional<fs::path> map, bool keep_unknown)
         : writer_(io::BagWriter::create(file)),
           encoding_(writer_->encoding()),
-          map_(std::move(map)) {}
+          map_(std::move(map)),
+          keep_unknown_(keep_unknown) {}
 
     void append(const io::Frame& frame, const Labels& labels) override {
         last_ = frame.stamp;
@@ -144,8 +147,8 @@ public:
         };
         write_points("/points", cloud);
         if (labels.empty()) return;
-        write_points("/points_static", part(cloud, labels, Label::static_));
-        write_points("/points_dynamic", part(cloud, labels, Label::dynamic));
+        write_points("/points_static", part(cloud, labels, Kept::in_map));
+        write_points("/points_dynamic", part(cloud, labels, Kept::removed));
     }
     std::string commit() override {
         if (map_) {
@@ -172,11 +175,12 @@ private:
         cloud.data = world_records(local, cloud);
         return cloud;
     }
-    static io::Cloud part(const io::Cloud& cloud, const Labels& labels, Label label) {
+    [[nodiscard]] io::Cloud part(const io::Cloud& cloud, const Labels& labels, Kept kept) const {
         io::Cloud result = cloud;
         result.data.clear();
         for (std::size_t i = 0; i < labels.size(); ++i) {
-            if (labels[i] == label) append_record(result.data, cloud.data, i, cloud.point_bytes);
+            if (where(labels[i], false, keep_unknown_) != kept) continue;
+            append_record(result.data, cloud.data, i, cloud.point_bytes);
         }
         return result;
     }
@@ -184,6 +188,7 @@ private:
     std::unique_ptr<io::BagWriter> writer_;
     io::MessageEncoding encoding_;
     std::optional<fs::path> map_;
+    bool keep_unknown_;
     double last_ = 0.0;  // [s]
     std::string rounded_;
 };
@@ -225,12 +230,6 @@ private:
     std::size_t unmeasured_ = 0;
 };
 
-void refuse_existing(const ConvertOptions& o) {
-    if (fs::exists(o.output) && !o.overwrite) {
-        throw ConfigError(o.output.string() + ": exists; choose another, or --overwrite");
-    }
-}
-
 }  // namespace
 
 void append_record(std::vector<std::byte>& to, std::span<const std::byte> records, std::size_t i,
@@ -246,7 +245,7 @@ void check_cloud_output(const ConvertOptions& o) {
                         "none for a folder",
                         o.output.string(), io::cloud_kinds_written()));
     }
-    refuse_existing(o);
+    refuse_existing(o.output, o.overwrite);
 }
 
 std::unique_ptr<Sink> make_sink(const ConvertOptions& o) {
@@ -255,10 +254,11 @@ std::unique_ptr<Sink> make_sink(const ConvertOptions& o) {
         return std::make_unique<KittiSink>(o.output, o.overwrite);
     }
     if (io::BagWriter::recognises(o.output)) {
-        refuse_existing(o);
+        refuse_existing(o.output, o.overwrite);
         const fs::path map = o.labels.value_or("") / "static_map.pcd";
         return std::make_unique<BagSink>(
-            o.output, o.labels && fs::exists(map) ? std::optional(map) : std::nullopt);
+            o.output, o.labels && fs::exists(map) ? std::optional(map) : std::nullopt,
+            o.keep_unknown);
     }
     check_cloud_output(o);
     return std::make_unique<MapSink>(o.output);

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
@@ -206,8 +207,8 @@ GeoOrigin geo_origin(const std::string& text) {
 Eigen::Matrix4d earth_from_world(const GeoOrigin& origin) {
     constexpr double kEquator = 6378137.0, kFlattening = 1.0 / 298.257223563;  // WGS 84
     constexpr double kSquare = kFlattening * (2.0 - kFlattening);
-    const double latitude = origin.latitude_deg * M_PI / 180.0;
-    const double longitude = origin.longitude_deg * M_PI / 180.0;
+    const double latitude = origin.latitude_deg * std::numbers::pi / 180.0;
+    const double longitude = origin.longitude_deg * std::numbers::pi / 180.0;
     const double sin_lat = std::sin(latitude), cos_lat = std::cos(latitude);
     const double sin_lon = std::sin(longitude), cos_lon = std::cos(longitude);
     const double normal = kEquator / std::sqrt(1.0 - kSquare * sin_lat * sin_lat);

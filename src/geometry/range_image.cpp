@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/best_kernel.hpp"
+#include "base/numbers.hpp"
 #include "geometry/project_kernel.hpp"
 
 namespace dynamic_filter {
@@ -14,14 +15,6 @@ namespace dynamic_filter {
 namespace {
 
 constexpr float kTwoPi = 2.0F * std::numbers::pi_v<float>;
-
-/// Median gap; 0 if there are no gaps. Changes the order of `gaps`.
-float median_gap(std::vector<float>& gaps) {
-    if (gaps.empty()) return 0.0F;
-    const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
-    std::nth_element(gaps.begin(), middle, gaps.end());
-    return *middle;
-}
 
 struct Direction {
     float slice;  ///< the angle by which points are grouped
@@ -41,7 +34,7 @@ float spacing(std::vector<Direction>& directions, float width) {
         const float gap = directions[i].angle - directions[i - 1].angle;
         if (directions[i].slice == directions[i - 1].slice && gap > kJitter) gaps.push_back(gap);
     }
-    return median_gap(gaps);
+    return median(std::move(gaps));
 }
 
 }  // namespace
@@ -128,7 +121,7 @@ BeamPattern estimate_beam_pattern(std::span<const Scan> scans) {
     }
     std::erase(elevation_spacings, 0.0F);
     std::erase(azimuth_spacings, 0.0F);
-    return {median_gap(azimuth_spacings), median_gap(elevation_spacings)};
+    return {median(std::move(azimuth_spacings)), median(std::move(elevation_spacings))};
 }
 
 ElevationRange elevation_range(std::span<const Point> points) {

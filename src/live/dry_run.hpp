@@ -2,6 +2,7 @@
 /// What `live --dry-run` says: what is there, what fits, and what is missing.
 #pragma once
 
+#include "live/bus.hpp"
 #include "live/live_config.hpp"
 
 namespace dynamic_filter::live {

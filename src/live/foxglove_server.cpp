@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 #include <libwebsockets.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstring>
@@ -23,7 +26,7 @@
 #include "live/foxglove_handshake.hpp"
 #include "live/foxglove_protocol.hpp"
 #include "live/foxglove_queue.hpp"
-#include "live/foxglove_socket.hpp"
+#include "page/listener.hpp"
 
 namespace dynamic_filter::live {
 
@@ -66,6 +69,7 @@ struct FoxgloveServer::Engine {
     };
     struct Handshaking {
         int socket;
+        std::uint64_t number;  // counts up
         std::string head{};
     };
     struct Accepted {
@@ -95,8 +99,10 @@ struct FoxgloveServer::Engine {
     std::vector<std::string> notices;
 
     // Only for the service thread:
-    int listener = -1;  // libwebsockets closes it
+    int listener = -1;         // libwebsockets closes it
+    lws* listening = nullptr;  // the same to libwebsockets
     std::map<lws*, Handshaking> handshakes;
+    std::uint64_t accepted_count = 0;
     std::vector<Accepted> accepted;
     std::vector<unsigned char> fragment = std::vector<unsigned char>(LWS_PRE + kFragment);
 
@@ -109,7 +115,8 @@ struct FoxgloveServer::Engine {
     static int on_websocket(lws*, lws_callback_reasons, void*, void*, std::size_t);
     int handle_websocket(lws*, lws_callback_reasons, const void* bytes, std::size_t size);
 
-    void accept_all();
+    void accept_some();
+    void give_up_oldest_handshake();
     bool read_handshake(lws* wsi);
     Handshake judge(const std::string& head);
 
@@ -132,6 +139,21 @@ void say(FoxgloveQueue& queue, FoxgloveLevel level, const std::string& message) 
     if (queue.texts() < kMostTexts) queue.put_text(status(level, message));
 }
 
+void set(int socket, int level, int option, int value) {
+    setsockopt(socket, level, option, &value, sizeof value);
+}
+
+/// The connection ends if the client vanishes, and keeps little of what is sent in the system,
+/// where it gets old.
+void limit(int client) {
+    constexpr int kUnsent = 256 << 10, kGoneMs = 60000, kIdleSeconds = 20;
+    set(client, IPPROTO_TCP, TCP_NODELAY, 1);
+    set(client, IPPROTO_TCP, TCP_NOTSENT_LOWAT, kUnsent);
+    set(client, IPPROTO_TCP, TCP_USER_TIMEOUT, kGoneMs);
+    set(client, IPPROTO_TCP, TCP_KEEPIDLE, kIdleSeconds);
+    set(client, SOL_SOCKET, SO_KEEPALIVE, 1);
+}
+
 /// It is short, so that a new connection takes it at once.
 void send_refusal(int socket, const std::string& response) {
     [[maybe_unused]] const auto sent =
@@ -142,8 +164,8 @@ void send_refusal(int socket, const std::string& response) {
 }  // namespace
 
 void FoxgloveServer::Engine::open() {
-    listener = listen_at(options.address, options.port);
-    port = port_of(listener);
+    listener = app::listen_at(options.address, options.port, "foxglove.port");
+    port = app::port_of(listener);
     lws_set_log_level(0, nullptr);  // its messages are for its developers
     static const lws_protocols kProtocols[] = {
         {"file", on_file, 0, 0, 0, nullptr, 0},
@@ -160,8 +182,9 @@ void FoxgloveServer::Engine::open() {
     context = lws_create_context(&info);
     host = context == nullptr ? nullptr : lws_create_vhost(context, &info);
     if (host == nullptr) close(listener);
-    if (host == nullptr || adopt_file(listener) == nullptr) {
-        throw OutputError(address_text(options.address, port),
+    listening = host == nullptr ? nullptr : adopt_file(listener);
+    if (listening == nullptr) {
+        throw OutputError(app::address_text(options.address, port),
                           "cannot listen: libwebsockets does not start; is there memory left?");
     }
     thread = std::thread([this] { run(); });
@@ -203,7 +226,8 @@ int FoxgloveServer::Engine::on_file(lws* wsi, lws_callback_reasons reason, void*
         switch (reason) {
             case LWS_CALLBACK_RAW_RX_FILE:
                 if (engine.handshakes.contains(wsi)) return engine.read_handshake(wsi) ? 0 : -1;
-                engine.accept_all();
+                if (wsi != engine.listening) return -1;  // it gave way
+                engine.accept_some();
                 return 0;
             case LWS_CALLBACK_RAW_CLOSE_FILE:
                 engine.handshakes.erase(wsi);
@@ -219,17 +243,28 @@ int FoxgloveServer::Engine::on_file(lws* wsi, lws_callback_reasons reason, void*
     }
 }
 
-void FoxgloveServer::Engine::accept_all() {
-    for (int socket = accept_at(listener); socket >= 0; socket = accept_at(listener)) {
-        if (handshakes.size() >= kMostHandshakes) {
-            close(socket);
-            continue;
-        }
+/// Where too many have not asked yet, the one that has had most time for it gives way, so that
+/// connections that say nothing keep nobody out.
+void FoxgloveServer::Engine::accept_some() {
+    // Those that give way are closed only after this call; libwebsockets has no table for more.
+    for (std::size_t i = 0; i < kMostHandshakes; ++i) {
+        const int socket = app::accept_at(listener);
+        if (socket < 0) return;
+        limit(socket);
+        if (handshakes.size() >= kMostHandshakes) give_up_oldest_handshake();
         lws* const wsi = adopt_file(socket);
         if (wsi == nullptr) continue;
-        handshakes.emplace(wsi, Handshaking{socket});
+        handshakes.emplace(wsi, Handshaking{socket, ++accepted_count});
         lws_set_timeout(wsi, PENDING_TIMEOUT_USER_OK, kHandshakeSeconds);
     }
+}
+
+void FoxgloveServer::Engine::give_up_oldest_handshake() {
+    const auto oldest = std::ranges::min_element(
+        handshakes, {}, [](const auto& entry) { return entry.second.number; });
+    lws* const wsi = oldest->first;
+    handshakes.erase(oldest);
+    lws_set_timeout(wsi, PENDING_TIMEOUT_USER_OK, LWS_TO_KILL_ASYNC);
 }
 
 /// False to close the file; an accepted connection goes on with a copy of it.
@@ -503,7 +538,7 @@ std::vector<std::string> FoxgloveServer::take_notices() {
 std::uint16_t FoxgloveServer::port() const { return engine_->port; }
 
 std::string FoxgloveServer::url() const {
-    return "ws://" + address_text(engine_->options.address, engine_->port);
+    return "ws://" + app::address_text(engine_->options.address, engine_->port);
 }
 
 std::size_t FoxgloveServer::clients() const {

@@ -140,7 +140,7 @@ void Intake::read_pose_message(const Arrived& arrived) {
     if (io::kind_of(arrived.topic.type) == io::MessageKind::transforms) {
         return add_transforms(io::read_transforms(message), arrived.is_static);
     }
-    io::StampedPose pose = io::read_pose_message(message);
+    io::PoseMessage pose = io::read_pose_message(message);
     if (!pose.T_parent_child.matrix().allFinite() || !std::isfinite(pose.stamp)) return;
     note_clock(pose.stamp, newest_stamps_[arrived.topic.name], arrived.topic.name);
     io::PoseTopic& topic = topics_[arrived.topic.name];
@@ -150,8 +150,8 @@ void Intake::read_pose_message(const Arrived& arrived) {
     topic.trajectory.poses.push_back(pose.T_parent_child);
 }
 
-void Intake::add_transforms(const std::vector<io::StampedPose>& transforms, bool is_static) {
-    for (const io::StampedPose& transform : transforms) {
+void Intake::add_transforms(const std::vector<io::PoseMessage>& transforms, bool is_static) {
+    for (const io::PoseMessage& transform : transforms) {
         if (!transform.T_parent_child.matrix().allFinite()) continue;
         if (!frames_.knows(transform.child) && frames_.size() >= kMostFrames) continue;
         if (!is_static) {

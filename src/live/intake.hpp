@@ -14,6 +14,7 @@
 
 #include "dynamic_filter/cloud.hpp"
 #include "dynamic_filter/types.hpp"
+#include "live/bus.hpp"
 #include "live/live_config.hpp"
 #include "recording/frame_tree.hpp"
 #include "recording/pose_source.hpp"
@@ -87,7 +88,7 @@ private:
     void drop_clouds(SteadyTime now);
     void read_poses();
     void read_pose_message(const Arrived& arrived);
-    void add_transforms(const std::vector<io::StampedPose>& transforms, bool is_static);
+    void add_transforms(const std::vector<io::PoseMessage>& transforms, bool is_static);
     void note_clock(double stamp, double& newest, const std::string& of);
     void forget_old_poses();
     std::optional<LiveScan> read_cloud();

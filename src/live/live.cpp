@@ -185,8 +185,7 @@ int finish(Recorder& recorder, const LiveOptions& o, const LiveConfig& config, b
 
 }  // namespace
 
-int live(Bus& bus, const LiveOptions& o) {
-    LiveConfig config = load_live_config(o, bus.take_parameters());
+int live(Bus& bus, const LiveOptions& o, LiveConfig config) {
     if (o.settings) {
         fmt::print("{}", to_toml(config));
         return app::kDone;

@@ -8,13 +8,12 @@
 #include <vector>
 
 #include "live/bus.hpp"
+#include "live/live_config.hpp"
 
 namespace dynamic_filter::live {
 
 struct LiveOptions {
-    std::optional<std::filesystem::path> file;  ///< TOML with the settings of live and filter
-    std::vector<std::string> assignments;       ///< "section.key=value"
-    std::string preset = "default";
+    app::ConfigOptions config;                    ///< the settings of live and of the filter
     std::optional<std::filesystem::path> record;  ///< output folder, completed at the end
     bool dry_run = false, overwrite = false, quiet = false;
     double look = 5.0;      ///< [s] of listening in a dry run
@@ -22,8 +21,8 @@ struct LiveOptions {
 };
 
 /// Filters what the bus delivers until SIGINT or SIGTERM; in a dry run, says what is there, what
-/// fits and what is missing. Values of the bus's parameters come before those of the file. Returns
+/// fits and what is missing. `config` is what load_live_config() returned for the options. Returns
 /// the exit code of the command. Throws ConfigError, OutputError, Error.
-int live(Bus& bus, const LiveOptions& options);
+int live(Bus& bus, const LiveOptions& options, LiveConfig config);
 
 }  // namespace dynamic_filter::live

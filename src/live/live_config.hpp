@@ -6,12 +6,13 @@
 #include <utility>
 #include <vector>
 
+#include "dynamic_filter/parallel.hpp"
 #include "dynamic_filter/settings.hpp"
-#include "live/live.hpp"
+#include "settings/config_file.hpp"
 
 namespace dynamic_filter::live {
 
-/// Each field is explained by visit_live().
+/// Each field is explained by its row in visit_live().
 struct LiveConfig {
     struct Bus {
         int domain = 0;
@@ -41,106 +42,101 @@ struct LiveConfig {
     Config filter{};
 };
 
-/// What a user may give a setting of LiveConfig.
-struct LiveSetting {
-    std::string_view key, unit, help;
-    double min = 0.0, max = 0.0;  ///< inclusive, for numbers
-    std::string_view choices{};   ///< of a text, separated by blanks; empty: any
-    bool changes_while_running = false;
-};
-
 /// Calls f(setting, member) for every field but the filter's, in the order of the struct.
 template <class C, class F>
 void visit_live(C& c, F&& f) {
-    f(LiveSetting{"bus.domain", "", "DDS domain, as ROS_DOMAIN_ID; ROS 2 only", 0, 232},
+    constexpr bool kWhileRunning = true;
+    f(Setting{"bus.domain", "", "", "DDS domain, as ROS_DOMAIN_ID; ROS 2 only", 0, 232},
       c.bus.domain);
-    f(LiveSetting{"bus.network", "",
-                  "localhost, all (the default interface), or the name of an interface such as "
-                  "eth0; empty: what CYCLONEDDS_URI says, or else localhost; ROS 2 only"},
+    f(Setting{"bus.network", "", "",
+              "localhost, all (the default interface), or the name of an interface such as eth0; "
+              "empty: what CYCLONEDDS_URI says, or else localhost; ROS 2 only"},
       c.bus.network);
-    f(LiveSetting{"input.cloud", "", "topic of the scans; empty: the only one"}, c.input.cloud);
-    f(LiveSetting{"input.pose", "",
-                  "/tf, a topic of Odometry or PoseStamped, or none for own odometry; empty: /tf, "
-                  "or else the first topic with poses, or else own odometry"},
+    f(Setting{"input.cloud", "", "", "topic of the scans; empty: the only one"}, c.input.cloud);
+    f(Setting{"input.pose", "", "",
+              "/tf, a topic of Odometry or PoseStamped, or none for own odometry; empty: /tf, or "
+              "else the first topic with poses, or else own odometry"},
       c.input.pose);
-    f(LiveSetting{"input.world", "",
-                  "frame of /tf in which the map is; empty: the root of the frame of the scans"},
+    f(Setting{"input.world", "", "",
+              "frame of /tf in which the map is; empty: the root of the frame of the scans"},
       c.input.world);
-    f(LiveSetting{"input.qos", "",
-                  "auto asks for what the publisher offers; with reliable, lost packets are sent "
-                  "again",
-                  0, 0, "auto reliable best_effort"},
+    f(Setting{"input.qos", "", "",
+              "auto asks for what the publisher offers; with reliable, lost packets are sent again",
+              0, 0, kAllMethods, "auto reliable best_effort"},
       c.input.qos);
-    f(LiveSetting{"input.wait", "s", "how long a scan waits for its pose", 0, 10}, c.input.wait);
-    f(LiveSetting{"input.decide", "s",
-                  "with an empty input.pose: how long scans come without any pose until the own "
-                  "odometry begins",
-                  0, 3600},
+    f(Setting{"input.wait", "s", "", "how long a scan waits for its pose", 0, 10}, c.input.wait);
+    f(Setting{"input.decide", "s", "",
+              "with an empty input.pose: how long scans come without any pose until the own "
+              "odometry begins",
+              0, 3600},
       c.input.decide);
-    f(LiveSetting{"input.silence",
-                  "s",
-                  "without a scan for so long, the input has stopped",
-                  0.1,
-                  3600,
-                  {},
-                  true},
+    f(Setting{"input.silence", "s", "", "without a scan for so long, the input has stopped", 0.1,
+              3600, kAllMethods, "", kWhileRunning},
       c.input.silence);
-    f(LiveSetting{"input.queue", "", "number of scans that may wait for the filter", 1, 100},
+    f(Setting{"input.queue", "", "", "number of scans that may wait for the filter", 1, 100},
       c.input.queue);
-    f(LiveSetting{"input.deskew", "",
-                  "whether the motion of the sensor during each scan is undone; scans must hold "
-                  "the times of their points"},
+    f(Setting{"input.deskew", "", "",
+              "whether the motion of the sensor during each scan is undone; scans must hold the "
+              "times of their points"},
       c.input.deskew);
-    f(LiveSetting{"output.prefix", "", "what the names of the published topics begin with"},
+    f(Setting{"output.prefix", "", "", "what the names of the published topics begin with"},
       c.output.prefix);
-    f(LiveSetting{"output.qos", "", "how scans are published", 0, 0, "reliable best_effort"},
+    f(Setting{"output.qos", "", "", "how scans are published", 0, 0, kAllMethods,
+              "reliable best_effort"},
       c.output.qos);
-    f(LiveSetting{"output.map_frame", "", "name of the world frame of the own odometry"},
+    f(Setting{"output.map_frame", "", "", "name of the world frame of the own odometry"},
       c.output.map_frame);
-    f(LiveSetting{"output.map_rate",
-                  "Hz",
-                  "how often the local static map is published; 0: never",
-                  0,
-                  50,
-                  {},
-                  true},
+    f(Setting{"output.map_rate", "Hz", "", "how often the local static map is published; 0: never",
+              0, 50, kAllMethods, "", kWhileRunning},
       c.output.map_rate);
-    f(LiveSetting{"output.map_radius", "m", "radius of the local static map", 1, 1000, {}, true},
+    f(Setting{"output.map_radius", "m", "", "radius of the local static map", 1, 1000, kAllMethods,
+              "", kWhileRunning},
       c.output.map_radius);
-    f(LiveSetting{"output.settle_after", "",
-                  "corrections of a scan are published after so many later scans; 0: none", 0,
-                  1000},
+    f(Setting{"output.settle_after", "", "",
+              "corrections of a scan are published after so many later scans; 0: none", 0, 1000},
       c.output.settle_after);
-    f(LiveSetting{"output.transform", "",
-                  "whether the own odometry publishes the transform of its world frame in /tf"},
+    f(Setting{"output.transform", "", "",
+              "whether the own odometry publishes the transform of its world frame in /tf"},
       c.output.transform);
-    f(LiveSetting{"foxglove.serve", "", "whether Foxglove and Lichtblick can connect"},
+    f(Setting{"foxglove.serve", "", "", "whether Foxglove and Lichtblick can connect"},
       c.foxglove.serve);
-    f(LiveSetting{"foxglove.address", "",
-                  "on which the server for Foxglove listens; 0.0.0.0 lets other machines see the "
-                  "sensor's data"},
+    f(Setting{"foxglove.address", "", "",
+              "on which the server for Foxglove listens; 0.0.0.0 lets other machines see the "
+              "sensor's data"},
       c.foxglove.address);
-    f(LiveSetting{"foxglove.port", "", "of the server for Foxglove; 0: any that is free", 0, 65535},
+    f(Setting{"foxglove.port", "", "", "of the server for Foxglove; 0: any that is free", 0, 65535},
       c.foxglove.port);
-    f(LiveSetting{"foxglove.origins", "",
-                  "further web pages that may connect, separated by blanks, such as "
-                  "https://foxglove.example.org"},
+    f(Setting{"foxglove.origins", "", "",
+              "further web pages that may connect, separated by blanks, such as "
+              "https://foxglove.example.org"},
       c.foxglove.origins);
-    f(LiveSetting{"limits.horizon", "m", "the map farther away than this is forgotten; 0: never", 0,
-                  1e6},
+    f(Setting{"limits.horizon", "m", "", "the map farther away than this is forgotten; 0: never", 0,
+              1e6},
       c.limits.horizon);
-    f(LiveSetting{"limits.map_mib", "MiB", "limit on the memory of the map; 0: none", 0, 1e6},
+    f(Setting{"limits.map_mib", "MiB", "", "limit on the memory of the map; 0: none", 0, 1e6},
       c.limits.map_mib);
-    f(LiveSetting{"limits.threads", "", "threads for the computations; 0: all cores", 0, 1024},
+    f(Setting{"limits.threads", "", "", "threads for the computations; 0: all cores", 0,
+              kMostThreads},
       c.limits.threads);
+}
+
+/// Calls f(setting, member) for every field, also of the filter.
+template <class C, class F>
+requires std::same_as<std::remove_const_t<C>, LiveConfig>
+void visit(C& c, F&& f) {
+    visit_live(c, f);
+    visit(c.filter, f);
 }
 
 /// Sets one setting of live or of the filter. Throws ConfigError, which names the nearest key.
 void set(LiveConfig& config, const std::string& key, const std::string& value);
 
+/// Throws ConfigError that lists what is wrong.
+void validate(const LiveConfig& config);
+
 /// Preset, then parameters of the bus, then file, then assignments; checked. Throws ConfigError
 /// that names all mistakes. ROS_DOMAIN_ID is the default of bus.domain.
-LiveConfig load_live_config(const LiveOptions& options,
+LiveConfig load_live_config(const app::ConfigOptions& options,
                             const std::vector<std::pair<std::string, std::string>>& parameters);
 
 /// Keys of the settings that may change while the filter runs.
@@ -148,7 +144,7 @@ std::vector<std::string> changing_settings();
 /// Sets one of changing_settings(). Throws ConfigError for any other.
 void change(LiveConfig& config, const std::string& key, const std::string& value);
 
-/// Every setting of live as TOML, with its meaning as a comment.
+/// Every setting of live, but not of the filter, as TOML with its meaning as a comment.
 std::string to_toml(const LiveConfig& config);
 
 }  // namespace dynamic_filter::live

@@ -6,17 +6,16 @@
 #include <string>
 #include <utility>
 
+#include "filter/voxel_bytes.hpp"
 #include "geometry/voxel.hpp"
 
 namespace dynamic_filter {
 
 namespace {
 
-/// Memory of the map per voxel, including the reserve of its containers.
-constexpr std::size_t kBytesPerVoxel = 172;
-
 Horizon horizon_of(const OnlineOptions& options) {
-    const std::size_t most = options.max_bytes > 0 ? options.max_bytes / kBytesPerVoxel : SIZE_MAX;
+    const std::size_t most =
+        options.max_bytes > 0 ? options.max_bytes / kOnlineVoxelBytes : SIZE_MAX;
     return {options.horizon, most};
 }
 

@@ -12,20 +12,15 @@
 #include "dynamic_filter/parallel.hpp"
 #include "online/maps.hpp"
 #include "online/scan_queue.hpp"
+#include "settings/table.hpp"
 
 namespace dynamic_filter {
 
 namespace {
 
 OnlineOptions checked(OnlineOptions options) {
-    if (options.queue == 0) throw ConfigError("OnlineOptions::queue is 0; expected 1 or more");
-    if (!(options.horizon >= 0.0)) {
-        throw ConfigError("OnlineOptions::horizon is not a length; expected 0 (none) or more");
-    }
-    constexpr int kMost = 1024;  // oneTBB stores this number in 16 bits
-    if (options.threads < 0 || options.threads > kMost) {
-        throw ConfigError("OnlineOptions::threads is " + std::to_string(options.threads) +
-                          "; expected 0 (all cores) to " + std::to_string(kMost));
+    for (const std::string& fault : violations(options)) {
+        throw ConfigError("OnlineOptions: " + fault);
     }
     return options;
 }
@@ -35,6 +30,14 @@ void answer(QueuedScan& scan, std::optional<Verdict> verdict) {
 }
 
 }  // namespace
+
+std::vector<std::string> violations(const OnlineOptions& options) {
+    std::vector<std::string> found;
+    for (const settings::Row& row : settings::rows_of(options)) {
+        if (auto fault = settings::out_of_bounds(row)) found.push_back(std::move(*fault));
+    }
+    return found;
+}
 
 /// There are two locks: `map_lock` guards the maps, and `lock` guards the queue and the counters. A
 /// thread that holds `lock` takes no other lock. Callbacks are called without a lock.

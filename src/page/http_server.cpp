@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "page/http_server.hpp"
 
-#include <arpa/inet.h>
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -20,45 +17,13 @@
 #include <vector>
 
 #include "dynamic_filter/error.hpp"
+#include "page/listener.hpp"
 
 namespace dynamic_filter::app {
 
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-void make_nonblocking(int descriptor) {
-    fcntl(descriptor, F_SETFL, fcntl(descriptor, F_GETFL) | O_NONBLOCK);
-    fcntl(descriptor, F_SETFD, FD_CLOEXEC);
-}
-
-int listen_on(std::uint16_t port) {
-    const int listener = socket(AF_INET, SOCK_STREAM, 0);
-    const int yes = 1;
-    setsockopt(listener, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(port);
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    const bool ok =
-        bind(listener, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0 &&
-        listen(listener, SOMAXCONN) == 0;
-    if (!ok) {
-        const std::string why = std::strerror(errno);
-        close(listener);
-        throw OutputError(fmt::format("127.0.0.1:{}", port),
-                          "cannot listen: " + why + "; choose another --port");
-    }
-    make_nonblocking(listener);
-    return listener;
-}
-
-std::uint16_t port_of(int listener) {
-    sockaddr_in address{};
-    socklen_t size = sizeof address;
-    getsockname(listener, reinterpret_cast<sockaddr*>(&address), &size);
-    return ntohs(address.sin_port);
-}
 
 std::string head_of(const HttpAnswer& answer) {
     return fmt::format(
@@ -135,7 +100,7 @@ struct HttpServer::Connection {
 HttpServer::HttpServer(std::uint16_t port, HttpHandler handler, HttpLimits limits)
     : handler_(std::move(handler)),
       limits_(limits),
-      listener_(listen_on(port)),
+      listener_(listen_at("127.0.0.1", port, "--port")),
       port_(port_of(listener_)) {
     if (pipe(wake_) != 0) {
         close(listener_);
@@ -154,12 +119,34 @@ HttpServer::~HttpServer() {
 
 std::string HttpServer::url() const { return fmt::format("http://127.0.0.1:{}/", port_); }
 
+/// Whether one more may come: where all places are taken, one that has not asked yet gives way.
+bool HttpServer::has_room(const std::list<Connection>& connections) const {
+    return connections.size() < limits_.connections ||
+           !std::ranges::all_of(connections, &Connection::answering);
+}
+
+/// So connections that say nothing keep nobody out. No more than that at a time, so that those
+/// before them are read and answered in between.
+void HttpServer::accept_some(std::list<Connection>& connections) const {
+    for (std::size_t i = 0; i < limits_.connections && has_room(connections); ++i) {
+        const int descriptor = accept_at(listener_);
+        if (descriptor < 0) return;
+        if (connections.size() >= limits_.connections) {
+            const auto oldest = std::ranges::find(connections, false, &Connection::answering);
+            close(oldest->descriptor);
+            connections.erase(oldest);
+        }
+        connections.push_back({.descriptor = descriptor, .limits = limits_});
+        // What asks at once is not silent when others come.
+        connections.back().read(handler_, port_);
+    }
+}
+
 void HttpServer::serve() {
     std::list<Connection> connections;
     std::vector<pollfd> polled;
     while (true) {
-        const bool room = connections.size() < limits_.connections;
-        polled = {{wake_[0], POLLIN, 0}, {room ? listener_ : -1, POLLIN, 0}};
+        polled = {{wake_[0], POLLIN, 0}, {has_room(connections) ? listener_ : -1, POLLIN, 0}};
         for (const Connection& c : connections) {
             polled.push_back({c.descriptor, static_cast<short>(c.answering ? POLLOUT : POLLIN), 0});
         }
@@ -178,12 +165,7 @@ void HttpServer::serve() {
             if (c->over) close(c->descriptor);
             c = c->over ? connections.erase(c) : std::next(c);
         }
-        while (polled[1].revents != 0 && connections.size() < limits_.connections) {
-            const int descriptor = accept(listener_, nullptr, nullptr);
-            if (descriptor < 0) break;
-            make_nonblocking(descriptor);
-            connections.push_back({.descriptor = descriptor, .limits = limits_});
-        }
+        if (polled[1].revents != 0) accept_some(connections);
     }
     for (const Connection& c : connections) close(c.descriptor);
 }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <list>
 #include <memory>
 #include <string>
 #include <thread>
@@ -28,12 +29,12 @@ struct HttpLimits {
     std::chrono::milliseconds to_ask{5000}, to_read{60000};  ///< a client's time
 };
 
-/// What a viewer needs of HTTP, and nothing else: GET, HEAD and, where a
-/// body is allowed, POST on 127.0.0.1, one request a
-/// connection, in one thread of its own. Not a library's server, because those at hand give each
-/// client a thread, or take connections without bound: here all has limits, and those
-/// beyond the most connections wait in the kernel's queue. Requests that name another host or come
-/// from another site's page are refused (403).
+/// What a viewer needs of HTTP, and nothing else: GET, HEAD and, where a body is allowed, POST on
+/// 127.0.0.1, one request a connection, in one thread of its own. Not a library's server, because
+/// those at hand give each client a thread, or accept connections without bound. Here all has
+/// limits: where all connections are in use, a new one displaces the oldest one that has not asked
+/// yet, or else waits in the kernel's queue. Requests that name another host or come from another
+/// site's page are refused (403).
 class HttpServer {
 public:
     /// Port 0: any that is free. Throws OutputError if it cannot listen.
@@ -48,6 +49,8 @@ public:
 private:
     struct Connection;
     void serve();
+    void accept_some(std::list<Connection>& connections) const;
+    [[nodiscard]] bool has_room(const std::list<Connection>& connections) const;
 
     HttpHandler handler_;
     HttpLimits limits_;

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "base/json_vector.hpp"
+#include "base/numbers.hpp"
 #include "geometry/pose.hpp"
 #include "page/sampling.hpp"
 #include "page/shown.hpp"
@@ -59,15 +60,9 @@ auto column(const std::vector<ShownPoint>& cloud, const Get& get) {
 }
 
 std::vector<std::uint8_t> scaled_intensity(const std::vector<ShownPoint>& cloud) {
-    std::vector<float> sorted = column(cloud, [](const ShownPoint& p) { return p.intensity; });
-    std::erase_if(sorted, [](float value) { return !std::isfinite(value); });
-    float top = 1e-6F;
-    if (!sorted.empty()) {
-        const auto at =
-            sorted.begin() + static_cast<std::ptrdiff_t>(99 * (sorted.size() - 1) / 100);
-        std::nth_element(sorted.begin(), at, sorted.end());
-        top = std::max(top, *at);
-    }
+    std::vector<float> finite = column(cloud, [](const ShownPoint& p) { return p.intensity; });
+    std::erase_if(finite, [](float value) { return !std::isfinite(value); });
+    const float top = std::max(1e-6F, usual_most(std::move(finite)));
     return column(cloud, [&](const ShownPoint& p) {
         const float share = std::isfinite(p.intensity) ? p.intensity / top : 0.0F;
         return static_cast<std::uint8_t>(255.0F * std::clamp(share, 0.0F, 1.0F));

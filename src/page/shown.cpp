@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "dynamic_filter/writers.hpp"
+#include "formats/label_files.hpp"
 #include "geometry/verdict_code.hpp"
 #include "page/sampling.hpp"
 #include "recording/frames.hpp"
@@ -103,7 +104,7 @@ Shown collect(const ViewInput& in, const Eigen::Vector3d& origin) {
     shown.frame_of_scan.assign(n, -1);
     std::vector<Drawn> drawn(in.sequence.size());
     const auto draw_both = [&](std::size_t i, MaybeFrame& maybe) {
-        const Labels labels = io::read_labels(in.labels / (io::stem(in.sequence, i) + ".label"));
+        const Labels labels = io::read_labels(io::label_file(in.labels, io::stem(in.sequence, i)));
         const std::size_t row = row_of[i];
         const auto intensity = in.sequence.intensity_is_truth ? std::vector<double>{}
                                                               : intensities(maybe.frame->cloud);

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/numbers.hpp"
 #include "page/sampling.hpp"
 
 namespace dynamic_filter::app {
@@ -60,15 +61,6 @@ TilePoints shown_of(const TilePoints& points, double voxel_size, std::size_t mos
     return shown;
 }
 
-/// The 99th percentile. A few voxels near a sensor at rest have far higher counts.
-double usual_most(const std::vector<std::uint32_t>& values) {
-    if (values.empty()) return 1.0;
-    std::vector<std::uint32_t> sorted = values;
-    const auto at = sorted.begin() + static_cast<std::ptrdiff_t>(99 * (sorted.size() - 1) / 100);
-    std::nth_element(sorted.begin(), at, sorted.end());
-    return std::max(1.0, static_cast<double>(*at));
-}
-
 std::uint8_t byte_of(double share) {
     return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(share, 0.0, 1.0)));
 }
@@ -107,7 +99,7 @@ unsigned drives_of(const TilePoints& points, std::size_t i) {
 void add_values(const TilePoints& points, const std::vector<std::size_t>& order, std::size_t drives,
                 PageRun& run) {
     constexpr std::uint8_t kStatic = 1U | 3U << 2U | 3U << 4U;
-    const double most = usual_most(points.scans);
+    const double most = std::max(1.0, static_cast<double>(usual_most(points.scans)));
     std::vector<std::uint8_t> scans, seen, probability;
     for (const std::size_t i : order) {
         scans.push_back(byte_of(points.scans[i] / most));

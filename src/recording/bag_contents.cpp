@@ -26,7 +26,7 @@ void take(BagContents& contents, const Message& message) {
         }
         case MessageKind::odometry:
         case MessageKind::pose: {
-            const StampedPose pose = read_pose_message(message);
+            const PoseMessage pose = read_pose_message(message);
             PoseTopic& found = contents.poses[message.topic.name];
             found.parent = pose.parent;
             found.child = pose.child;
@@ -37,7 +37,7 @@ void take(BagContents& contents, const Message& message) {
         }
         case MessageKind::transforms: {
             const bool is_static = message.topic.name.ends_with("tf_static");
-            for (const StampedPose& transform : read_transforms(message)) {
+            for (const PoseMessage& transform : read_transforms(message)) {
                 if (transform.T_parent_child.matrix().allFinite()) {
                     contents.frames.add(transform, is_static);
                 }

@@ -5,7 +5,7 @@
 
 namespace dynamic_filter::io {
 
-void FrameTree::add(const StampedPose& transform, bool is_static) {
+void FrameTree::add(const PoseMessage& transform, bool is_static) {
     const auto [it, fresh] = links_.try_emplace(transform.child);
     Link& link = it->second;
     if (fresh) {

@@ -16,7 +16,7 @@ class FrameTree {
 public:
     /// Adds a link, or its pose at another time. A frame keeps its first parent, and a static link
     /// its first pose; of poses with equal stamps, the first one is kept.
-    void add(const StampedPose& transform, bool is_static);
+    void add(const PoseMessage& transform, bool is_static);
     void put_in_order();  ///< call it after links are added, before the functions below
     /// Forgets the poses of moving links that are older than `stamp` [s], except the two newest.
     void forget_before(double stamp);

@@ -25,11 +25,7 @@ namespace {
 constexpr const char *kStaticFile = "static_map.pcd", *kDynamicFile = "dynamic_points.pcd";
 constexpr const char *kKept = "unedited", *kKeeping = ".unedited";
 
-Config config_of(const fs::path& run) {
-    Config config;
-    apply_toml(config, run / "config.toml");
-    return config;
-}
+Config config_of(const fs::path& run) { return load_config({.file = run / "config.toml"}); }
 
 /// A second name where the file system has such, or else a copy: files are only ever replaced.
 void link_or_copy(const fs::path& from, const fs::path& to) {

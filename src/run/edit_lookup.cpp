@@ -7,15 +7,6 @@
 
 namespace dynamic_filter::app {
 
-std::size_t EditLookup::Hash::operator()(const Key& key) const {
-    std::uint64_t hash = 0;
-    for (const std::int32_t part : key) {
-        hash = (hash ^ static_cast<std::uint32_t>(part)) * 0x9E3779B97F4A7C15ULL;
-        hash ^= hash >> 29U;
-    }
-    return hash;
-}
-
 EditLookup::EditLookup(const Edits& edits) : cell_size_(edits.cell_size) {
     for (const Edit& edit : edits.edits) {
         for (std::int32_t from = 0; from < 3; ++from) {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/numbers.hpp"
 #include "run/edits.hpp"
 
 namespace dynamic_filter::app {
@@ -24,9 +25,6 @@ public:
 
 private:
     using Key = std::array<std::int32_t, 4>;  // cell, verdict_code of `from`
-    struct Hash {
-        std::size_t operator()(const Key& key) const;
-    };
     static constexpr std::uint32_t kNone = UINT32_MAX;
     /// An edit of a cell. `before`: the earlier edit, used for scans outside of this one's range.
     struct Entry {
@@ -34,7 +32,7 @@ private:
         Label label;
     };
     double cell_size_;
-    tsl::robin_map<Key, std::uint32_t, Hash> newest_;
+    tsl::robin_map<Key, std::uint32_t, NumbersHash> newest_;
     std::vector<Entry> entries_;
 };
 

@@ -14,6 +14,7 @@
 #include "base/progress.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/parallel.hpp"
+#include "filter/voxel_bytes.hpp"
 #include "run/run.hpp"
 #include "run/tile_file.hpp"
 
@@ -23,10 +24,9 @@ namespace {
 
 constexpr double kGigabyte = 1e9, kMegabyte = 1e6;
 
-// [bytes] Measured, see docs/city.md: of a voxel with its index, its decision and its scores, of
-// the image of a keyframe per point of a scan, and of the program and the scans that are read
-// ahead.
-constexpr std::size_t kBytesPerVoxel = 520, kBytesPerPoint = 9, kBytesOfProgram = 150'000'000;
+// [bytes] Measured, see docs/city.md: of the image of a keyframe per point of a scan, and of the
+// program and the scans that are read ahead.
+constexpr std::size_t kBytesPerPoint = 9, kBytesOfProgram = 150'000'000;
 
 std::size_t halo_of(const TileWork& work) {
     if (work.tile.is_whole) return 0;
@@ -55,7 +55,7 @@ std::size_t memory_of(const TileWork& work, const Plan& plan, const Config& conf
     std::size_t points = 0;
     for (const PlannedDrive& drive : plan.drives) points = std::max(points, drive.most_points);
     const auto images = static_cast<std::size_t>(config.scans.max_keyframes);
-    return kBytesPerVoxel * (work.voxels + halo_of(work)) +
+    return kTileVoxelBytes * (work.voxels + halo_of(work)) +
            kBytesPerPoint * points * std::min(work.scans.size(), images);
 }
 

@@ -17,6 +17,7 @@
 #include "dynamic_filter/file.hpp"
 #include "dynamic_filter/online.hpp"
 #include "dynamic_filter/parallel.hpp"
+#include "formats/label_files.hpp"
 #include "page/page.hpp"
 #include "page/run_view.hpp"
 #include "recording/frames.hpp"
@@ -210,7 +211,7 @@ void score(Whole& whole) {
     std::vector<std::vector<Points>> near(whole.sequence.size());
     const auto find = [&](std::size_t i, MaybeFrame& maybe) {
         if (maybe.frame->truth.empty()) return;
-        const Labels labels = io::read_labels(folder / (io::stem(whole.sequence, i) + ".label"));
+        const Labels labels = io::read_labels(io::label_file(folder, io::stem(whole.sequence, i)));
         const Labels instant = whole.instant.get(i);
         near[i] = whole.scorer->near_removed(labelled(*maybe.frame, whole.scoring_origin),
                                              std::array<const Labels*, 2>{&labels, &instant});

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/parallel.hpp"
@@ -77,8 +77,8 @@ std::string log_of(const io::Sequence& sequence, const RunSummary& s) {
     add("dropped", s.dropped);
     if (const auto& beams = s.contents.beams) {
         log += fmt::format("beams    {:.2f} deg along azimuth, {:.2f} deg along elevation\n",
-                           beams->azimuth_spacing * 180.0 / M_PI,
-                           beams->elevation_spacing * 180.0 / M_PI);
+                           beams->azimuth_spacing * 180.0 / std::numbers::pi,
+                           beams->elevation_spacing * 180.0 / std::numbers::pi);
     }
     if (s.interrupted) log += "interrupted: only the scans filtered so far are here\n";
     return log;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/checked_file.hpp"
+#include "base/crc.hpp"
 #include "dynamic_filter/error.hpp"
 #include "geometry/verdict_code.hpp"
 

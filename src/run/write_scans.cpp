@@ -6,6 +6,7 @@
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
 #include "dynamic_filter/writers.hpp"
+#include "formats/label_files.hpp"
 #include "recording/frames.hpp"
 #include "run/map_files.hpp"
 #include "run/map_gaps.hpp"
@@ -31,7 +32,7 @@ void write_scans(const io::Sequence& sequence, const std::vector<std::size_t>& s
     const auto decide = [&](std::size_t i, MaybeFrame& maybe) {
         const io::Frame& frame = *maybe.frame;
         verdicts[i] = results.decide(i, frame);
-        io::write_labels(labels / (io::stem(sequence, i) + ".label"), verdicts[i].labels,
+        io::write_labels(io::label_file(labels, io::stem(sequence, i)), verdicts[i].labels,
                          io::Durable::contents);
         if (with_maps) {
             records[i] = maps.records_of(frame, verdicts[i]);

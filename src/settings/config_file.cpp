@@ -24,24 +24,15 @@ std::string setting_text(const toml::node& node) {
     return out.str();
 }
 
-void set_noting(Config& config, const Assigned& setting, const std::string& value,
-                std::vector<Assigned>& assigned, std::vector<std::string>& errors) {
-    try {
-        set(config, setting.key, value);
-        assigned.push_back(setting);
-    } catch (const ConfigError& error) {
-        errors.push_back(fmt::format("{}: {}", setting.where, error.what()));
-    }
-}
-
-void list_settings(const toml::table& table, const std::string& prefix,
-                   std::vector<FileSetting>& settings) {
+void list_values(const toml::table& table, const std::string& section, const std::string& file,
+                 std::vector<Assignment>& values) {
     for (const auto& [key, node] : table) {
-        const std::string name = prefix + std::string(key.str());
-        if (const auto* section = node.as_table()) {
-            list_settings(*section, name + ".", settings);
+        const std::string name = section + std::string(key.str());
+        if (const auto* inner = node.as_table()) {
+            list_values(*inner, name + ".", file, values);
         } else {
-            settings.push_back({name, setting_text(node), node.source().begin.line});
+            values.push_back({name, setting_text(node),
+                              fmt::format("{}: line {}", file, node.source().begin.line)});
         }
     }
 }
@@ -55,106 +46,111 @@ std::string read_shallow(const std::filesystem::path& file) {
         fmt::format("{}: holds more than {} dots; are these settings?", file.string(), kMostDots));
 }
 
-}  // namespace
-
-std::vector<FileSetting> settings_of_toml(const std::filesystem::path& file) {
-    std::vector<FileSetting> settings;
+void list_values(const std::filesystem::path& file, std::vector<Assignment>& values) {
     try {
-        list_settings(toml::parse(read_shallow(file)), "", settings);
+        list_values(toml::parse(read_shallow(file)), "", file.string(), values);
     } catch (const toml::parse_error& error) {
         throw ConfigError(fmt::format("{} (line {}): not TOML: {}", file.string(),
                                       error.source().begin.line, error.description()));
     } catch (const InputError& error) {
         throw ConfigError(error.what());  // a missing configuration is a usage error
     }
-    return settings;
 }
 
-std::vector<Assigned> apply_toml(Config& config, const std::filesystem::path& file) {
-    std::vector<std::string> errors;
-    std::vector<Assigned> assigned;
-    for (const FileSetting& setting : settings_of_toml(file)) {
-        set_noting(config, {setting.key, fmt::format("line {}", setting.line)}, setting.value,
-                   assigned, errors);
-    }
-    if (!errors.empty()) {
-        throw ConfigError(fmt::format("{}: {}", file.string(), fmt::join(errors, "\n  ")));
-    }
-    for (Assigned& a : assigned) a.where = fmt::format("{}: {}", file.string(), a.where);
-    return assigned;
+/// A string of JSON is one of TOML, too.
+std::string toml_string(const std::string& text) {
+    return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-void note_without_effect(const Config& config, const std::vector<Assigned>& assigned,
-                         std::vector<std::string>& errors) {
-    for (const Assigned& a : assigned) {
-        try {
-            require_in_force(config, a.key);
-        } catch (const ConfigError& error) {
-            errors.push_back(fmt::format("{}: {}", a.where, error.what()));
-        }
-    }
+bool is_bare(const settings::Row& row) {
+    return row.kind == settings::Kind::flag || row.kind == settings::Kind::number;
 }
 
-/// Settings without an effect are reported last, because the method may be set in any of the
-/// sources.
-Config load_config(const ConfigOptions& options) {
-    Config config = preset(options.preset);
-    std::vector<Assigned> assigned;
-    if (options.file) assigned = apply_toml(config, *options.file);
-    std::vector<std::string> errors;
-    for (const std::string& assignment : options.assignments) {
-        const std::string where = options.assigned_by + assignment;
-        const auto equals = assignment.find('=');
-        if (equals == std::string::npos) {
-            errors.push_back(where + ": expected section.key=value");
-            continue;
-        }
-        set_noting(config, {assignment.substr(0, equals), where}, assignment.substr(equals + 1),
-                   assigned, errors);
+std::string comment_of(const settings::Row& row) {
+    const Setting& s = row.setting;
+    std::string text(s.help);
+    if (!s.unit.empty() && s.unit != "1") text += fmt::format(" [{}]", s.unit);
+    if (!s.symbol.empty()) text += fmt::format(" ({})", s.symbol);
+    if (row.kind == settings::Kind::text && !s.choices.empty()) {
+        text += fmt::format("; one of: {}", s.choices);
     }
-    note_without_effect(config, assigned, errors);
-    if (!errors.empty()) throw ConfigError(fmt::format("{}", fmt::join(errors, "\n  ")));
-    validate(config);
-    return config;
-}
-
-std::string to_toml(const Config& config) {
-    std::string text, section;
-    visit(config, [&](const Setting& setting, const auto& member) {
-        if (!in_force(config, setting)) return;
-        const auto dot = setting.key.find('.');
-        const auto own =
-            dot == std::string_view::npos ? std::string_view{} : setting.key.substr(0, dot);
-        if (own != section) {
-            section = own;
-            text += fmt::format("\n[{}]\n", section);
-        }
-        const std::string value = get(config, setting.key);
-        using Value = std::decay_t<decltype(member)>;
-        const bool bare = std::is_same_v<Value, bool> || std::is_arithmetic_v<Value>;
-        const std::string line =
-            fmt::format("{} = {}", setting.key.substr(dot + 1), bare ? value : '"' + value + '"');
-        text += fmt::format("{:<32} # {}", line, setting.help);
-        if (setting.unit.size() > 1 || setting.unit == "m" || setting.unit == "s") {
-            text += fmt::format(" [{}]", setting.unit);
-        }
-        if (!setting.symbol.empty()) text += fmt::format(" ({})", setting.symbol);
-        text += '\n';
-    });
     return text;
 }
 
+}  // namespace
+
+std::vector<Assignment> assignments_of(const ConfigOptions& options) {
+    std::vector<Assignment> all;
+    if (options.file) list_values(*options.file, all);
+    for (const std::string& given : options.assignments) {
+        const auto equals = given.find('=');
+        std::optional<std::string> value;
+        if (equals != std::string::npos) value = given.substr(equals + 1);
+        all.push_back({given.substr(0, equals), std::move(value), options.assigned_by + given});
+    }
+    return all;
+}
+
+void assign_all(const std::vector<Assignment>& assignments,
+                const std::function<void(const std::string&, const std::string&)>& set,
+                const std::function<void(const std::string&)>& require_effect) {
+    std::vector<std::string> mistakes;
+    const auto noted = [&](const Assignment& a, const auto& work) {
+        try {
+            work();
+            return true;
+        } catch (const ConfigError& error) {
+            mistakes.push_back(fmt::format("{}: {}", a.where, error.what()));
+            return false;
+        }
+    };
+    std::vector<const Assignment*> done;
+    for (const Assignment& a : assignments) {
+        const bool is_set = noted(a, [&] {
+            if (!a.value) throw ConfigError("expected section.key=value");
+            set(a.key, *a.value);
+        });
+        if (is_set) done.push_back(&a);
+    }
+    // Only now, because any of the assignments may choose the method.
+    for (const Assignment* a : done) noted(*a, [&] { require_effect(a->key); });
+    if (!mistakes.empty()) throw ConfigError(fmt::format("{}", fmt::join(mistakes, "\n  ")));
+}
+
+Config load_config(const ConfigOptions& options) {
+    Config config = preset(options.preset);
+    assign_all(config, assignments_of(options));
+    return config;
+}
+
+std::string to_toml(const std::vector<settings::Row>& rows) {
+    std::string text, section;
+    for (const settings::Row& row : rows) {
+        if (!settings::in_force(rows, row.setting)) continue;
+        const std::string key(row.setting.key);
+        const auto dot = key.find('.');
+        const std::string own = dot == std::string::npos ? "" : key.substr(0, dot);
+        if (own != section) {
+            section = own;
+            text += fmt::format("{}[{}]\n", text.empty() ? "" : "\n", section);
+        }
+        const std::string line = fmt::format("{} = {}", key.substr(dot + 1),
+                                             is_bare(row) ? row.text : toml_string(row.text));
+        text += fmt::format("{:<32} # {}\n", line, comment_of(row));
+    }
+    return text;
+}
+
+std::string to_toml(const Config& config) { return to_toml(settings::rows_of(config)); }
+
 std::string to_json(const Config& config) {
     auto list = nlohmann::ordered_json::array();
-    visit(config, [&](const Setting& setting, const auto& member) {
-        if (!in_force(config, setting)) return;
+    for (const settings::Row& row : settings::rows_of(config)) {
+        const Setting& setting = row.setting;
+        if (!in_force(config, setting)) continue;
         nlohmann::ordered_json entry{{"key", setting.key}};
-        using Value = std::decay_t<decltype(member)>;
-        if constexpr (std::is_arithmetic_v<Value>) {
-            entry["value"] = member;
-        } else {
-            entry["value"] = get(config, setting.key);
-        }
+        entry["value"] = is_bare(row) ? nlohmann::ordered_json::parse(row.text)
+                                      : nlohmann::ordered_json(row.text);
         if (setting.min < setting.max) {
             entry["min"] = setting.min;
             entry["max"] = setting.max;
@@ -163,7 +159,7 @@ std::string to_json(const Config& config) {
         entry["symbol"] = setting.symbol;
         entry["help"] = setting.help;
         list.push_back(std::move(entry));
-    });
+    }
     return list.dump(2) + '\n';
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "base/checked_file.hpp"
+#include "base/crc.hpp"
 
 #include <gtest/gtest.h>
 

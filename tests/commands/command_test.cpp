@@ -12,9 +12,11 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "dynamic_filter/bag.hpp"
 #include "dynamic_filter/cloud.hpp"
 #include "dynamic_filter/recording.hpp"
 #include "dynamic_filter/writers.hpp"
+#include "formats/messages/messages.hpp"
 #include "page/page.hpp"
 #include "support/sample_map.hpp"
 #include "support/temporary_folder.hpp"
@@ -507,6 +509,10 @@ TEST_F(Command, InfoDescribesFilesAndFolders) {
     expect_said("is a ROS 1 bag; force --format bag");
     EXPECT_EQ(run("check recording.data --format bag"), 0) << said();
     EXPECT_EQ(run("convert recording.data b.mcap --format bag"), 0) << said();
+    EXPECT_EQ(run("info recording.data --format bag"), 0) << said();
+    expect_said("/points");
+    EXPECT_EQ(run("convert recording.data --format bag -o c.mcap"), 0) << said();
+    EXPECT_EQ(slurp(folder_ / "c.mcap"), slurp(folder_ / "b.mcap"));
 }
 
 TEST_F(Command, InfoSaysWhetherThereArePoses) {
@@ -648,6 +654,43 @@ TEST_F(Command, WhatFailsLeavesTheOldResultWhole) {
     EXPECT_EQ(WEXITSTATUS(status), 1) << said();
     expect_said("cannot be written");
     EXPECT_TRUE(bytes_of("out") == expected);
+}
+
+std::size_t points_on(const fs::path& bag, const std::string& topic) {
+    std::size_t points = 0;
+    (void)io::Bag(bag).for_each([&](const io::Message& message) {
+        if (message.topic.name == topic)
+            points += io::read_cloud_message(message.data, message.topic).cloud.size();
+    });
+    return points;
+}
+
+/// As the map files do, unknown points follow map.keep_unknown of the run that left the labels.
+TEST_F(Command, ConvertPutsUnknownPointsWhereTheRunDid) {
+    const std::string data = recording().string();
+    for (const bool keeps : {true, false}) {
+        const std::string set = keeps ? "true" : "false";
+        ASSERT_EQ(run("run " + data + " -o " + set + " --set map.keep_unknown=" + set), 0)
+            << said();
+        std::size_t unknown = 0, still = 0, moving = 0;
+        for (const auto& entry : fs::directory_iterator(folder_ / set / "labels")) {
+            for (const Label label : io::read_labels(entry.path())) {
+                ++(label == Label::unknown ? unknown : label == Label::static_ ? still : moving);
+            }
+        }
+        ASSERT_GT(unknown, 0U);
+        for (const char* labels : {"", "/labels", "/labels/"}) {
+            ASSERT_EQ(run("convert " + data + " split.mcap --overwrite --labels " + set + labels),
+                      0)
+                << said();
+            EXPECT_EQ(points_on(folder_ / "split.mcap", "/points_static"),
+                      still + (keeps ? unknown : 0));
+            EXPECT_EQ(points_on(folder_ / "split.mcap", "/points_dynamic"), moving);
+        }
+    }
+    test::spill(folder_ / "false/config.toml", "[map]\nkeeps = 1\n");
+    EXPECT_EQ(run("convert " + data + " split.mcap --overwrite --labels false"), 0) << said();
+    expect_said("as with map.keep_unknown = true");
 }
 
 TEST_F(Command, ConvertWritesMapsAndSplitScans) {

@@ -144,11 +144,8 @@ const std::map<std::string, Target>& targets() {
          }},
         {"config",
          [](std::span<const std::uint8_t> bytes) {
-             expect_result_or_error(bytes, [](const auto& file) {
-                 Config config;
-                 app::apply_toml(config, file);
-                 validate(config);
-             });
+             expect_result_or_error(
+                 bytes, [](const auto& file) { (void)app::load_config({.file = file}); });
          }},
     };
     return all;

@@ -342,6 +342,18 @@ TEST_F(Server, SilentClientsAreGivenUp) {
     EXPECT_TRUE(client()->open());
 }
 
+/// Sooner than the time that a client has for its handshake.
+TEST_F(Server, ClientsThatNeverFinishTheirHandshakeKeepNobodyOut) {
+    std::vector<std::unique_ptr<WebSocketClient>> silent;
+    for (int i = 0; i < 300; ++i) {
+        silent.push_back(client());
+        silent.back()->say("GET / HT");
+    }
+    const auto start = Clock::now();
+    EXPECT_TRUE(client()->open());
+    EXPECT_LT(Clock::now() - start, std::chrono::seconds(4));
+}
+
 TEST(FoxgloveServer, APortInUseIsAClearError) {
     const FoxgloveServer first(io::MessageEncoding::cdr, {.port = 0, .origins = {}});
     try {

@@ -14,7 +14,7 @@ namespace live_config_test {
 using test::spill;
 using test::TemporaryFolder;
 
-std::string error_of(const LiveOptions& options,
+std::string error_of(const app::ConfigOptions& options,
                      const std::vector<std::pair<std::string, std::string>>& parameters = {}) {
     try {
         load_live_config(options, parameters);
@@ -26,12 +26,12 @@ std::string error_of(const LiveOptions& options,
 
 TEST(LiveConfig, WhatIsPrintedIsReadBackEqual) {
     const TemporaryFolder folder;
-    LiveOptions options;
+    app::ConfigOptions options;
     options.assignments = {"input.cloud=/os/points", "input.wait=0.35", "output.map_rate=2.5",
                            "foxglove.serve=true", "limits.threads=3"};
     const LiveConfig config = load_live_config(options, {});
     spill(folder / "live.toml", to_toml(config));
-    LiveOptions from_file;
+    app::ConfigOptions from_file;
     from_file.file = folder / "live.toml";
     const LiveConfig read = load_live_config(from_file, {});
     EXPECT_EQ(to_toml(read), to_toml(config));
@@ -43,17 +43,27 @@ TEST(LiveConfig, WhatIsPrintedIsReadBackEqual) {
 TEST(LiveConfig, OneFileHoldsTheSettingsOfTheFilterToo) {
     const TemporaryFolder folder;
     spill(folder / "robot.toml", "[input]\ncloud = \"/points\"\n[map]\nvoxel_size = 0.1\n");
-    LiveOptions options;
+    app::ConfigOptions options;
     options.file = folder / "robot.toml";
     const LiveConfig config = load_live_config(options, {});
     EXPECT_EQ(config.input.cloud, "/points");
     EXPECT_EQ(config.filter.map.voxel_size, 0.1);
 }
 
+TEST(LiveConfig, TextsWithQuotesAreReadBackEqual) {
+    const TemporaryFolder folder;
+    LiveConfig config;
+    config.output.map_frame = "a \"map\" \\ of mine";
+    spill(folder / "live.toml", to_toml(config));
+    app::ConfigOptions options;
+    options.file = folder / "live.toml";
+    EXPECT_EQ(load_live_config(options, {}).output.map_frame, config.output.map_frame);
+}
+
 TEST(LiveConfig, LaterSourcesWin) {
     const TemporaryFolder folder;
     spill(folder / "robot.toml", "[input]\nwait = 0.5\nqueue = 4\n");
-    LiveOptions options;
+    app::ConfigOptions options;
     options.file = folder / "robot.toml";
     options.assignments = {"input.queue=5"};
     const LiveConfig config =
@@ -66,27 +76,27 @@ TEST(LiveConfig, LaterSourcesWin) {
 TEST(LiveConfig, AllMistakesAreNamedAtOnce) {
     const TemporaryFolder folder;
     spill(folder / "robot.toml", "[input]\nclod = \"/points\"\n[output]\nqos = \"best\"\n");
-    LiveOptions options;
+    app::ConfigOptions options;
     options.file = folder / "robot.toml";
     options.assignments = {"input.queue=0", "map.voxel_sise=1", "nonsense"};
     const std::string error = error_of(options, {{"bus.domain", "300"}});
     for (const char* part :
          {"parameter bus.domain", "whole number from 0 to 232", "line 2", "'input.cloud'?",
-          "line 4", "reliable best_effort", "--set input.queue=0", "'map.voxel_size'?",
+          "line 4", "one of reliable, best_effort", "--set input.queue=0", "'map.voxel_size'?",
           "--set nonsense: expected section.key=value"}) {
         EXPECT_NE(error.find(part), std::string::npos) << part << "\n" << error;
     }
 }
 
 TEST(LiveConfig, SettingsWithoutEffectAreRefused) {
-    LiveOptions options;
+    app::ConfigOptions options;
     options.preset = "paper";
     options.assignments = {"scans.max_keyframes=10"};
     EXPECT_NE(error_of(options).find("no effect"), std::string::npos);
 }
 
 TEST(LiveConfig, PrefixesAreNamesOfTopics) {
-    LiveOptions options;
+    app::ConfigOptions options;
     for (const char* wrong : {"output.prefix=filter", "output.prefix=/filter/", "output.prefix="}) {
         options.assignments = {wrong};
         EXPECT_NE(error_of(options).find("output.prefix"), std::string::npos) << wrong;

@@ -247,6 +247,11 @@ TEST(OnlineFilter, RefusesOptionsThatMakeNoSense) {
     for (const int threads : {-1, 1025, 100000}) {
         EXPECT_THROW(OnlineFilter(Config{}, {.threads = threads}), ConfigError);
     }
+    EXPECT_TRUE(violations(OnlineOptions{}).empty());
+    no_number.queue = 0;
+    EXPECT_EQ(violations(no_number),
+              (std::vector<std::string>{"queue = 0 is outside 1.0 .. inf",
+                                        "horizon = nan is outside 0.0 .. inf"}));
 }
 
 TEST(OnlineFilter, ScansFromSeveralThreadsAreAllAccountedFor) {

@@ -131,6 +131,26 @@ TEST_F(Server, ManyDeadClientsDelayOthersByTheirTimeAtMost) {
     EXPECT_TRUE(ask("/page?still").ends_with("<p>still"));
 }
 
+/// A server with the limits of the product, which wait 5 s for a request.
+TEST(HttpServer, ClientsThatNeverFinishTheirRequestKeepNobodyOut) {
+    const auto page = [](const HttpRequest&) {
+        return HttpAnswer{200, "text/html", std::make_shared<const std::string>("<p>here")};
+    };
+    const HttpServer server(0, page);
+    std::vector<std::unique_ptr<Client>> dead;
+    for (int i = 0; i < 300; ++i) {
+        dead.push_back(std::make_unique<Client>(server.port()));
+        ASSERT_TRUE(dead.back()->connected());
+        dead.back()->say("GET /pa");
+    }
+    const auto start = std::chrono::steady_clock::now();
+    const Client last(server.port());
+    last.say(fmt::format("GET / HTTP/1.1\r\nHost: 127.0.0.1:{}\r\n\r\n", server.port()));
+    EXPECT_TRUE(last.hear().ends_with("<p>here"));
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(4));
+    EXPECT_EQ(dead.front()->hear(), "") << "the oldest gave way";
+}
+
 TEST_F(Server, ClientsThatLeaveDoNoHarm) {
     for (int i = 0; i < 200; ++i) {
         const Client client(server_.port());

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Clouds are written as they are read; masked points count as not measured; errors speak of Python's arguments."""
+import json
 import os
 import tempfile
 import unittest
@@ -97,7 +98,14 @@ class Errors(unittest.TestCase):
                 file.write("kept")
             with self.assertRaises(df.Error) as caught:
                 df.run(recording(), out)
-            self.assertNotIn("--", str(caught.exception))
+            self.assertIn("choose another output, or overwrite=True", str(caught.exception))
+            edited = os.path.join(folder, "edited")
+            df.run(recording(), edited, last=3)
+            with open(os.path.join(edited, "edits.json"), "w") as file:
+                file.write(json.dumps({"format": "dynamicfilter edits", "version": 1, "cell_size": 0.2, "edits": []}))
+            with self.assertRaises(df.Error) as caught:
+                df.run(recording(), edited, overwrite=True, config={"map.time": "latest"})
+            self.assertIn('use config={"map.time": "always"}', str(caught.exception))
             with self.assertRaises(df.Error) as caught:
                 df.open_recording(recording(), first=5, last=2)
             self.assertNotIn("--", str(caught.exception))

@@ -15,7 +15,6 @@ COVERED = {  # test -> the units that it covers
     "formats/clouds/las_test.cpp": "formats/clouds/las_header formats/clouds/las_writer",
     "live/dds_bus_test.cpp": "live/dds_log live/dds_type",
     "live/dds_peer_test.cpp": "live/dds_configuration",
-    "live/foxglove_server_test.cpp": "live/foxglove_socket",
     "live/live_test.sh": "live/dry_run live/live commands/live",
     "live/session_test.cpp": "live/recorder",
     "page/page_test.cpp": "page/viewer_page",

@@ -17,9 +17,8 @@ using test::TemporaryFolder;
 std::string error_of(const std::string& toml) {
     const TemporaryFolder folder;
     spill(folder / "c.toml", toml);
-    Config config;
     try {
-        apply_toml(config, folder / "c.toml");
+        load_config({.file = folder / "c.toml"});
     } catch (const ConfigError& error) {
         return error.what();
     }
@@ -34,8 +33,7 @@ TEST(ConfigFile, WhatIsPrintedIsReadBackEqual) {
     set(config, "submap.keyframes", "7");
     const TemporaryFolder folder;
     spill(folder / "c.toml", to_toml(config));
-    Config read;
-    apply_toml(read, folder / "c.toml");
+    const Config read = load_config({.file = folder / "c.toml"});
     EXPECT_EQ(to_toml(read), to_toml(config));
     EXPECT_NE(to_toml(read), to_toml(Config{}));
 }
@@ -122,6 +120,32 @@ TEST(LoadConfig, AppliesPresetFileThenAssignmentsAndChecksBounds) {
     EXPECT_THROW(load_config(options), ConfigError);
     options = {"paper", folder / "missing.toml", {}};
     EXPECT_THROW(load_config(options), ConfigError);
+}
+
+TEST(LoadConfig, NamesTheMistakesOfAllSourcesAtOnce) {
+    const TemporaryFolder folder;
+    spill(folder / "c.toml", "[map]\nvoxel_size = 9\n");
+    ConfigOptions options;
+    options.file = folder / "c.toml";
+    options.assignments = {"map.tim=latest", "nonsense", "keyframe.interval=-1",
+                           "submap.keyframes=5"};
+    try {
+        load_config(options);
+        ADD_FAILURE();
+    } catch (const ConfigError& error) {
+        const std::string said = error.what();
+        for (const char* part :
+             {"c.toml: line 2: setting 'map.voxel_size': '9' is not a number from 0.02 to 5 m",
+              "--set map.tim=latest: unknown setting 'map.tim'; did you mean 'map.time'?",
+              "--set nonsense: expected section.key=value",
+              "--set keyframe.interval=-1: setting 'keyframe.interval': '-1' is not a number from "
+              "0 "
+              "to 3600 s",
+              "--set submap.keyframes=5: setting 'submap.keyframes' belongs to the method "
+              "'submaps'"}) {
+            EXPECT_NE(said.find(part), std::string::npos) << part << "\n" << said;
+        }
+    }
 }
 
 }  // namespace config_file_test

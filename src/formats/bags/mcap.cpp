@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "base/crc.hpp"
 #include "dynamic_filter/error.hpp"
 #include "formats/bags/chunked_file.hpp"
 #include "formats/bags/decompress.hpp"
@@ -188,7 +189,7 @@ private:
         if (static_cast<McapOpcode>(footer[0]) != McapOpcode::footer) return;
         if (start == 0 || start >= end || end - start > kMost) return;
         const auto bytes = file().read(start, end + kFooterBytes - kCrcBytes - start);
-        if (crc != 0 && mcap_crc(bytes) != crc) return;
+        if (crc != 0 && crc_of(bytes) != crc) return;
         try {
             ByteReader in({bytes.data(), end - start});
             while (in.left() > 0) {
@@ -212,7 +213,7 @@ private:
             if (!inner.complete) {
                 note(fmt::format("should hold {} bytes, but gave only {}", chunk.size,
                                  inner.bytes.size()));
-            } else if (chunk.crc != 0 && mcap_crc(inner.bytes) != chunk.crc) {
+            } else if (chunk.crc != 0 && crc_of(inner.bytes) != chunk.crc) {
                 return note("is damaged (its checksum differs) and was left out");
             }
             ByteReader in(inner.bytes);

@@ -2,11 +2,7 @@
 /// What the reader and the writer of MCAP files share. Format: https://mcap.dev/spec
 #pragma once
 
-#include <zlib.h>
-
-#include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string_view>
 
 namespace dynamic_filter::io {
@@ -26,10 +22,5 @@ enum class McapOpcode : std::uint8_t {
     summary_offset = 0x0E,
     data_end
 };
-
-inline std::uint32_t mcap_crc(std::span<const std::byte> bytes) {
-    return static_cast<std::uint32_t>(
-        crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
-}
 
 }  // namespace dynamic_filter::io

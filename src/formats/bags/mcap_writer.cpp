@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 
+#include "base/crc.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
 #include "formats/bags/bag_writers.hpp"
@@ -144,7 +145,7 @@ private:
         ByteWriter head;
         chunk_.times.put(head);
         head.number(static_cast<std::uint64_t>(plain.size()));
-        head.number(mcap_crc(plain));
+        head.number(crc_of(plain));
         head.text(kCompression);
         head.number(static_cast<std::uint64_t>(packed.size()));
         put_record_head(McapOpcode::chunk, head.bytes.size() + packed.size());
@@ -244,7 +245,7 @@ private:
         summary.number(kFooterBytes);
         summary.number(start);
         summary.number(offsets_start);
-        summary.number(mcap_crc(summary.bytes));
+        summary.number(crc_of(summary.bytes));
         put(summary.bytes);
     }
 

@@ -279,21 +279,21 @@ CloudMessage read_cloud_message(std::span<const std::byte> data, const Topic& to
     return message;
 }
 
-StampedPose read_pose_message(const Message& message) {
+PoseMessage read_pose_message(const Message& message) {
     MessageReader in(message.data, message.topic.encoding);
     MessageHeader header = take_header(in, message.topic.encoding);
     const bool has_child = kind_of(message.topic.type) == MessageKind::odometry;
-    StampedPose pose{header.stamp, std::move(header.frame), {}, {}};
+    PoseMessage pose{header.stamp, std::move(header.frame), {}, {}};
     if (has_child) pose.child = in.text();
     if (pose.child.starts_with('/')) pose.child.erase(0, 1);
     pose.T_parent_child = take_pose(in);
     return pose;
 }
 
-std::vector<StampedPose> read_transforms(const Message& message) {
+std::vector<PoseMessage> read_transforms(const Message& message) {
     MessageReader in(message.data, message.topic.encoding);
     constexpr std::size_t kLeastTransform = 72;
-    std::vector<StampedPose> transforms;
+    std::vector<PoseMessage> transforms;
     for (auto left = in.count(kLeastTransform); left > 0; --left) {
         MessageHeader header = take_header(in, message.topic.encoding);
         std::string child = in.text();

@@ -40,14 +40,14 @@ struct CloudMessage {
 CloudMessage read_cloud_message(std::span<const std::byte> data, const Topic& topic);
 
 /// Pose of a frame in another frame at a time. `child` is empty if the message does not name it.
-struct StampedPose {
+struct PoseMessage {
     double stamp = 0.0;
     std::string parent, child;
     Pose T_parent_child = Pose::Identity();
 };
 /// Reads nav_msgs/Odometry, geometry_msgs/PoseStamped and PoseWithCovarianceStamped.
-StampedPose read_pose_message(const Message& message);
+PoseMessage read_pose_message(const Message& message);
 /// Reads tf2_msgs/TFMessage and tf/tfMessage.
-std::vector<StampedPose> read_transforms(const Message& message);
+std::vector<PoseMessage> read_transforms(const Message& message);
 
 }  // namespace dynamic_filter::io

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/numbers.hpp"
 #include "dynamic_filter/cloud.hpp"
 #include "dynamic_filter/error.hpp"
 
@@ -18,17 +19,6 @@ namespace dynamic_filter::app {
 namespace {
 
 using Cube = std::array<std::int64_t, 3>;
-
-struct CubeHash {
-    std::size_t operator()(const Cube& cube) const {
-        std::uint64_t hash = 0;
-        for (const std::int64_t c : cube) {
-            hash = (hash ^ static_cast<std::uint64_t>(c)) * 0x9e3779b97f4a7c15ULL;
-            hash ^= hash >> 29U;
-        }
-        return static_cast<std::size_t>(hash);
-    }
-};
 
 const io::Field& field_of(const io::Cloud& cloud, const fs::path& file, const char* name,
                           io::FieldType type, std::size_t count) {
@@ -123,7 +113,7 @@ TilePoints read_tile(const fs::path& folder, const MapIndex& index, const MapTil
 TilePoints thinned(const TilePoints& points, double spacing) {
     TilePoints result;
     result.words = points.words;
-    tsl::robin_set<Cube, CubeHash> taken;
+    tsl::robin_set<Cube, NumbersHash> taken;
     for (std::size_t i = 0; i < points.size(); ++i) {
         const Eigen::Array3d cube = (points.positions[i].array() / spacing).floor();
         const bool is_first =

@@ -74,7 +74,7 @@ TEST(WriteMessages, PosesComeBack) {
         for (int i = 0; i < 100; ++i) {
             const Pose pose = random.pose(1000.0, 3.1);
             const double stamp = random.uniform(0.0, 2e9);
-            const auto check = [&](const StampedPose& back, const char* child) {
+            const auto check = [&](const PoseMessage& back, const char* child) {
                 EXPECT_NEAR(back.stamp, stamp, 1e-9 + 1e-16 * stamp);
                 EXPECT_EQ(back.parent, "map");
                 EXPECT_EQ(back.child, child);

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "live/foxglove_socket.hpp"
+#include "page/listener.hpp"
 
 #include <fmt/format.h>
 #include <netdb.h>
 #include <netinet/in.h>
-#include <netinet/tcp.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -14,7 +13,7 @@
 
 #include "dynamic_filter/error.hpp"
 
-namespace dynamic_filter::live {
+namespace dynamic_filter::app {
 namespace {
 
 struct FreeAddresses {
@@ -36,15 +35,10 @@ Addresses resolve(const std::string& address, std::uint16_t port) {
     return Addresses(list);
 }
 
-std::string advice_for(int error) {
-    return error == EADDRINUSE
-               ? "stop the program that listens there, or choose another foxglove.port"
-           : error == EACCES ? "choose a port above 1023"
-                             : "choose an address of this machine, such as 127.0.0.1";
-}
-
-void set(int socket, int level, int option, int value) {
-    setsockopt(socket, level, option, &value, sizeof value);
+std::string advice_for(int error, const std::string& option) {
+    return error == EADDRINUSE ? "stop the program that listens there, or choose another " + option
+           : error == EACCES   ? "choose a port above 1023"
+                               : "choose an address of this machine, such as 127.0.0.1";
 }
 
 }  // namespace
@@ -54,18 +48,19 @@ std::string address_text(const std::string& address, std::uint16_t port) {
     return is_ipv6 ? fmt::format("[{}]:{}", address, port) : fmt::format("{}:{}", address, port);
 }
 
-int listen_at(const std::string& address, std::uint16_t port) {
+int listen_at(const std::string& address, std::uint16_t port, const std::string& option) {
     const Addresses found = resolve(address, port);
     const int listener =
         socket(found->ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, found->ai_protocol);
-    set(listener, SOL_SOCKET, SO_REUSEADDR, 1);
+    const int yes = 1;
+    setsockopt(listener, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
     if (bind(listener, found->ai_addr, found->ai_addrlen) != 0 ||
         listen(listener, SOMAXCONN) != 0) {
         const int error = errno;
         close(listener);
         throw OutputError(
             address_text(address, port),
-            fmt::format("cannot listen: {}; {}", std::strerror(error), advice_for(error)));
+            fmt::format("cannot listen: {}; {}", std::strerror(error), advice_for(error, option)));
     }
     return listener;
 }
@@ -79,15 +74,7 @@ std::uint16_t port_of(int listener) {
 }
 
 int accept_at(int listener) {
-    constexpr int kUnsent = 256 << 10, kGoneMs = 60000, kIdleSeconds = 20;
-    const int client = accept4(listener, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
-    if (client < 0) return -1;
-    set(client, IPPROTO_TCP, TCP_NODELAY, 1);
-    set(client, IPPROTO_TCP, TCP_NOTSENT_LOWAT, kUnsent);
-    set(client, IPPROTO_TCP, TCP_USER_TIMEOUT, kGoneMs);
-    set(client, IPPROTO_TCP, TCP_KEEPIDLE, kIdleSeconds);
-    set(client, SOL_SOCKET, SO_KEEPALIVE, 1);
-    return client;
+    return accept4(listener, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
 }
 
-}  // namespace dynamic_filter::live
+}  // namespace dynamic_filter::app
