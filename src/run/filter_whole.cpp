@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <array>
-#include <mutex>
+#include <chrono>
 #include <nlohmann/json.hpp>
 #include <thread>
 #include <utility>
@@ -15,9 +15,11 @@
 #include "check/motion.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
-#include "dynamic_filter/online.hpp"
 #include "dynamic_filter/parallel.hpp"
 #include "formats/label_files.hpp"
+#include "online/maps.hpp"
+#include "online/scan_queue.hpp"
+#include "online/scan_worker.hpp"
 #include "page/page.hpp"
 #include "page/run_view.hpp"
 #include "recording/frames.hpp"
@@ -49,14 +51,16 @@ struct Whole {
     std::vector<ScanNote> scan_notes{};
     std::optional<eval::ScanScores> scorer{};  ///< of final and instant verdicts, if there is truth
     Eigen::Vector3d scoring_origin = Eigen::Vector3d::Zero();
-    std::mutex notices_lock{};
     std::vector<Notice> notices{};
-    OnlineFilter filter{job.config, limits(), callbacks()};  // the last: it uses the others
+    Maps maps{job.config, limits()};
+    ScanQueue queue{};      ///< refuses what cannot be judged; scans do not wait in it
+    std::uint64_t run = 0;  ///< of the scan before
+    /// With --online: takes the scans, and judges them in a thread of its own.
+    std::optional<ScanWorker> worker{};
 
     /// Verdicts are written at the end, so nothing is forgotten.
     [[nodiscard]] OnlineOptions limits() const {
-        const bool drops = o.online && o.speed > 0.0;
-        return {.overload = drops ? Overload::drop_oldest : Overload::wait,
+        return {.overload = o.speed > 0.0 ? Overload::drop_oldest : Overload::wait,
                 .horizon = 0.0,
                 .max_bytes = 0,
                 .threads = o.threads};
@@ -64,11 +68,11 @@ struct Whole {
     OnlineCallbacks callbacks() {
         return {.instant = [this](const Verdict& verdict) { keep(verdict); },
                 .settled = {},
-                .notice =
-                    [this](const Notice& notice) {
-                        const std::lock_guard hold(notices_lock);
-                        notices.push_back(notice);
-                    }};
+                .notice = [this](const Notice& notice) { notices.push_back(notice); }};
+    }
+    void keep(const Maps::Judged& judged) {
+        if (judged.notice) notices.push_back(*judged.notice);
+        for (const Verdict& verdict : judged.instant) keep(verdict);
     }
     void keep(const Verdict& verdict) {
         tracked[verdict.index] = verdict.tracked;
@@ -78,6 +82,24 @@ struct Whole {
         if (live) live->feed().judged(verdict.index, verdict.labels, verdict.tracked);
     }
 };
+
+void push(Whole& whole, Scan scan) {
+    if (whole.worker) return whole.worker->push(std::move(scan));
+    if (const auto refused = whole.queue.refusal(scan)) {
+        whole.notices.push_back(*refused);
+        return;
+    }
+    whole.queue.add({.scan = std::move(scan), .reply = nullptr});
+    QueuedScan next = whole.queue.take();
+    const bool restarts = std::exchange(whole.run, next.run) != next.run;
+    whole.keep(whole.maps.judge(std::move(next.scan), restarts));
+    whole.maps.catch_up();
+}
+
+void finish(Whole& whole) {
+    if (whole.worker) return whole.worker->finish();
+    whole.keep(whole.maps.finish());
+}
 
 std::vector<std::size_t> accepted_scans(const Whole& whole) {
     std::vector<std::size_t> scans;
@@ -151,13 +173,13 @@ void filter_scans(Whole& whole) {
                 whole.live->feed().expect(maybe.frame->points, maybe.frame->T_world_sensor,
                                           maybe.frame->stamp, i);
             }
-            whole.filter.push(take_scan(*maybe.frame, i));
+            push(whole, take_scan(*maybe.frame, i));
         }
         progress.advance();
         return !(whole.summary.interrupted = interrupted());
     };
     for_each_frame(whole.sequence, all_scans(whole.sequence), {}, use);
-    whole.filter.finish();
+    finish(whole);
     take_notices(whole);
     take_poses(whole);
     const bool none =
@@ -186,7 +208,7 @@ void write_results(Whole& whole) {
         whole.scoring_origin = scoring_origin(whole.sequence, eval::kVoxelSize);
     }
     const auto decide = [&](std::size_t i, const io::Frame& frame) {
-        return whole.filter.verdict({frame.points, frame.T_world_sensor, frame.stamp, i});
+        return whole.maps.verdict({frame.points, frame.T_world_sensor, frame.stamp, i});
     };
     const auto use = [&](std::size_t i, const io::Frame& frame, const Verdict& verdict) {
         const Labels instant = whole.instant.get(i);
@@ -228,8 +250,8 @@ void score(Whole& whole) {
 /// What the filter holds, and how fast its stages were.
 void take_contents(Whole& whole) {
     RunSummary& s = whole.summary;
-    s.contents = whole.filter.contents();
-    const StageTimes times = whole.filter.times();
+    s.contents = whole.maps.contents();
+    const StageTimes times = whole.maps.times();
     for (const Throughput& t : s.contents.throughput) {
         const auto stage = times.find(t.stage);
         const double seconds = stage == times.end() ? 0.0 : stage->second.total();
@@ -244,11 +266,13 @@ Json timing(const Whole& whole) {
     for (const RunSummary::Rate& rate : s.rates) {
         json[rate.stage] = {{rate.item + "_per_second", rate.per_second}};
     }
-    json["stages"] = to_json(whole.filter.times());
+    StageTimes times = whole.maps.times();
+    if (whole.worker) times["latency"] = whole.worker->latency();
+    json["stages"] = to_json(times);
     json[s.contents.observer] = s.contents.observers;
     json["voxels"] = s.contents.voxels;
-    if (whole.o.online) {
-        const Counters c = whole.filter.counters();
+    if (whole.worker) {
+        const Counters c = whole.worker->counters();
         json["online"] = {{"speed", whole.o.speed},   {"in", c.in},
                           {"processed", c.processed}, {"dropped", c.dropped},
                           {"rejected", c.rejected},   {"queued", c.queued}};
@@ -289,16 +313,15 @@ void write_page(Whole& whole, const Json& metrics) {
             "script/build");
         return;
     }
-    const OnlineFilter& filter = whole.filter;
-    PageRun run =
-        view_of({.sequence = whole.sequence,
-                 .scans = whole.scan_notes,
-                 .labels = whole.output.path() / "labels",
-                 .instant = [&](std::size_t scan) { return whole.instant.get(scan); },
-                 .voxels_of = [&](const Scan& scan) { return filter.places_of(scan); },
-                 .histories = [&](const auto& voxels) { return filter.histories(voxels); },
-                 .keyframes = whole.summary.contents.keyframes,
-                 .has_evidence = filter.judges_each_scan()});
+    const Maps& maps = whole.maps;
+    PageRun run = view_of({.sequence = whole.sequence,
+                           .scans = whole.scan_notes,
+                           .labels = whole.output.path() / "labels",
+                           .instant = [&](std::size_t scan) { return whole.instant.get(scan); },
+                           .voxels_of = [&](const Scan& scan) { return maps.places_of(scan); },
+                           .histories = [&](const auto& voxels) { return maps.histories(voxels); },
+                           .keyframes = whole.summary.contents.keyframes,
+                           .has_evidence = maps.judges_each_scan()});
     describe(run, whole);
     run.info["scores"] = metrics;
     run.info["timing"] = timing(whole);  // but for the page itself
@@ -328,6 +351,7 @@ RunSummary filter_whole(Job& job, const RunOptions& options, const OutputFolder&
     RunSummary summary;
     with_threads(options.threads, [&] {
         Whole whole{.job = job, .o = options, .output = output, .clock = clock, .live = live};
+        if (options.online) whole.worker.emplace(whole.maps, whole.limits(), whole.callbacks());
         io::write_file(output.path() / "config.toml", to_toml(job.config));
         filter_scans(whole);
         clock.finish("filter");
