@@ -24,17 +24,23 @@
 
 namespace dynamic_filter::io {
 
-/// The layouts of recordings; see docs/formats.md.
-enum class Format { kitti, benchmark, folder, bag };
+/// How the files of a recording may be arranged; see docs/formats.md.
+struct LayoutName {
+    std::string name;   ///< "kitti-360"
+    std::string what;   ///< "a drive of KITTI-360"
+    std::string files;  ///< the files by which it is recognised
+};
 
-std::string to_string(Format format);  ///< "kitti", "benchmark", "folder" or "bag"
+/// All layouts, in the order in which they are looked for.
+std::vector<LayoutName> layouts();
 
 struct BagScans;
 
 /// How to read a recording, where its files do not tell.
 struct OpenOptions {
-    std::optional<Format> format;  ///< empty: recognized by the contents of the folder
-    /// Pose file; empty: the usual place of the format.
+    /// Name of one of layouts(), to read this one only; empty: recognised by the files.
+    std::string layout;
+    /// Pose file; empty: the usual place of the layout.
     std::optional<std::filesystem::path> poses;
     bool without_poses = false;  ///< true: the poses of the recording are not read
     std::size_t first = 0;       ///< index of the first scan to use
@@ -54,8 +60,8 @@ struct OpenOptions {
 /// What is known of a recording without reading the scans. Not changed after open_sequence();
 /// thread-safe.
 struct Sequence {
-    Format format = Format::folder;  ///< as recognized, or as OpenOptions says
-    std::filesystem::path root;      ///< path that was opened
+    std::string layout;          ///< name of one of layouts(), as recognised
+    std::filesystem::path root;  ///< path that was opened
     /// In the natural order of their names. For a bag, these are no files, but numbers below its
     /// path.
     std::vector<std::filesystem::path> scan_files;
@@ -79,7 +85,7 @@ struct Sequence {
     bool points_in_world = false;  ///< as in OpenOptions
     /// For poses in the files of the scans; all other poses are already corrected.
     PoseFix pose_fix = PoseFix::none;
-    std::shared_ptr<const BagScans> bag;  ///< only for format `bag`
+    std::shared_ptr<const BagScans> bag;  ///< only for layout `bag`
     std::vector<std::size_t> bag_scans;   ///< parallel to scan_files: positions in the bag
     bool intensity_is_truth = false;      ///< `benchmark` with ground truth in the intensity
     std::vector<std::string> notes;       ///< assumptions that were made, as sentences for the user

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <regex>
 #include <string>
 
 #include "python/src/module.hpp"
+#include "recording/layouts/registry.hpp"
 
 namespace dynamic_filter::python {
 
@@ -13,8 +16,10 @@ std::string in_python(const std::string& message) {
     static const std::regex number("--(first|last|stride|voxel|min-range|max-range) (\\d+)\\b");
     static const std::regex placeholder("--([a-z-]+[a-z]) ([A-Z]+)\\b");
     static const std::regex word(
-        "--([a-z-]+[a-z]) (none|inverse|camera|lidar|wxyz|xyzw|mm|s|ms|us|ns|kitti|benchmark|"
-        "folder|bag|on|off|auto|/[\\w/]+)(?=$|[^\\w-])");
+        "--([a-z-]+[a-z]) (none|inverse|camera|lidar|wxyz|xyzw|mm|s|ms|"
+        "us|ns|" +
+        fmt::format("{}", fmt::join(io::layout_names(), "|")) +
+        "|on|off|auto|/[\\w/]+)(?=$|[^\\w-])");
     static const std::regex name("--([a-z]+(-[a-z]+)*)");
     std::string text = std::regex_replace(message, flag, "--$1=True");
     text = std::regex_replace(text, number, "--$1=$2");

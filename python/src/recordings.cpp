@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/ranges.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
@@ -12,6 +13,7 @@
 #include "python/src/arrays.hpp"
 #include "python/src/module.hpp"
 #include "recording/frames.hpp"
+#include "recording/layouts/registry.hpp"
 
 namespace dynamic_filter::python {
 
@@ -111,6 +113,25 @@ read.)")
                                "array");
 }
 
+std::string opening_text() {
+    return fmt::format(R"(Opens a recording: a bag, or a folder with scans and poses.
+
+data: path of the recording.
+format: layout of the files; by default it is recognised. One of {}.
+poses: pose file with T_world_sensor [m]; by default the usual place of the layout. With "none", the
+poses of the recording are not read, and DynamicFilter estimates them.
+topic, pose_topic: topics of the scans and of the poses of a bag.
+pose_fix: none, inverse, camera, lidar, wxyz, xyzw or mm, as `dynamicfilter check` advises.
+points_in_world: True if points are in the frame of the poses.
+time_unit: unit of the stamps: s, ms, us or ns.
+deskew: True does motion compensation of each scan with the poses and the times of the points.
+first, last, stride: selection of scans.
+Returns a sequence of Frame: points N x 3 float32 [m] in the sensor frame, pose 4 x 4 T_world_sensor
+[m] or None, stamp [s], times N float32 [s] or None, truth N uint8 or None, fields N records. Raises
+InputError, ConfigError and TypeError.)",
+                       fmt::join(io::layout_names(), ", "));
+}
+
 }  // namespace
 
 void bind_recordings(py::module_& module) {
@@ -125,33 +146,18 @@ Scans are read on access and not kept. Any thread may read; the GIL is released 
              "Reads scan i; -1 is the last one. Raises InputError if the scan cannot be used, and "
              "IndexError if there is no such scan.")
         .def_property_readonly(
-            "format", [](const io::Sequence& s) { return io::to_string(s.format); },
-            "kitti, benchmark, folder or bag")
+            "format", [](const io::Sequence& s) { return s.layout; },
+            "name of the layout, such as kitti-360")
         .def_property_readonly("has_truth", &io::Sequence::has_truth,
                                "True if there are ground-truth labels")
         .def_readonly("notes", &io::Sequence::notes, "assumptions that were made, as sentences");
     module.def("read_cloud", &read_cloud, py::arg("file"),
-               R"(Reads a cloud: .pcd, .ply, .las, .bin, .npy, .xyz, .txt or .csv.
+               R"(Reads a cloud: .pcd, .ply, .las, .npy, .bin, .xyz, .txt or .csv.
 
 Returns a structured array of N records with the fields, types, units and frame of the file:
 cloud["x"], cloud["intensity"]. Raises InputError.)");
     module.def("write_cloud", &write_cloud);
-    module.def("open_recording", &open_recording, py::arg("data"),
-               R"(Opens a recording: a bag, or a folder with scans and poses.
-
-data: path of the recording.
-format: kitti, benchmark, folder or bag; by default it is recognized from the contents.
-poses: pose file with T_world_sensor [m]; by default the usual place of the format. With "none", the
-poses of the recording are not read, and DynamicFilter estimates them.
-topic, pose_topic: topics of the scans and of the poses of a bag.
-pose_fix: none, inverse, camera, lidar, wxyz, xyzw or mm, as `dynamicfilter check` advises.
-points_in_world: True if points are in the frame of the poses.
-time_unit: unit of the stamps: s, ms, us or ns.
-deskew: True does motion compensation of each scan with the poses and the times of the points.
-first, last, stride: selection of scans.
-Returns a sequence of Frame: points N x 3 float32 [m] in the sensor frame, pose 4 x 4 T_world_sensor
-[m] or None, stamp [s], times N float32 [s] or None, truth N uint8 or None, fields N records. Raises
-InputError, ConfigError and TypeError.)");
+    module.def("open_recording", &open_recording, py::arg("data"), opening_text().c_str());
 }
 
 }  // namespace dynamic_filter::python

@@ -161,7 +161,7 @@ void judge_poses(Preflight& result, const Sequence& sequence, const Samples& sam
                                    "--poses none finds it for scans in the sensor's frame"});
         return;
     }
-    const bool files_in_world = sequence.format == Format::benchmark;
+    const bool files_in_world = sequence.layout == "benchmark";
     if (!files_in_world && lie_in_world(samples)) {
         result.findings.push_back(
             {"the points are in the world's frame already: " + fits_better(overlays, kInWorld),

@@ -114,7 +114,7 @@ void describe_first(io::Sequence s) {
 
 void describe_sequence(const std::filesystem::path& folder) {
     const io::Sequence s = io::open_sequence(folder);
-    fmt::print("{}\n  format  {}\n", folder.string(), io::to_string(s.format));
+    fmt::print("{}\n  format  {}\n", folder.string(), s.layout);
     describe_scans(s);
     describe_first(s);
 }

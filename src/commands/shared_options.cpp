@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include "recording/data_options.hpp"
+#include "recording/layouts/registry.hpp"
 #include "run/run.hpp"
 #include "settings/config_file.hpp"
 
@@ -23,8 +24,8 @@ void add_reading_options(Command& command, DataOptions& options) {
     command.path(
         "--poses", options.open.poses,
         "pose file; `none` finds the poses by odometry (default: the recording's own poses)");
-    command.choice("--format", options.format, {"kitti", "benchmark", "folder", "bag"},
-                   "format of the recording (default: recognised by its files)");
+    command.choice("--format", options.format, io::layout_names(),
+                   "layout of the recording (default: recognised by its files)");
     command.text("--topic", options.open.topic,
                  "topic of the scans in a bag (default: the only one)");
     command.text("--pose-topic", options.open.pose_topic,

@@ -186,7 +186,7 @@ Sequence open_bag(const std::filesystem::path& data, const OpenOptions& options)
     const BagContents contents = contents_of(scans->bag);
     const CloudTopic& clouds = choose_clouds(contents, data, options);
     Sequence sequence;
-    sequence.format = Format::bag;
+    sequence.layout = "bag";
     sequence.root = data;
     sequence.notes = contents.notes;
     sequence.losses = contents.losses;

@@ -16,14 +16,6 @@ namespace dynamic_filter::app {
 
 namespace {
 
-io::Format format_of(const std::string& name) {
-    for (const auto format :
-         {io::Format::kitti, io::Format::benchmark, io::Format::folder, io::Format::bag}) {
-        if (io::to_string(format) == name) return format;
-    }
-    throw ConfigError("unknown format '" + name + "'; choose kitti, benchmark, folder or bag");
-}
-
 io::PoseFix pose_fix_of(const std::string& name) {
     for (const io::PoseFix fix : io::pose_fixes()) {
         if (io::to_string(fix) == name) return fix;
@@ -46,7 +38,7 @@ void require_extension(const std::filesystem::path& output, const std::string& e
 
 io::Sequence open(const DataOptions& options) {
     io::OpenOptions how = options.open;
-    if (!options.format.empty()) how.format = format_of(options.format);
+    how.layout = options.format;
     how.pose_fix = pose_fix_of(options.pose_fix);
     how.time_unit = seconds_of(options.time_unit);
     // A file of that name would be meant by ./none.

@@ -13,6 +13,7 @@
 #include "recording/benchmark.hpp"
 #include "recording/frame.hpp"
 #include "recording/layout.hpp"
+#include "recording/layouts/registry.hpp"
 #include "recording/matching.hpp"
 
 namespace dynamic_filter::io {
@@ -131,19 +132,20 @@ Sequence open_folder(const std::filesystem::path& data, const OpenOptions& optio
     }
     const Layout layout = find_layout(data, options);
     Sequence sequence;
-    sequence.format = layout.format;
+    sequence.layout = layout.name;
     sequence.pose_fix = options.pose_fix;
     sequence.root = data;
     sequence.scan_files = layout.scans;
     sequence.notes = layout.notes;
+    sequence.points_in_world = layout.points_in_world;
     sequence.label_files = find_labels(layout, sequence.notes);
     assign_stamps(sequence, assign_poses(sequence, layout));
-    const bool in_files = layout.format == Format::benchmark && !layout.poses;
     if (options.without_poses) sequence.T_world_sensor.clear();
-    sequence.has_poses = !options.without_poses && (in_files || !sequence.T_world_sensor.empty());
-    if (in_files && sequence.has_poses) require_viewpoints(sequence);
+    sequence.has_poses =
+        !options.without_poses && (layout.poses_in_scans || !sequence.T_world_sensor.empty());
+    if (layout.poses_in_scans && sequence.has_poses) require_viewpoints(sequence);
     select(sequence, options);
-    if (layout.format == Format::benchmark) find_intensity_truth(sequence, layout);
+    if (layout.truth_in_intensity) find_intensity_truth(sequence, layout);
     return sequence;
 }
 
@@ -175,25 +177,11 @@ void refuse_world_frame(const Sequence& sequence, const std::filesystem::path& d
 }
 
 bool is_bag(const std::filesystem::path& data, const OpenOptions& options) {
-    if (options.format) return *options.format == Format::bag;
+    if (!options.layout.empty()) return layout_row(options.layout).turn == Turn::bag;
     return Bag::recognises(data) && !has_scans(data);
 }
 
 }  // namespace
-
-std::string to_string(Format format) {
-    switch (format) {
-        case Format::kitti:
-            return "kitti";
-        case Format::benchmark:
-            return "benchmark";
-        case Format::folder:
-            return "folder";
-        case Format::bag:
-            break;
-    }
-    return "bag";
-}
 
 Sequence open_sequence(const std::filesystem::path& data, const OpenOptions& options) {
     check_selection(options);
@@ -205,9 +193,7 @@ Sequence open_sequence(const std::filesystem::path& data, const OpenOptions& opt
     } else {
         sequence = open_folder(data, options);
     }
-    if (options.points_in_world || sequence.format == Format::benchmark) {
-        sequence.points_in_world = true;
-    }
+    if (options.points_in_world) sequence.points_in_world = true;
     if (!sequence.has_poses) refuse_world_frame(sequence, data);
     apply_fixes(sequence, options);
     if (options.deskew && sequence.has_poses) prepare_deskew(sequence);

@@ -51,7 +51,7 @@ nlohmann::ordered_json timing(const Pass& pass) {
 
 void write_log(const Pass& pass) {
     std::string log = fmt::format("input    {} ({}, {} scans)\n", pass.sequence.root.string(),
-                                  io::to_string(pass.sequence.format), pass.sequence.size());
+                                  pass.sequence.layout, pass.sequence.size());
     for (const std::string& note : pass.sequence.notes) log += "note     " + note + "\n";
     for (const std::string& note : pass.summary.notes) log += "note     " + note + "\n";
     for (const std::string& line : pass.sequence.losses) log += "lost     " + line + "\n";
@@ -71,7 +71,7 @@ void describe(PageRun& run, const Pass& pass) {
     run.info["command"] = "run";
     run.info["version"] = DYNAMIC_FILTER_VERSION;
     run.info["input"] = pass.sequence.root.string();
-    run.info["format"] = io::to_string(pass.sequence.format);
+    run.info["format"] = pass.sequence.layout;
     run.info["created"] = fmt::format("{:%FT%TZ}", fmt::gmtime(std::time(nullptr)));
     for (const char* name : {"default", "paper"}) {
         if (to_toml(pass.config) == to_toml(preset(name))) run.info["preset"] = name;

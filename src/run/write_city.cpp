@@ -118,7 +118,7 @@ void write_log(const fs::path& folder, const Drive& drive, const RunSummary& s,
     const io::Sequence& sequence = drive.sequence;
     std::string log = fmt::format("input    {} ({}, {} scans)\n",
                                   fs::absolute(sequence.root).lexically_normal().string(),
-                                  io::to_string(sequence.format), sequence.size());
+                                  sequence.layout, sequence.size());
     for (const std::string& note : s.notes) log += "note     " + note + "\n";
     for (const std::string& line : warnings) log += "warning  " + line + "\n";
     for (const std::string& line : sequence.losses) log += "lost     " + line + "\n";

@@ -17,7 +17,7 @@ void write_scans(const io::Sequence& sequence, const std::vector<std::size_t>& s
                  const ScanResults& results) {
     const auto labels = folder / "labels";
     std::filesystem::create_directories(labels);
-    MapFiles maps(folder, config.map.keep_unknown, sequence.format == io::Format::benchmark);
+    MapFiles maps(folder, config.map.keep_unknown, sequence.layout == "benchmark");
     if (with_maps && !scans.empty()) {
         try {
             maps.begin(io::read_frame(sequence, scans.front()));

@@ -276,7 +276,7 @@ TEST_F(Check, NamesStampsOfPosesThatAreNotThoseOfTheScans) {
 }
 
 /// A recording of five scans without structures, of which only the stamps matter.
-class Stamps : public Recording {
+class Stamps : public RecordingFiles {
 protected:
     void SetUp() override {
         put_bins("velodyne", 5);

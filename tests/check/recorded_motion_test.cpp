@@ -35,7 +35,7 @@ const test::Drive& street(bool sweep) {
 }
 
 /// Recordings of which some scans may be bad, with any poses.
-class RecordedMotion : public Recording {
+class RecordedMotion : public RecordingFiles {
 protected:
     void put(const test::Drive& drive, const std::vector<Pose>& poses) const {
         std::filesystem::create_directories(data / "velodyne");

@@ -16,7 +16,7 @@ namespace bag_scans_test {
 Pose moved(double x, double y = 0.0, double z = 0.0) { return Pose(Eigen::Translation3d(x, y, z)); }
 
 /// A bag that a test fills; scans of two points, (5 + i, 0, 0) and (0, 5, 0).
-class BagScansTest : public Recording {
+class BagScansTest : public RecordingFiles {
 protected:
     static constexpr double kStart = 1000.0;  // [s]
     static double stamp(std::size_t i) { return kStart + 0.1 * static_cast<double>(i); }
@@ -75,7 +75,7 @@ TEST_F(BagScansTest, PosesComeThroughTheFramesAtTheStampOfTheScan) {
     for (double t = -0.93; t < 2.0; t += 0.07) transform("odom", "base", moved(t), kStart + t);
     transform("map", "odom", moved(100, 0, 0), kStart - 0.2);
     const Sequence sequence = opened();
-    EXPECT_EQ(sequence.format, Format::bag);
+    EXPECT_EQ(sequence.layout, "bag");
     ASSERT_EQ(sequence.size(), 5U);
     EXPECT_TRUE(has_note(sequence, "'lidar' in 'map'"));
     for (std::size_t i = 0; i < 5; ++i) {

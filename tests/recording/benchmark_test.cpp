@@ -6,13 +6,13 @@
 namespace dynamic_filter::io {
 namespace benchmark_test {
 
-using BenchmarkTest = Recording;
+using BenchmarkTest = RecordingFiles;
 
 TEST_F(BenchmarkTest, PosesAndTruthAreInTheFiles) {
     put_pcd("pcd/000000.pcd", 0.0, 1.0F);
     put_pcd("pcd/000001.pcd", 2.0, 0.0F);
     const Sequence sequence = open();
-    EXPECT_EQ(sequence.format, Format::benchmark);
+    EXPECT_EQ(sequence.layout, "benchmark");
     EXPECT_TRUE(sequence.T_world_sensor.empty());
     EXPECT_TRUE(sequence.intensity_is_truth);
     const Frame frame = read_frame(sequence, 1);

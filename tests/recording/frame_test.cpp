@@ -4,7 +4,7 @@
 namespace dynamic_filter::io {
 namespace frame_test {
 
-using FrameTest = Recording;
+using FrameTest = RecordingFiles;
 
 TEST_F(FrameTest, ScanPoseStampAndTruth) {
     put_bins("velodyne", 2);

@@ -6,7 +6,7 @@
 namespace dynamic_filter::io {
 namespace io_layout_test {
 
-using LayoutTest = Recording;
+using LayoutTest = RecordingFiles;
 
 TEST_F(LayoutTest, NothingThere) {
     EXPECT_HAS(error_of([&] { (void)open_sequence(data / "none"); }), "does not exist");
@@ -28,7 +28,7 @@ TEST_F(LayoutTest, TheScanFolderByMistake) {
     data.put("poses.txt", kitti_rows(2));
     EXPECT_HAS(error_of([&] { (void)open_sequence(data / "velodyne/"); }), "folder above");
     OpenOptions options;
-    options.format = Format::folder;
+    options.layout = "folder";
     EXPECT_EQ(open_sequence(data / "velodyne", options).size(), 2U);
 }
 

@@ -6,7 +6,7 @@
 namespace dynamic_filter::io {
 namespace matching_test {
 
-using MatchingTest = Recording;
+using MatchingTest = RecordingFiles;
 
 TEST_F(MatchingTest, CountsThatDiffer) {
     put_bins("velodyne", 3);

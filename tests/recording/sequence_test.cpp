@@ -6,13 +6,13 @@
 namespace dynamic_filter::io {
 namespace sequence_test {
 
-using SequenceTest = Recording;
+using SequenceTest = RecordingFiles;
 
 TEST_F(SequenceTest, KittiWithoutCalibration) {
     put_bins("velodyne", 12);
     data.put("poses.txt", kitti_rows(12));
     const Sequence sequence = open();
-    EXPECT_EQ(to_string(sequence.format), "kitti");
+    EXPECT_EQ(sequence.layout, "kitti");
     ASSERT_EQ(sequence.size(), 12U);
     EXPECT_EQ(stem(sequence, 10), "000010");
     EXPECT_EQ(sequence.T_world_sensor[10].translation().x(), 10.0);
@@ -84,13 +84,6 @@ TEST_F(SequenceTest, TopicsAreForBags) {
     EXPECT_HAS(error_of<ConfigError>([&] { (void)open(options); }), "for bags");
 }
 
-TEST_F(SequenceTest, FormatsHaveNames) {
-    EXPECT_EQ(to_string(Format::kitti), "kitti");
-    EXPECT_EQ(to_string(Format::benchmark), "benchmark");
-    EXPECT_EQ(to_string(Format::folder), "folder");
-    EXPECT_EQ(to_string(Format::bag), "bag");
-}
-
 TEST_F(SequenceTest, SelectionKeepsThingsParallel) {
     put_bins("velodyne", 10);
     put_labels(10);
@@ -131,7 +124,7 @@ TEST_F(SequenceTest, FolderWithTum) {
     data.put("GlobalMap.pcd", "not a scan");
     data.put("track.tum", tum_rows(3));
     const Sequence sequence = open();
-    EXPECT_EQ(sequence.format, Format::folder);
+    EXPECT_EQ(sequence.layout, "folder");
     ASSERT_EQ(sequence.size(), 3U);
     EXPECT_TRUE(sequence.measured_stamps);
     EXPECT_DOUBLE_EQ(sequence.stamps[2], 0.4);

@@ -8,7 +8,7 @@
 
 namespace dynamic_filter::io {
 
-class Recording : public testing::Test {
+class RecordingFiles : public testing::Test {
 protected:
     static std::string number(std::size_t i) {
         const std::string digits = std::to_string(i);

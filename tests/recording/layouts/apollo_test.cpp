@@ -6,7 +6,7 @@ namespace dynamic_filter::io {
 namespace apollo_test {
 
 /// Scans 1 to 11, in the order 1, 10, 11, 2... of the alphabet; a row for each, in another order.
-class Apollo : public Recording {
+class Apollo : public RecordingFiles {
 protected:
     void SetUp() override {
         for (std::size_t i = 1; i <= 11; ++i) put_pcd("pcds/" + std::to_string(i) + ".pcd", 0, 0);
@@ -40,7 +40,7 @@ TEST_F(Apollo, PosesAndStampsAreThoseOfTheScansNumber) {
     EXPECT_TRUE(open(options).measured_stamps);
     options.without_poses = false;
     options.poses = data.put("other.txt", kitti_rows(11));
-    options.format = Format::folder;
+    options.layout = "folder";
     EXPECT_EQ(open(options).T_world_sensor[1].translation().x(), 1.0);
 }
 

@@ -5,7 +5,7 @@
 namespace dynamic_filter::io {
 namespace argoverse_test {
 
-using Argoverse = Recording;
+using Argoverse = RecordingFiles;
 
 TEST_F(Argoverse, LogsAreRefusedWithWhatToDo) {
     data.put("sensors/lidar/315966265259836000.feather", "ARROW1");

@@ -5,7 +5,7 @@
 namespace dynamic_filter::io {
 namespace below_test {
 
-using Below = Recording;
+using Below = RecordingFiles;
 
 TEST_F(Below, TheOnlyFolderWithScansIsTaken) {
     put_bins("sensors/front", 3);
@@ -27,12 +27,12 @@ TEST_F(Below, TheOnlyFolderWithScansIsTaken) {
 TEST_F(Below, ARecordingBelowIsOpenedAsOne) {
     put_bins("00/velodyne", 2);
     data.put("00/poses.txt", kitti_rows(2));
-    EXPECT_EQ(open().format, Format::kitti);
+    EXPECT_EQ(open().layout, "kitti");
     EXPECT_TRUE(open().has_poses);
     std::filesystem::create_directories(data / "more/dataset");
     std::filesystem::rename(data / "00",
                             data / "more/dataset/00");  // its scans are four levels down
-    EXPECT_EQ(open().format, Format::kitti);
+    EXPECT_EQ(open().layout, "kitti");
     EXPECT_TRUE(open().has_poses);
     put_bins("more/dataset/01/velodyne", 2);
     EXPECT_HAS(open_error(), "more/dataset/00 (2 files), more/dataset/01 (2 files)");
@@ -60,7 +60,7 @@ TEST_F(Below, ARecordingCountsOnceAndItsScanFolderIsRefused) {
     EXPECT_HAS(open_error(), "00 (1 files), 05 (1 files); give one of them");
     EXPECT_HAS(error_of([&] { (void)open_sequence(data / "00/pcd"); }), "give the folder above it");
     std::filesystem::remove_all(data / "05");
-    EXPECT_EQ(open().format, Format::benchmark);
+    EXPECT_EQ(open().layout, "benchmark");
     put_pcd("00/pcd/000000.pcd", 0, 0);  // without poses in the files, it may be any folder
     EXPECT_EQ(open_sequence(data / "00/pcd").size(), 1U);
     put_pcd("00/gt_cloud.pcd", 0, 0);

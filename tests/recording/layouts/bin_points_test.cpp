@@ -6,7 +6,7 @@ namespace dynamic_filter::io {
 namespace bin_points_test {
 
 /// Files with 5, 6, 7... points of so many floats each.
-class BinPoints : public Recording {
+class BinPoints : public RecordingFiles {
 protected:
     void put_points(const std::string& folder, std::size_t floats_per_point, int files) const {
         for (int i = 0; i < files; ++i) {

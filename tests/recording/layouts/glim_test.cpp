@@ -5,7 +5,7 @@
 namespace dynamic_filter::io {
 namespace glim_test {
 
-using Glim = Recording;
+using Glim = RecordingFiles;
 
 TEST_F(Glim, SubmapsAreScans) {
     const auto submap = [](const std::string& x) {

@@ -6,7 +6,7 @@ namespace dynamic_filter::io {
 namespace kitti_360_test {
 
 /// Scans 0 to 39 at 10 Hz; the vehicle goes 1 m a scan along x. Poses of scans 2, 6, 16 and 30.
-class Kitti360 : public Recording {
+class Kitti360 : public RecordingFiles {
 protected:
     void SetUp() override {
         std::string timestamps;

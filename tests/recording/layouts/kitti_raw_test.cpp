@@ -11,7 +11,7 @@ namespace kitti_raw_test {
 constexpr double degree = std::numbers::pi / 180.0;
 
 /// A drive of three scans, heading north-east, 1e-5 degrees of latitude and longitude a scan.
-class KittiRaw : public Recording {
+class KittiRaw : public RecordingFiles {
 protected:
     static std::string scan_name(std::size_t i) { return "000000000" + std::to_string(i); }
     void SetUp() override {

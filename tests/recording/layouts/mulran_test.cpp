@@ -5,7 +5,7 @@
 namespace dynamic_filter::io {
 namespace mulran_test {
 
-using Mulran = Recording;
+using Mulran = RecordingFiles;
 
 TEST_F(Mulran, PosesAreInterpolatedAndTakenToTheSensor) {
     for (const char* name : {"1500000000000000000", "1500000000500000000", "1500000009000000000"}) {

@@ -20,7 +20,7 @@ std::string sweep(const std::string& file, const std::string& time, const std::s
                            R"(", "calibrated_sensor_token": "top")");
 }
 
-class Nuscenes : public Recording {
+class Nuscenes : public RecordingFiles {
 protected:
     void SetUp() override {
         table("scene", entry("s1", R"("name": "scene-0001")") + "," +

@@ -5,7 +5,7 @@
 namespace dynamic_filter::io {
 namespace pairs_test {
 
-using Pairs = Recording;
+using Pairs = RecordingFiles;
 
 std::string odom(double x) {
     return "1 0 0 " + std::to_string(x) + "\n0 1 0 0\n0 0 1 0\n0 0 0 1\n";

@@ -5,7 +5,7 @@
 namespace dynamic_filter::io {
 namespace several_test {
 
-using Several = Recording;
+using Several = RecordingFiles;
 
 TEST_F(Several, HelimosAsksForTheSensor) {
     for (const char* sensor : {"Velodyne", "Avia"}) {
