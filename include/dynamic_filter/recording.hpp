@@ -33,6 +33,7 @@ struct LayoutName {
 
 /// All layouts, in the order in which they are looked for.
 std::vector<LayoutName> layouts();
+std::vector<std::string> layout_names();  ///< the names alone, in the same order
 
 struct BagScans;
 

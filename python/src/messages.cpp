@@ -1,25 +1,50 @@
 // SPDX-License-Identifier: MIT
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <regex>
 #include <string>
 
 #include "python/src/module.hpp"
-#include "recording/layouts/registry.hpp"
 
 namespace dynamic_filter::python {
 
+namespace {
+
+/// Alternatives of regular expressions, with "|" before each: the reading options of each kind, and
+/// all their choices.
+struct Spellings {
+    std::string switches, numbers, choices;
+};
+
+void add(Spellings& known, const app::ReadingOption& option, const std::string&) {
+    for (const std::string& choice : option.choices) known.choices += "|" + choice;
+}
+void add(Spellings& known, const app::ReadingOption& option, bool) {
+    known.switches += "|" + app::as_option(option).substr(2);
+}
+void add(Spellings&, const app::ReadingOption&, const std::optional<std::filesystem::path>&) {}
+template <class Whole>
+void add(Spellings& known, const app::ReadingOption& option, const Whole&) {
+    known.numbers += "|" + app::as_option(option).substr(2);
+}
+
+Spellings spellings() {
+    const app::DataOptions standard;
+    Spellings known;
+    app::visit_reading(standard, [&](const app::ReadingOption& option, const auto& value) {
+        add(known, option, value);
+    });
+    return known;
+}
+
+}  // namespace
+
 std::string in_python(const std::string& message) {
     // Switches; options with a value that stands behind them; and options that are only named.
-    static const std::regex flag("--(overwrite|resume|online|points-in-world|quiet)\\b");
-    static const std::regex number("--(first|last|stride|voxel|min-range|max-range) (\\d+)\\b");
+    static const Spellings known = spellings();
+    static const std::regex flag("--(overwrite|resume|online|quiet" + known.switches + ")\\b");
+    static const std::regex number("--(voxel|min-range|max-range" + known.numbers + ") (\\d+)\\b");
     static const std::regex placeholder("--([a-z-]+[a-z]) ([A-Z]+)\\b");
-    static const std::regex word(
-        "--([a-z-]+[a-z]) (none|inverse|camera|lidar|wxyz|xyzw|mm|s|ms|"
-        "us|ns|" +
-        fmt::format("{}", fmt::join(io::layout_names(), "|")) +
-        "|on|off|auto|/[\\w/]+)(?=$|[^\\w-])");
+    static const std::regex word("--([a-z-]+[a-z]) (/[\\w/]+" + known.choices + ")(?=$|[^\\w-])");
     static const std::regex name("--([a-z]+(-[a-z]+)*)");
     std::string text = std::regex_replace(message, flag, "--$1=True");
     text = std::regex_replace(text, number, "--$1=$2");

@@ -53,7 +53,7 @@ int demo(const DemoOptions& o) {
     write_simulation(scene, recorded.path());
     recorded.commit();
 
-    const io::Sequence sequence = open({.data = recording, .format = "kitti", .open = {}});
+    const io::Sequence sequence = open({.data = recording, .format = "kitti"});
     clock.finish("simulate");
     const RunSummary summary = run_sequence(sequence, preset("default"), {}, result, clock);
     result.commit();

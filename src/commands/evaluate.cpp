@@ -61,7 +61,7 @@ io::Sequence with_poses(const EvalOptions& o) {
     for (const auto& file : {labels / "poses.txt", labels.parent_path() / "poses.txt"}) {
         if (!o.labels || !std::filesystem::exists(file)) continue;
         DataOptions with = o.truth;
-        with.open.poses = file;
+        with.poses = file;
         return open(with);
     }
     throw InputError(o.truth.data, "",

@@ -29,7 +29,7 @@ int odometry(const OdometryOptions& o) {
         throw ConfigError(o.output.string() + ": exists; choose another -o, or --overwrite");
     }
     DataOptions without_poses = o.data;
-    without_poses.open.poses = "none";
+    without_poses.poses = "none";
     io::Sequence sequence = open(without_poses);
     catch_interrupts();
     ensure_poses(sequence, config, o.data.deskew, o.quiet);

@@ -37,16 +37,22 @@ void require_extension(const std::filesystem::path& output, const std::string& e
 }
 
 io::Sequence open(const DataOptions& options) {
-    io::OpenOptions how = options.open;
-    how.layout = options.format;
-    how.pose_fix = pose_fix_of(options.pose_fix);
-    how.time_unit = seconds_of(options.time_unit);
+    io::OpenOptions how{.layout = options.format,
+                        .poses = options.poses,
+                        .first = options.first,
+                        .last = options.last,
+                        .stride = options.stride,
+                        .topic = options.topic,
+                        .pose_topic = options.pose_topic,
+                        .deskew = options.deskew == "on",
+                        .pose_fix = pose_fix_of(options.pose_fix),
+                        .points_in_world = options.points_in_world,
+                        .time_unit = seconds_of(options.time_unit)};
     // A file of that name would be meant by ./none.
     if (how.poses == std::filesystem::path("none")) {
         how.poses.reset();
         how.without_poses = true;
     }
-    how.deskew = options.deskew == "on";
     io::Sequence sequence = io::open_sequence(options.data, how);
     if (how.pose_fix != io::PoseFix::none && !sequence.has_poses) {
         throw ConfigError("--pose-fix " + options.pose_fix +

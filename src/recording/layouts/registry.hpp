@@ -2,7 +2,6 @@
 /// The layouts that are known. A new one is a file with its finder, and a row of registry.cpp.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "recording/layouts/layouts.hpp"
@@ -25,9 +24,6 @@ struct LayoutRow {
 
 /// All rows, in the order in which they are asked.
 const std::vector<LayoutRow>& layout_rows();
-
-/// The names of all rows, in the same order.
-std::vector<std::string> layout_names();
 
 /// Asks the finder of a row. The layout that it returns has the name of the row.
 std::optional<Layout> ask(const LayoutRow& row, const Place& place);
