@@ -41,11 +41,11 @@ void print_table(const eval::VoxelScore& ours) {
 
 int demo(const DemoOptions& o) {
     // The folder of an earlier demo is reused; any other that holds something is refused.
-    const auto recording = o.output / "recording";
+    const auto folder = o.output / "recording";
     const bool again = std::filesystem::exists(o.output / "before.png") &&
-                       std::filesystem::exists(recording / "poses.txt");
+                       std::filesystem::exists(folder / "poses.txt");
     OutputFolder output(o.output, Contents::demo, replaced_if(again));
-    OutputFolder recorded(recording, Contents::recording, replaced_if(again));
+    OutputFolder recorded(folder, Contents::recording, replaced_if(again));
     OutputFolder result(o.output / "result", Contents::result, replaced_if(again));
     StageClock clock;
     sim::SimulationOptions scene;
@@ -53,9 +53,9 @@ int demo(const DemoOptions& o) {
     write_simulation(scene, recorded.path());
     recorded.commit();
 
-    const io::Sequence sequence = open({.data = recording, .format = "kitti"});
+    const io::Recording recording = open({.data = folder, .format = "kitti"});
     clock.finish("simulate");
-    const RunSummary summary = run_sequence(sequence, preset("default"), {}, result, clock);
+    const RunSummary summary = run_sequence(recording, preset("default"), {}, result, clock);
     result.commit();
     // Seen from where the whole hall is in view.
     RenderOptions picture;

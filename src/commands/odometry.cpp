@@ -30,13 +30,13 @@ int odometry(const OdometryOptions& o) {
     }
     DataOptions without_poses = o.data;
     without_poses.poses = "none";
-    io::Sequence sequence = open(without_poses);
+    io::Recording recording = open(without_poses);
     catch_interrupts();
-    ensure_poses(sequence, config, o.data.deskew, o.quiet);
+    ensure_poses(recording, config, o.data.deskew, o.quiet);
     if (interrupted()) return kInterrupted;
-    write_poses(o.output, sequence);
+    write_poses(o.output, recording);
     if (o.quiet) return kDone;
-    for (const std::string& note : sequence.notes) fmt::print("note     {}\n", note);
+    for (const std::string& note : recording.info().notes) fmt::print("note     {}\n", note);
     fmt::print("written  {}\n", o.output.string());
     return kDone;
 }

@@ -43,7 +43,7 @@ public:
         : output_(folder, Contents::recording, replaced_if(overwrite)),
           scans_(output_.subfolder("velodyne")) {}
 
-    void append(const io::Frame& frame, const Labels& labels) override {
+    void append(const io::FullScan& frame, const Labels& labels) override {
         const std::string name = fmt::format("{:06}", poses_.size());
         fields_ = frame.cloud.fields;
         io::write_bin(scans_ / (name + ".bin"), frame.points, intensities(frame.cloud));
@@ -86,7 +86,7 @@ public:
         }
     }
 
-    void append(const io::Frame& frame, const Labels& labels) override {
+    void append(const io::FullScan& frame, const Labels& labels) override {
         io::Cloud cloud = layout_;
         fields_ = frame.cloud.fields;
         cloud.data.resize(frame.points.size() * cloud.point_bytes);
@@ -129,7 +129,7 @@ public:
           encoding_(writer_->encoding()),
           map_(std::move(map)) {}
 
-    void append(const io::Frame& frame, const Labels& labels) override {
+    void append(const io::FullScan& frame, const Labels& labels) override {
         last_ = frame.stamp;
         const io::Cloud cloud = in_sensor(frame);
         for (const io::Field& field : cloud.fields) {
@@ -165,9 +165,9 @@ private:
     static constexpr const char *kWorld = "map", *kSensor = "lidar";
 
     /// The record with the coordinates that the filter sees.
-    static io::Cloud in_sensor(const io::Frame& frame) {
+    static io::Cloud in_sensor(const io::FullScan& frame) {
         io::Cloud cloud = frame.cloud;
-        io::Frame local = frame;
+        io::FullScan local = frame;
         local.T_world_sensor = Pose::Identity();
         cloud.data = world_records(local, cloud);
         return cloud;
@@ -193,7 +193,7 @@ class MapSink final : public Sink {
 public:
     explicit MapSink(fs::path file) : file_(std::move(file)) {}
 
-    void append(const io::Frame& frame, const Labels& labels) override {
+    void append(const io::FullScan& frame, const Labels& labels) override {
         if (layout_.fields.empty()) {
             layout_ = layout_of(frame, false);
             map_.fields = layout_.fields;

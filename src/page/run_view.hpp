@@ -17,7 +17,7 @@ namespace dynamic_filter::app {
 
 /// Counts of a scan, made while its labels are written.
 struct ScanNote {
-    std::size_t index = 0;                               ///< in the sequence
+    std::size_t index = 0;                               ///< in the recording
     Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] of the sensor, in the world
     double stamp = 0.0;                                  ///< [s]
     std::array<std::uint32_t, 3> counts{};               ///< final: static, dynamic, unknown
@@ -30,10 +30,10 @@ struct ScanNote {
 ScanNote note_of(const Labels& labels, const Labels& instant, const Labels& truth);
 
 struct ViewInput {
-    const io::Sequence& sequence;
+    const io::Recording& sequence;
     const OnlineFilter& filter;          ///< finished
     const std::vector<ScanNote>& scans;  ///< that were used, in order
-    const LabelStore& instant;           ///< by index in the sequence; empty where not kept
+    const LabelStore& instant;           ///< by index in the recording; empty where not kept
     std::filesystem::path labels;        ///< folder of the final verdicts
     bool has_evidence = false;           ///< scans observe, so there are counters
 };

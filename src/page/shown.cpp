@@ -19,7 +19,7 @@ std::uint8_t code_at(const Labels& labels, std::size_t i) {
 }
 
 /// Chooses about `most` measured points of a scan at random. Up to half of them are dynamic.
-std::vector<std::uint32_t> drawn(const io::Frame& frame, const Labels& labels, std::size_t scan,
+std::vector<std::uint32_t> drawn(const io::FullScan& frame, const Labels& labels, std::size_t scan,
                                  std::size_t most) {
     const auto moving =
         static_cast<double>(std::count(labels.begin(), labels.end(), Label::dynamic));
@@ -39,7 +39,7 @@ std::vector<std::uint32_t> drawn(const io::Frame& frame, const Labels& labels, s
 }
 
 /// About `most` points of one scan. `intensity`: of all its points, or empty.
-std::vector<ShownPoint> draw(const ViewInput& in, std::size_t row, const io::Frame& frame,
+std::vector<ShownPoint> draw(const ViewInput& in, std::size_t row, const io::FullScan& frame,
                              const Labels& labels, const std::vector<double>& intensity,
                              const Eigen::Vector3d& origin, std::size_t most) {
     const std::size_t index = in.scans[row].index;
@@ -105,8 +105,9 @@ Shown collect(const ViewInput& in, const Eigen::Vector3d& origin) {
     const auto draw_both = [&](std::size_t i, MaybeFrame& maybe) {
         const Labels labels = io::read_labels(in.labels / (io::stem(in.sequence, i) + ".label"));
         const std::size_t row = row_of[i];
-        const auto intensity = in.sequence.intensity_is_truth ? std::vector<double>{}
-                                                              : intensities(maybe.frame->cloud);
+        const auto intensity = in.sequence.info().intensity_is_truth
+                                   ? std::vector<double>{}
+                                   : intensities(maybe.frame->cloud);
         drawn[i].has_intensity = !intensity.empty();
         drawn[i].map = draw(in, row, *maybe.frame, labels, intensity, origin, for_map);
         if (is_frame(i))

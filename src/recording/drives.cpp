@@ -141,7 +141,7 @@ std::vector<Drive> open_drives(const std::vector<DriveSource>& sources, const Da
     std::vector<Drive> drives;
     for (std::size_t i = 0; i < sources.size(); ++i) {
         Drive drive{.name = names[i], .sequence = open(options[i])};
-        if (!drive.sequence.has_poses) {
+        if (!drive.sequence.info().has_poses) {
             throw InputError(
                 options[i].data, "",
                 "has no poses, so it has no place in a common world; give its poses (a single "

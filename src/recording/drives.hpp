@@ -20,7 +20,7 @@ struct DriveSource {
 
 struct Drive {
     std::string name;  ///< of its folder in the result
-    io::Sequence sequence;
+    io::Recording sequence;
 };
 
 /// The recordings, with each list (a .txt file) replaced by what it lists: one recording a line;

@@ -25,6 +25,7 @@ struct Layout {
     std::vector<double> stamps;         ///< [s] stamps of the scans if the layout defines them
     std::filesystem::path pose_source;  ///< file of T_world_sensor
     std::optional<std::filesystem::path> poses, times, calib, labels, truth_map;
+    Cloud (*read)(const std::filesystem::path& scan) = read_cloud;
     std::vector<std::string> notes;
 };
 

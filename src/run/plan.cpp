@@ -63,7 +63,7 @@ void add_around(const Eigen::Vector3d& world, const PlaneCell& cell, double edge
     if (dx != 0 && dy != 0) add({cell.x + dx, cell.y + dy});
 }
 
-Extent extent_of(const io::Frame& frame, double voxel_size) {
+Extent extent_of(const io::FullScan& frame, double voxel_size) {
     const double edge = cell_edge(voxel_size);
     Extent extent;
     each_measured(frame, [&](std::size_t, const Eigen::Vector3d& world) {
@@ -85,14 +85,14 @@ Extent extent_of(const io::Frame& frame, double voxel_size) {
 /// Decides in the order of the scans which of them are used, as the filter of one recording does.
 class ScanGate {
 public:
-    ScanGate(const io::Sequence& sequence, PlannedDrive& drive)
+    ScanGate(const io::Recording& sequence, PlannedDrive& drive)
         : sequence_(sequence), drive_(drive) {}
 
     void reject(std::size_t i, const std::string& why) {
         drive_.rejected.push_back(fmt::format("{}: {}", io::stem(sequence_, i), why));
     }
 
-    void take(std::size_t i, const io::Frame& frame, const Extent& extent) {
+    void take(std::size_t i, const io::FullScan& frame, const Extent& extent) {
         if (!fields_.empty() && frame.cloud.fields != fields_) {
             reject(i, io::kOtherFields);
             return;
@@ -165,7 +165,7 @@ private:
         before_last_ = last_ = std::nullopt;
     }
 
-    const io::Sequence& sequence_;
+    const io::Recording& sequence_;
     PlannedDrive& drive_;
     std::vector<io::Field> fields_;
     std::optional<StampedPose> before_last_, last_;
@@ -213,7 +213,7 @@ void scan_drive(const Drive& drive, double voxel_size, PlannedDrive& planned, Vo
     for_each_frame(drive.sequence, all_scans(drive.sequence), measure, use);
     gate.finish();
     if (used_scans(planned).empty() && !interrupted()) {
-        throw InputError(drive.sequence.root, "",
+        throw InputError(drive.sequence.info().root, "",
                          "no scan is usable; the first was rejected: " + planned.rejected.front());
     }
 }
@@ -221,12 +221,12 @@ void scan_drive(const Drive& drive, double voxel_size, PlannedDrive& planned, Vo
 /// Looks at motion and poses, as a run of one recording does; poses are not refined.
 void look_at(Drive& drive, const Config& config, const DataOptions& how, PlannedDrive& planned) {
     Config unrefined = config;
-    planned.notes = drive.sequence.notes;
+    planned.notes = drive.sequence.info().notes;
     const auto chosen =
         choose_motion(drive.sequence, unrefined, {.refine = "off", .deskew = how.deskew});
     planned.notes.insert(planned.notes.end(), chosen.begin(), chosen.end());
-    planned.deskew = drive.sequence.deskew;
-    planned.sweep = drive.sequence.sweep;
+    planned.deskew = drive.sequence.info().deskewed;
+    planned.sweep = drive.sequence.info().sweep;
     for (const auto& found : io::check_recording(drive.sequence, io::Depth::quick).findings) {
         planned.warnings.push_back(warning_of(found, how));
     }
@@ -235,7 +235,7 @@ void look_at(Drive& drive, const Config& config, const DataOptions& how, Planned
 /// Drives that do not fit each other would see each other's walls as moving.
 std::vector<std::string> offsets_of(const std::vector<Drive>& drives) {
     if (drives.size() < 2) return {};
-    std::vector<const io::Sequence*> sequences;
+    std::vector<const io::Recording*> sequences;
     for (const Drive& drive : drives) sequences.push_back(&drive.sequence);
     std::vector<std::string> warnings;
     for (const io::Finding& finding : io::compare_drives(sequences)) {
@@ -348,9 +348,9 @@ Plan make_plan(std::vector<Drive>& drives, const Config& config, const DataOptio
 
 void prepare(std::vector<Drive>& drives, const Plan& plan) {
     for (std::size_t d = 0; d < drives.size(); ++d) {
-        io::Sequence& sequence = drives[d].sequence;
-        sequence.sweep = plan.drives[d].sweep;
-        if (plan.drives[d].deskew && !sequence.deskew) io::prepare_deskew(sequence);
+        io::Recording& sequence = drives[d].sequence;
+        if (!plan.drives[d].deskew || sequence.info().deskewed) continue;
+        sequence = io::deskewed(sequence, plan.drives[d].sweep);
     }
 }
 

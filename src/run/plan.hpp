@@ -29,7 +29,7 @@ struct PlannedDrive {
     std::vector<std::string> notes;     ///< for the user
     std::vector<std::string> warnings;  ///< what is suspicious in the recording
     std::size_t most_points = 0;        ///< in a scan
-    /// How the motion during each scan is undone, as Sequence has it.
+    /// How the motion during each scan is undone, as Recording has it.
     bool deskew = false;
     std::optional<Sweep> sweep;
 };

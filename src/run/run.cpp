@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// What a run was begun with: whoever resumes it must come with the same.
-std::string begun_with(const io::Sequence& sequence, const Config& config, const Extras& extras) {
+std::string begun_with(const io::Recording& sequence, const Config& config, const Extras& extras) {
     return fmt::format("version {}\n{}{}{}{}", DYNAMIC_FILTER_VERSION, state_of(sequence),
                        extras.maps ? "" : "no maps\n", extras.report ? "" : "no report\n",
                        to_toml(config));
@@ -53,11 +53,11 @@ int run(const RunOptions& o) {
     StageClock clock;
     if (!o.after.empty()) clock.finish(o.after);
     Config config = load_config(o.config);
-    io::Sequence sequence = open(o.data);
+    io::Recording sequence = open(o.data);
     const bool named = o.output.has_value();
     if (named) {
         refuse_same_folder(o.data.data, *o.output);
-        refuse_same_folder(sequence.scan_files.front().parent_path(), *o.output);
+        refuse_same_folder(sequence.info().scan_files.front().parent_path(), *o.output);
     }
     if (o.resume && !named) throw ConfigError("--resume needs the folder to go on with: -o DIR");
     if (o.overwrite && named) refuse_foreign_labels(*o.output);
@@ -75,7 +75,7 @@ int run(const RunOptions& o) {
     with_threads(o.threads, [&] {
         chosen = choose_motion(sequence, config, {.refine = o.refine, .deskew = o.data.deskew});
     });
-    sequence.notes.insert(sequence.notes.end(), chosen.begin(), chosen.end());
+    sequence = io::with_notes(sequence, chosen);
     const Extras extras{.maps = o.maps, .report = o.report};
     const std::string state = begun_with(sequence, config, extras);
     if (o.resume) refuse_other_run(output, state);
@@ -84,7 +84,7 @@ int run(const RunOptions& o) {
         if (!o.quiet) fmt::print("complete {}\n", output.name().string());
         return kDone;
     }
-    tell(sequence.notes, o.quiet);
+    tell(sequence.info().notes, o.quiet);
     for (const io::Finding& found : io::check_recording(sequence, io::Depth::quick).findings) {
         fmt::print(stderr, "warning: {}\n", warning_of(found, o.data));
     }
@@ -101,7 +101,8 @@ int run(const RunOptions& o) {
                      {.live = live ? &*live : nullptr, .quiet = o.quiet}, extras);
 
     tell(summary.notes, o.quiet);
-    for (const std::string& line : sequence.losses) fmt::print(stderr, "lost     {}\n", line);
+    for (const std::string& line : sequence.info().losses)
+        fmt::print(stderr, "lost     {}\n", line);
     for (const std::string& line : summary.rejected) fmt::print(stderr, "rejected {}\n", line);
     for (const std::string& line : summary.dropped) fmt::print(stderr, "dropped {}\n", line);
     if (edits && !summary.interrupted) apply_to_run(output.path(), *edits, o.quiet);
@@ -121,7 +122,8 @@ int run(const RunOptions& o) {
     }
     if (interrupted()) return kInterrupted;  // also while it scored and reported: all is there
     if (live) live->linger();
-    const bool all = summary.rejected.empty() && summary.dropped.empty() && sequence.losses.empty();
+    const bool all =
+        summary.rejected.empty() && summary.dropped.empty() && sequence.info().losses.empty();
     return all ? kDone : kRejected;
 }
 

@@ -82,8 +82,8 @@ struct ResultPlace {
 /// Opens the folder, unless the run is complete.
 void open_output(ResultPlace& place, const City& city, const RunOptions& o) {
     for (const Drive& drive : city.drives) {
-        refuse_same_folder(drive.sequence.root, place.folder);
-        refuse_same_folder(drive.sequence.scan_files.front().parent_path(), place.folder);
+        refuse_same_folder(drive.sequence.info().root, place.folder);
+        refuse_same_folder(drive.sequence.info().scan_files.front().parent_path(), place.folder);
     }
     if (o.overwrite) refuse_foreign_labels(place.folder);
     place.output.emplace(place.folder, Contents::result,

@@ -15,7 +15,7 @@ namespace dynamic_filter::app {
 
 /// Lives from the first pass over the scans to the reports.
 struct Pass {
-    io::Sequence sequence;  ///< once all is filtered, with the poses that were found or refined
+    io::Recording sequence;  ///< once all is filtered, with the poses that were found or refined
     const Config& config;
     const Pace& pace;
     const OutputFolder& output;
@@ -45,7 +45,7 @@ struct Pass {
         return {.instant =
                     [this](const Verdict& verdict) {
                         tracked[verdict.index] = verdict.tracked;
-                        if (sequence.has_truth() ||
+                        if (sequence.info().has_truth() ||
                             (extras.report && is_shown(verdict.index, sequence.size()))) {
                             instant.put(verdict.index, verdict.labels);
                         }

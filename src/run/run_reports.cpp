@@ -50,11 +50,12 @@ nlohmann::ordered_json timing(const Pass& pass) {
 }
 
 void write_log(const Pass& pass) {
-    std::string log = fmt::format("input    {} ({}, {} scans)\n", pass.sequence.root.string(),
-                                  pass.sequence.layout, pass.sequence.size());
-    for (const std::string& note : pass.sequence.notes) log += "note     " + note + "\n";
+    std::string log =
+        fmt::format("input    {} ({}, {} scans)\n", pass.sequence.info().root.string(),
+                    pass.sequence.info().layout, pass.sequence.size());
+    for (const std::string& note : pass.sequence.info().notes) log += "note     " + note + "\n";
     for (const std::string& note : pass.summary.notes) log += "note     " + note + "\n";
-    for (const std::string& line : pass.sequence.losses) log += "lost     " + line + "\n";
+    for (const std::string& line : pass.sequence.info().losses) log += "lost     " + line + "\n";
     for (const std::string& line : pass.summary.rejected) log += "rejected " + line + "\n";
     for (const std::string& line : pass.summary.dropped) log += "dropped  " + line + "\n";
     if (const auto beams = pass.summary.contents.beams) {
@@ -70,8 +71,8 @@ void describe(PageRun& run, const Pass& pass) {
     run.info["name"] = pass.output.name().filename().string();
     run.info["command"] = "run";
     run.info["version"] = DYNAMIC_FILTER_VERSION;
-    run.info["input"] = pass.sequence.root.string();
-    run.info["format"] = pass.sequence.layout;
+    run.info["input"] = pass.sequence.info().root.string();
+    run.info["format"] = pass.sequence.info().layout;
     run.info["created"] = fmt::format("{:%FT%TZ}", fmt::gmtime(std::time(nullptr)));
     for (const char* name : {"default", "paper"}) {
         if (to_toml(pass.config) == to_toml(preset(name))) run.info["preset"] = name;
@@ -83,7 +84,7 @@ void describe(PageRun& run, const Pass& pass) {
     run.info["config"] = to_toml(pass.config);
     const RunSummary& s = pass.summary;
     run.info["counts"] = {{"static", s.still}, {"dynamic", s.dynamic}, {"unknown", s.unknown}};
-    run.info["notes"] = pass.sequence.notes;
+    run.info["notes"] = pass.sequence.info().notes;
     for (const std::string& note : s.notes) run.info["notes"].push_back(note);
     run.info["rejected"] = s.rejected;
     run.info["dropped"] = s.dropped;
@@ -151,7 +152,7 @@ nlohmann::ordered_json metrics_of(const RunSummary& s, const std::vector<std::st
 
 void write_reports(Pass& pass) {
     take_contents(pass);
-    const nlohmann::ordered_json metrics = metrics_of(pass.summary, pass.sequence.losses);
+    const nlohmann::ordered_json metrics = metrics_of(pass.summary, pass.sequence.info().losses);
     write_report(pass, metrics);
     io::write_file(pass.output.path() / "metrics.json", text_of(metrics));
     pass.summary.seconds = pass.clock.total();

@@ -57,7 +57,7 @@ void take_notices(Pass& pass) {
 void keep_pace(const Pass& pass, Clock::time_point start, double stamp) {
     const double speed = pass.pace.online.value_or(0.0);
     if (speed <= 0.0) return;
-    const double due = (stamp - pass.sequence.stamps.front()) / speed;
+    const double due = (stamp - pass.sequence.info().stamps.front()) / speed;
     while (!interrupted()) {
         const double left = due - seconds_since(start);
         if (left <= 0.0) return;
@@ -69,7 +69,7 @@ void keep_pace(const Pass& pass, Clock::time_point start, double stamp) {
 void take_poses(Pass& pass) {
     const auto was_tracked = [](const auto& tracked) { return tracked.has_value(); };
     if (std::none_of(pass.tracked.begin(), pass.tracked.end(), was_tracked)) return;
-    io::use_poses(pass.sequence, pass.tracked);
+    pass.sequence = io::with_poses(pass.sequence, pass.tracked);
     write_poses(pass.output.path() / "poses.txt", pass.sequence);
     pass.summary.notes.push_back(track_text(pass.tracked));
 }
@@ -111,12 +111,12 @@ void filter_scans(Pass& pass) {
         std::find(pass.accepted.begin(), pass.accepted.end(), true) == pass.accepted.end();
     if (none && !pass.summary.interrupted) {
         throw InputError(
-            pass.sequence.root, "",
+            pass.sequence.info().root, "",
             "no scan is usable; the first was rejected: " + pass.summary.rejected.front());
     }
 }
 
-void note(Pass& pass, std::size_t i, const io::Frame& frame, const Labels& labels,
+void note(Pass& pass, std::size_t i, const io::FullScan& frame, const Labels& labels,
           const Labels& instant) {
     ScanNote note = note_of(labels, instant, frame.truth);
     note.index = i;
@@ -135,14 +135,14 @@ void note(Pass& pass, std::size_t i, const io::Frame& frame, const Labels& label
 void write_results(Pass& pass) {
     const std::vector<std::size_t> scans = accepted_scans(pass);
     Progress progress("write", scans.size(), pass.watchers.quiet);
-    if (pass.sequence.has_truth()) {
+    if (pass.sequence.info().has_truth()) {
         pass.scorer.emplace(eval::kVoxelSize, 2);
         pass.scoring_origin = scoring_origin(pass.sequence, eval::kVoxelSize);
     }
-    const auto decide = [&](std::size_t i, const io::Frame& frame) {
+    const auto decide = [&](std::size_t i, const io::FullScan& frame) {
         return pass.filter.verdict({frame.points, frame.T_world_sensor, frame.stamp, i});
     };
-    const auto use = [&](std::size_t i, const io::Frame& frame, const Verdict& verdict) {
+    const auto use = [&](std::size_t i, const io::FullScan& frame, const Verdict& verdict) {
         const Labels instant = pass.instant.get(i);
         if (pass.scorer && !frame.truth.empty()) {
             pass.scorer->add(labelled(frame, pass.scoring_origin),
@@ -181,7 +181,7 @@ void score(Pass& pass) {
 
 }  // namespace
 
-RunSummary run_sequence(const io::Sequence& sequence, const Config& config, const Pace& pace,
+RunSummary run_sequence(const io::Recording& sequence, const Config& config, const Pace& pace,
                         const OutputFolder& output, StageClock& clock, const Watchers& watchers,
                         const Extras& extras) {
     RunSummary summary;

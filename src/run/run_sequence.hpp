@@ -53,7 +53,7 @@ struct Pace {
 
 /// Filters the sequence and writes everything a run leaves behind; `clock` is told of the stages.
 /// Throws InputError if not a single scan is usable.
-RunSummary run_sequence(const io::Sequence& sequence, const Config& config, const Pace& pace,
+RunSummary run_sequence(const io::Recording& sequence, const Config& config, const Pace& pace,
                         const OutputFolder& output, StageClock& clock,
                         const Watchers& watchers = {}, const Extras& extras = {});
 

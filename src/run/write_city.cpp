@@ -55,7 +55,7 @@ Tiles open_tiles(const City& city, const TileFolders& folders) {
 
 /// The verdict on a scan, put together from the tiles in which it has points.
 Verdict verdict_of(const City& city, const Tiles& tiles, const ScanOfDrive& scan,
-                   const io::Frame& frame) {
+                   const io::FullScan& frame) {
     struct Open {
         std::uint32_t tile;
         PointVerdicts verdicts;
@@ -81,7 +81,7 @@ Verdict verdict_of(const City& city, const Tiles& tiles, const ScanOfDrive& scan
             in = found == open.end() ? nullptr : &*found;
         }
         if (!in || in->next >= in->verdicts.size()) {
-            throw InputError(city.drives[scan.drive].sequence.scan_files[scan.scan], "",
+            throw InputError(city.drives[scan.drive].sequence.info().scan_files[scan.scan], "",
                              "its points or its pose are others than before");
         }
         const PointVerdict& of_point = in->verdicts[in->next++];
@@ -115,13 +115,13 @@ std::string points_text(const RunSummary& s) {
 
 void write_log(const fs::path& folder, const Drive& drive, const RunSummary& s,
                const std::vector<std::string>& warnings) {
-    const io::Sequence& sequence = drive.sequence;
+    const io::Recording& sequence = drive.sequence;
     std::string log = fmt::format("input    {} ({}, {} scans)\n",
-                                  fs::absolute(sequence.root).lexically_normal().string(),
-                                  sequence.layout, sequence.size());
+                                  fs::absolute(sequence.info().root).lexically_normal().string(),
+                                  sequence.info().layout, sequence.size());
     for (const std::string& note : s.notes) log += "note     " + note + "\n";
     for (const std::string& line : warnings) log += "warning  " + line + "\n";
-    for (const std::string& line : sequence.losses) log += "lost     " + line + "\n";
+    for (const std::string& line : sequence.info().losses) log += "lost     " + line + "\n";
     for (const std::string& line : s.rejected) log += "rejected " + line + "\n";
     log += "scans    " + points_text(s) + "\n";
     if (s.scores) log += "scores against the ground truth of the recording\n" + table(*s.scores);
@@ -135,10 +135,10 @@ RunSummary write_drive(const City& city, const Tiles& tiles, std::uint32_t numbe
     RunSummary summary;
     summary.rejected = planned.rejected;
     summary.notes = planned.notes;
-    const auto decide = [&](std::size_t i, const io::Frame& frame) {
+    const auto decide = [&](std::size_t i, const io::FullScan& frame) {
         return verdict_of(city, tiles, {number, static_cast<std::uint32_t>(i)}, frame);
     };
-    const auto use = [&](std::size_t, const io::Frame&, const Verdict& verdict) {
+    const auto use = [&](std::size_t, const io::FullScan&, const Verdict& verdict) {
         ++summary.scans;
         summary.points += verdict.labels.size();
         for (const Label label : verdict.labels) {
@@ -151,7 +151,8 @@ RunSummary write_drive(const City& city, const Tiles& tiles, std::uint32_t numbe
     write_scans(drive.sequence, used_scans(planned), city.config, maps, folder,
                 {.decide = decide, .use = use});
     add_scores(tiles, number, summary);
-    io::write_file(folder / "metrics.json", text_of(metrics_of(summary, drive.sequence.losses)));
+    io::write_file(folder / "metrics.json",
+                   text_of(metrics_of(summary, drive.sequence.info().losses)));
     write_log(folder, drive, summary, planned.warnings);
     return summary;
 }
@@ -257,7 +258,8 @@ CitySummary count(const City& city, const Tiles& tiles) {
 Json metrics_of_all(const City& city, const CitySummary& summary) {
     Json drives = Json::object();
     for (std::size_t d = 0; d < city.drives.size(); ++d) {
-        drives[city.drives[d].name] = metrics_of(summary.drives[d], city.drives[d].sequence.losses);
+        drives[city.drives[d].name] =
+            metrics_of(summary.drives[d], city.drives[d].sequence.info().losses);
     }
     if (city.drives.size() == 1) return drives.front();
     return {{"drives", drives}};
@@ -269,10 +271,10 @@ int exit_code_of(const City& city, const CitySummary& summary) {
         for (const std::string& line : summary.drives[d].rejected) {
             fmt::print(stderr, "rejected {}: {}\n", city.drives[d].name, line);
         }
-        for (const std::string& line : city.drives[d].sequence.losses) {
+        for (const std::string& line : city.drives[d].sequence.info().losses) {
             fmt::print(stderr, "lost     {}: {}\n", city.drives[d].name, line);
         }
-        all &= summary.drives[d].rejected.empty() && city.drives[d].sequence.losses.empty();
+        all &= summary.drives[d].rejected.empty() && city.drives[d].sequence.info().losses.empty();
     }
     return all ? kDone : kRejected;
 }

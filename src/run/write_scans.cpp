@@ -12,15 +12,15 @@
 
 namespace dynamic_filter::app {
 
-void write_scans(const io::Sequence& sequence, const std::vector<std::size_t>& scans,
+void write_scans(const io::Recording& sequence, const std::vector<std::size_t>& scans,
                  const Config& config, bool with_maps, const std::filesystem::path& folder,
                  const ScanResults& results) {
     const auto labels = folder / "labels";
     std::filesystem::create_directories(labels);
-    MapFiles maps(folder, config.map.keep_unknown, sequence.layout == "benchmark");
+    MapFiles maps(folder, config.map.keep_unknown, sequence.info().layout == "benchmark");
     if (with_maps && !scans.empty()) {
         try {
-            maps.begin(io::read_frame(sequence, scans.front()));
+            maps.begin(sequence.read(scans.front()));
         } catch (const InputError& error) {
             throw changed_in_use(sequence, scans.front(), error.what());
         }
@@ -29,7 +29,7 @@ void write_scans(const io::Sequence& sequence, const std::vector<std::size_t>& s
     std::vector<MapFiles::Records> records(sequence.size());
     std::vector<Gaps> gaps(sequence.size());
     const auto decide = [&](std::size_t i, MaybeFrame& maybe) {
-        const io::Frame& frame = *maybe.frame;
+        const io::FullScan& frame = *maybe.frame;
         verdicts[i] = results.decide(i, frame);
         io::write_labels(labels / (io::stem(sequence, i) + ".label"), verdicts[i].labels,
                          io::Durable::contents);

@@ -98,9 +98,9 @@ TEST_F(RecordedMotion, ScansThatCannotBeReadArePassedOver) {
     put(street(false), street(false).truth);
     data.put("velodyne/" + number(10) + ".bin", "");
     data.put("velodyne/" + number(14) + ".bin", "1234567");
-    const Sequence sequence = open();
-    EXPECT_FALSE(measure_motion(sequence, {}).has_bad_poses());
-    const auto tracked = track_scans(sequence, {});
+    const Recording recording = open();
+    EXPECT_FALSE(measure_motion(recording, {}).has_bad_poses());
+    const auto tracked = track_scans(recording, {});
     ASSERT_EQ(tracked.size(), kScans);
     for (std::size_t i = 0; i < kScans; ++i) {
         EXPECT_EQ(tracked[i].has_value(), i != 10 && i != 14) << i;

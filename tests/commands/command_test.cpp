@@ -96,11 +96,11 @@ protected:
 
 TEST_F(Command, RunLeavesWhatTheContractSays) {
     ASSERT_EQ(run("run " + recording().string() + " -o out"), 0) << said();
-    const io::Sequence sequence = io::open_sequence(recording());
+    const io::Recording sequence = io::open_recording(recording());
     std::size_t points = 0;
     for (std::size_t i = 0; i < sequence.size(); ++i) {
         const auto label_file = folder_ / ("out/labels/" + io::stem(sequence, i) + ".label");
-        const std::size_t in_scan = io::read_frame(sequence, i).points.size();
+        const std::size_t in_scan = sequence.read(i).points.size();
         ASSERT_EQ(fs::file_size(label_file), 4 * in_scan);
         points += in_scan;
     }
@@ -785,9 +785,9 @@ TEST_F(Command, ReportsOfRunsAndMapsAreSetSideBySide) {
 TEST_F(Command, CheckSaysWhatToTypeAndThatWorks) {
     const std::string data = recording().string();
     EXPECT_EQ(run("check " + data), 0) << said();
-    io::Sequence sequence = io::open_sequence(recording());
-    for (Pose& pose : sequence.T_world_sensor) pose = pose.inverse();
-    io::write_poses_kitti(folder_ / "inverse.txt", sequence.T_world_sensor);
+    io::Recording sequence = io::open_recording(recording());
+    for (Pose& pose : sequence.info().T_world_sensor) pose = pose.inverse();
+    io::write_poses_kitti(folder_ / "inverse.txt", sequence.info().T_world_sensor);
     EXPECT_EQ(run("check " + data + " --poses inverse.txt"), 4);
     const std::string fixed = data + " --poses inverse.txt --pose-fix inverse";
     expect_said("try       dynamicfilter run " + fixed + "\n");
@@ -811,7 +811,7 @@ TEST_F(Command, CheckComparesTheFramesOfSeveralRecordings) {
     expect_said("frames    monday and tuesday: their scans overlay at ");
     expect_said("next      dynamicfilter run monday tuesday\n");
 
-    io::Sequence moved = io::open_sequence(folder_ / "tuesday");
+    io::Recording moved = io::open_recording(folder_ / "tuesday");
     for (Pose& pose : moved.T_world_sensor) pose.pretranslate(Eigen::Vector3d(0.0, 0.5, 0.0));
     io::write_poses_kitti(folder_ / "tuesday/poses.txt", moved.T_world_sensor);
     EXPECT_EQ(run("check monday tuesday"), 4) << said();

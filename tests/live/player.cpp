@@ -100,11 +100,11 @@ std::size_t differing_labels(const Options& o, const Heard& heard) {
     io::OpenOptions options;
     options.topic = o.topic;
     options.pose_topic = "/tf";
-    const io::Sequence sequence = io::open_sequence(o.bag, options);
+    const io::Recording recording = io::open_recording(o.bag, options);
     DynamicFilter filter{Config{}};
     std::size_t differing = 0;
-    for (std::size_t i = 0; i < sequence.size(); ++i) {
-        io::Frame frame = io::read_frame(sequence, i);
+    for (std::size_t i = 0; i < recording.size(); ++i) {
+        io::FullScan frame = recording.read(i);
         const auto own =
             filter.push({std::move(frame.points), frame.T_world_sensor, frame.stamp, i});
         const auto stamp = io::to_nanoseconds(frame.stamp);

@@ -71,14 +71,14 @@ protected:
         folder_.put("poses.txt", text);
         folder_.put("times.txt", times);
         std::filesystem::create_directories(folder_ / "labels_out");
-        sequence_ = io::open_sequence(folder_.path());
+        sequence_ = io::open_recording(folder_.path());
         for (std::size_t i = 0; i < sequence_.size(); ++i) {
-            io::Frame frame = io::read_frame(sequence_, i);
+            io::FullScan frame = sequence_.read(i);
             filter_.push({frame.points, frame.T_world_sensor, frame.stamp, i});
         }
         filter_.finish();
         for (std::size_t i = 0; i < sequence_.size(); ++i) {
-            const io::Frame frame = io::read_frame(sequence_, i);
+            const io::FullScan frame = sequence_.read(i);
             const Labels labels =
                 filter_.verdict({frame.points, frame.T_world_sensor, frame.stamp, i}).labels;
             io::write_labels(folder_ / ("labels_out/" + io::stem(sequence_, i) + ".label"), labels);
@@ -91,7 +91,7 @@ protected:
     test::TemporaryFolder folder_;
     std::vector<test::RoomScan> scans_ = test::drive(12, true);
     LabelStore instant_{folder_.path()};
-    io::Sequence sequence_;
+    io::Recording sequence_;
     OnlineFilter filter_{Config{},
                          {.overload = Overload::wait, .horizon = 0.0, .max_bytes = 0},
                          {.instant = [this](const Verdict& v) { instant_.put(v.index, v.labels); },

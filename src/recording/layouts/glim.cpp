@@ -54,6 +54,7 @@ std::optional<Layout> find_glim(const Place& place) {
     if (prefers_other_poses(place)) return std::nullopt;
     Layout layout;
     layout.scan_folder = place.data;
+    layout.read = read_submap;
     for (const fs::path& folder : list_folders(place.data)) {
         if (!is_submap(folder)) continue;
         const Submap submap = read_data(folder / "data.txt");

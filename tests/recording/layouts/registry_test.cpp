@@ -44,8 +44,8 @@ TEST_F(LayoutRegistry, AnUnknownNameIsAnsweredWithAllNames) {
 TEST_F(LayoutRegistry, AFolderOfAnotherLayoutIsRefusedWithWhatWasLookedFor) {
     put_bins("scans", 2);
     data.put("poses.txt", kitti_rows(2));
-    EXPECT_EQ(open().layout, "folder");
-    EXPECT_EQ(open(named("folder")).layout, "folder");
+    EXPECT_EQ(open().info().layout, "folder");
+    EXPECT_EQ(open(named("folder")).info().layout, "folder");
     for (const LayoutRow& row : layout_rows()) {
         if (row.name.name == "folder" || row.turn == Turn::bag) continue;
         const std::string error = open_error(named(row.name.name));
@@ -63,12 +63,12 @@ TEST_F(LayoutRegistry, ANameChoosesAmongLayoutsThatFit) {
     put_bins("velodyne", 2);
     put_bins("velodyne_points/data", 3);
     put_pcd("pcd/0.pcd", 1, 0);
-    EXPECT_EQ(open().layout, "kitti-raw");
+    EXPECT_EQ(open().info().layout, "kitti-raw");
     EXPECT_EQ(open(named("kitti-raw")).size(), 3U);
     EXPECT_EQ(open(named("kitti")).size(), 2U);
-    EXPECT_EQ(open(named("kitti")).layout, "kitti");
+    EXPECT_EQ(open(named("kitti")).info().layout, "kitti");
     EXPECT_EQ(open(named("benchmark")).size(), 1U);
-    EXPECT_TRUE(open(named("benchmark")).points_in_world);
+    EXPECT_TRUE(open(named("benchmark")).info().points_in_world);
 }
 
 TEST_F(LayoutRegistry, ANamedLayoutGetsTheGivenPosesInPlaceOfItsOwn) {
@@ -77,15 +77,15 @@ TEST_F(LayoutRegistry, ANamedLayoutGetsTheGivenPosesInPlaceOfItsOwn) {
     const std::string identity = "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n";
     data.put("1500000000_900000000.odom", identity);
     data.put("1500000001_000000000.odom", identity);
-    EXPECT_EQ(open().layout, "pairs");
+    EXPECT_EQ(open().info().layout, "pairs");
     OpenOptions options;
     options.poses = data.put("p.txt", kitti_rows(2));
-    EXPECT_EQ(open(options).layout, "folder");
+    EXPECT_EQ(open(options).info().layout, "folder");
     options.layout = "pairs";
-    const Sequence sequence = open(options);
-    EXPECT_EQ(sequence.layout, "pairs");
-    EXPECT_EQ(sequence.T_world_sensor[1].translation().x(), 1.0);
-    EXPECT_NEAR(sequence.stamps[1] - sequence.stamps[0], 0.1, 1e-6);
+    const Recording recording = open(options);
+    EXPECT_EQ(recording.info().layout, "pairs");
+    EXPECT_EQ(recording.info().T_world_sensor[1].translation().x(), 1.0);
+    EXPECT_NEAR(recording.info().stamps[1] - recording.info().stamps[0], 0.1, 1e-6);
 }
 
 }  // namespace layout_registry_test
