@@ -126,6 +126,7 @@ public:
     /// Throws the exception that read() would throw, as far as the fault shows without reading the
     /// points.
     void check(std::size_t i) const;
+    /// For the functions below.
     [[nodiscard]] const RecordingParts& parts() const { return *parts_; }
 
 private:
