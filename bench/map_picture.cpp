@@ -58,7 +58,7 @@ io::Color paler(io::Color color) {
     return color;
 }
 
-std::vector<Point> submap_positions(const io::Sequence& sequence) {
+std::vector<Point> submap_positions(const io::Recording& recording) {
     std::vector<Point> positions;
     const Config paper = preset("paper");
     WindowCutter cutter(paper.keyframe, paper.submap.keyframes);
@@ -68,14 +68,14 @@ std::vector<Point> submap_positions(const io::Sequence& sequence) {
         for (const Scan& scan : window->scans) poses.push_back(scan.T_world_sensor);
         positions.emplace_back(mean_pose(poses).translation().cast<float>());
     };
-    for (std::size_t i = 0; i < sequence.size(); ++i) {
-        add(cutter.push({{}, sequence.T_world_sensor[i], sequence.stamps[i], i}));
+    for (std::size_t i = 0; i < recording.size(); ++i) {
+        add(cutter.push({{}, recording.info().T_world_sensor[i], recording.info().stamps[i], i}));
     }
     add(cutter.flush());
     return positions;
 }
 
-Painter by_submap(const io::Sequence& sequence) {
+Painter by_submap(const io::Recording& recording) {
     static constexpr std::array<io::Color, 8> kColors{{{31, 119, 180},
                                                        {255, 127, 14},
                                                        {44, 160, 44},
@@ -84,7 +84,7 @@ Painter by_submap(const io::Sequence& sequence) {
                                                        {140, 86, 75},
                                                        {227, 119, 194},
                                                        {188, 189, 34}}};
-    return [positions = submap_positions(sequence)](const Point& center, const Voxel& v) -> Mark {
+    return [positions = submap_positions(recording)](const Point& center, const Voxel& v) -> Mark {
         if (!v.kept) return {};
         const auto nearest = std::min_element(
             positions.begin(), positions.end(), [&](const Point& a, const Point& b) {
@@ -96,7 +96,7 @@ Painter by_submap(const io::Sequence& sequence) {
     };
 }
 
-void add(Voxels& voxels, const io::Frame& frame, const Labels& verdict) {
+void add(Voxels& voxels, const io::FullScan& frame, const Labels& verdict) {
     if (verdict.size() != frame.points.size()) {
         throw ConfigError("a scan and its labels differ in number: are they of one recording?");
     }
@@ -162,14 +162,14 @@ int main(int argc, char** argv) {
         return 2;
     }
     try {
-        const io::Sequence sequence = io::open_sequence(words[1]);
-        if (!sequence.has_truth()) throw ConfigError("the recording has no ground truth");
-        const Painter paint = words[0] == "errors" ? error_mark : by_submap(sequence);
+        const io::Recording recording = io::open_recording(words[1]);
+        if (!recording.info().has_truth()) throw ConfigError("the recording has no ground truth");
+        const Painter paint = words[0] == "errors" ? error_mark : by_submap(recording);
         const std::filesystem::path labels = std::filesystem::path(words[2]) / "labels";
         Voxels voxels;
-        for (std::size_t i = 0; i < sequence.size(); ++i) {
-            add(voxels, io::read_frame(sequence, i),
-                io::read_labels(labels / (io::stem(sequence, i) + ".label")));
+        for (std::size_t i = 0; i < recording.size(); ++i) {
+            add(voxels, recording.read(i),
+                io::read_labels(labels / (io::stem(recording, i) + ".label")));
         }
         io::write_png(words[3], draw(from_above(voxels, paint)));
         return 0;

@@ -175,10 +175,10 @@ std::vector<Mistake> mistakes_of_motion() {
 }
 
 Copy read_copy(const fs::path& recording) {
-    const io::Sequence sequence = io::open_sequence(recording);
+    const io::Recording opened = io::open_recording(recording);
     Copy copy;
     for (std::size_t i = 0; i < std::min(kMost, sequence.size()); ++i) {
-        io::Frame frame = io::read_frame(sequence, i);
+        io::FullScan frame = sequence.read(i);
         copy.scans.push_back(std::move(frame.points));
         copy.poses.push_back(frame.T_world_sensor);
         copy.stamps.push_back(1000.0 + frame.stamp);
@@ -196,7 +196,7 @@ io::Preflight check_copy(const Copy& copy, const Mistake& mistake) {
                       std::vector<float>(copy.scans[i].size()));
     }
     io::write_file(folder.path() / "poses.txt", rows);
-    return io::check_recording(io::open_sequence(folder.path()), io::Depth::thorough);
+    return io::check_recording(io::open_recording(folder.path()), io::Depth::thorough);
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ octomap::point3d to_octomap(const Point& p) { return {p.x(), p.y(), p.z()}; }
 
 /// `origin` is the origin of the frame of the scores, a whole multiple of the voxel size, so that
 /// the voxels are the same.
-void insert(octomap::OcTree& tree, const io::Frame& frame, const Eigen::Vector3d& origin,
+void insert(octomap::OcTree& tree, const io::FullScan& frame, const Eigen::Vector3d& origin,
             Seconds& insertion) {
     const Points points = app::shifted_world(frame, origin);
     octomap::Pointcloud cloud;
@@ -59,7 +59,7 @@ void insert(octomap::OcTree& tree, const io::Frame& frame, const Eigen::Vector3d
     tree.insertPointCloud(cloud, to_octomap(sensor.cast<float>()));
 }
 
-Labels labels_of(const octomap::OcTree& tree, const io::Frame& frame,
+Labels labels_of(const octomap::OcTree& tree, const io::FullScan& frame,
                  const Eigen::Vector3d& origin) {
     Labels labels;
     const Points world = app::shifted_world(frame, origin);
@@ -73,25 +73,24 @@ Labels labels_of(const octomap::OcTree& tree, const io::Frame& frame,
     return labels;
 }
 
-nlohmann::ordered_json peer(const io::Sequence& sequence) {
-    const Eigen::Vector3d origin = app::scoring_origin(sequence, eval::kVoxelSize);
+nlohmann::ordered_json peer(const io::Recording& recording) {
+    const Eigen::Vector3d origin = app::scoring_origin(recording, eval::kVoxelSize);
     octomap::OcTree tree(eval::kVoxelSize);
     Seconds insertion, all;
-    for (std::size_t i = 0; i < sequence.size(); ++i) {
+    for (std::size_t i = 0; i < recording.size(); ++i) {
         const Stopwatch stopwatch(all);
-        insert(tree, io::read_frame(sequence, i), origin, insertion);
+        insert(tree, recording.read(i), origin, insertion);
     }
-    const auto scores =
-        eval::score_labels(sequence.size(),
-                           app::scan_source(sequence, origin,
-                                            [&](std::size_t i) {
-                                                return std::optional(labels_of(
-                                                    tree, io::read_frame(sequence, i), origin));
-                                            }),
-                           eval::kVoxelSize);
+    const auto scores = eval::score_labels(
+        recording.size(),
+        app::scan_source(recording, origin,
+                         [&](std::size_t i) {
+                             return std::optional(labels_of(tree, recording.read(i), origin));
+                         }),
+        eval::kVoxelSize);
     auto json = app::to_json(scores);
-    const auto scans = static_cast<double>(sequence.size());
-    json["scans"] = sequence.size();
+    const auto scans = static_cast<double>(recording.size());
+    json["scans"] = recording.size();
     json["cpu_seconds"] = insertion.cpu;
     json["scans_per_second"] = scans / insertion.wall;
     json["scans_per_second_with_reading"] = scans / all.wall;
@@ -110,9 +109,9 @@ int main(int argc, char** argv) {
         if (stride < 1) throw ConfigError("STRIDE must be a positive number");
         io::OpenOptions options;
         options.stride = static_cast<std::size_t>(stride);
-        const auto sequence = io::open_sequence(argv[1], options);
-        if (!sequence.has_truth()) throw ConfigError("the recording has no ground truth");
-        fmt::print("{}", app::text_of(peer(sequence)));
+        const auto recording = io::open_recording(argv[1], options);
+        if (!recording.info().has_truth()) throw ConfigError("the recording has no ground truth");
+        fmt::print("{}", app::text_of(peer(recording)));
         return 0;
     } catch (const Error& error) {
         fmt::print(stderr, "octomap_peer: {}\n", error.what());

@@ -15,14 +15,14 @@ using namespace dynamic_filter;
 
 namespace {
 
-void measure(const char* recording) {
-    const io::Sequence sequence = io::open_sequence(recording);
+void measure(const char* path) {
+    const io::Recording recording = io::open_recording(path);
     Odometry odometry{OdometryConfig{}};
     std::vector<Pose> truth, found;
     std::size_t weak = 0, lost = 0;
     std::clock_t clocks = 0;
-    for (std::size_t i = 0; i < sequence.size(); ++i) {
-        const io::Frame frame = io::read_frame(sequence, i);
+    for (std::size_t i = 0; i < recording.size(); ++i) {
+        const io::FullScan frame = recording.read(i);
         const std::clock_t start = std::clock();
         const auto times = io::point_times(frame.cloud, frame.stamp);
         const Tracked tracked = odometry.track(frame.points, times, frame.stamp);
@@ -33,7 +33,7 @@ void measure(const char* recording) {
         weak += tracked.status == TrackStatus::weak ? 1 : 0;
         lost += tracked.status == TrackStatus::lost ? 1 : 0;
     }
-    print_errors(recording, truth, found, fmt::format("weak {} lost {}", weak, lost), clocks);
+    print_errors(path, truth, found, fmt::format("weak {} lost {}", weak, lost), clocks);
 }
 
 }  // namespace

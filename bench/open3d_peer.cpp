@@ -48,12 +48,12 @@ std::shared_ptr<Cloud> surfaces(const std::deque<Cloud>& map) {
 }
 
 void measure(const char* recording) {
-    const io::Sequence sequence = io::open_sequence(recording);
+    const io::Recording sequence = io::open_recording(recording);
     std::vector<Pose> truth, found;
     std::deque<Cloud> map;
     std::clock_t clocks = 0;
     for (std::size_t i = 0; i < sequence.size(); ++i) {
-        const io::Frame frame = io::read_frame(sequence, i);
+        const io::FullScan frame = sequence.read(i);
         const std::clock_t start = std::clock();
         const auto scan = thinned(frame.points);
         Pose pose = found.empty() ? Pose::Identity() : found.back();

@@ -77,11 +77,11 @@ void check_sizes(const fs::path& file, std::size_t expected, std::size_t got) {
 
 Row measure(const fs::path& drive, const fs::path& labels, const Rule& rule) {
     constexpr std::uint32_t temporary = 259, moving = 251, low = 0xffff;
-    const io::Sequence sequence = io::open_sequence(drive);
+    const io::Recording recording = io::open_recording(drive);
     Row row;
-    for (std::size_t i = 0; i < sequence.size(); ++i) {
-        const std::string name = io::stem(sequence, i) + ".label";
-        const io::Frame frame = io::read_frame(sequence, i);
+    for (std::size_t i = 0; i < recording.size(); ++i) {
+        const std::string name = io::stem(recording, i) + ".label";
+        const io::FullScan frame = recording.read(i);
         const Points& points = frame.points;
         const std::vector<std::uint32_t> truth = raw_labels(drive / "labels" / name);
         const Labels result = io::read_labels(labels / name);
@@ -127,14 +127,14 @@ void look_through(const fs::path& drive, const Row& of_drive, Row& row) {
     for (auto& [number, thing] : row.things) {
         if (!of_drive.things.contains(number)) absent.push_back({.thing = &thing});
     }
-    const io::Sequence sequence = io::open_sequence(drive);
-    for (std::size_t i = 0; i < sequence.size(); i += 4) {
-        const Pose T_sensor_world = sequence.T_world_sensor[i].inverse();
-        std::optional<io::Frame> frame;
+    const io::Recording recording = io::open_recording(drive);
+    for (std::size_t i = 0; i < recording.size(); i += 4) {
+        const Pose T_sensor_world = recording.info().T_world_sensor[i].inverse();
+        std::optional<io::FullScan> frame;
         for (Passing& passing : absent) {
             const Eigen::Vector3d place = T_sensor_world * passing.thing->middle();
             if (place.norm() > 12.0) continue;
-            if (!frame) frame = io::read_frame(sequence, i);
+            if (!frame) frame = recording.read(i);
             count_beams(frame->points, place, passing);
         }
     }

@@ -14,7 +14,7 @@ using namespace dynamic_filter;
 
 namespace {
 
-double scans_per_second(const std::vector<io::Frame>& frames, bool keep) {
+double scans_per_second(const std::vector<io::FullScan>& frames, bool keep) {
     std::deque<std::pair<Scan, Labels>> kept;
     OnlineFilter filter(preset("default"),
                         {.overload = Overload::wait, .horizon = 0.0, .max_bytes = 0});
@@ -35,10 +35,10 @@ double scans_per_second(const std::vector<io::Frame>& frames, bool keep) {
 int main(int argc, char** argv) {
     if (argc < 2) return 2;
     const bool keep = argc > 2;
-    const io::Sequence sequence = io::open_sequence(argv[1]);
-    std::vector<io::Frame> frames;
-    for (std::size_t i = 0; i < sequence.size(); ++i) {
-        frames.push_back(io::read_frame(sequence, i));
+    const io::Recording recording = io::open_recording(argv[1]);
+    std::vector<io::FullScan> frames;
+    for (std::size_t i = 0; i < recording.size(); ++i) {
+        frames.push_back(recording.read(i));
     }
     // In the second run memory and threads exist already, as in Python.
     scans_per_second(frames, keep);

@@ -35,9 +35,9 @@ double resident_mib() {
 /// Repeats the scans without end.
 class EndlessDrive {
 public:
-    explicit EndlessDrive(const io::Sequence& sequence) {
-        for (std::size_t i = 0; i < sequence.size(); ++i) {
-            io::Frame frame = io::read_frame(sequence, i);
+    explicit EndlessDrive(const io::Recording& recording) {
+        for (std::size_t i = 0; i < recording.size(); ++i) {
+            io::FullScan frame = recording.read(i);
             scans_.push_back(app::take_scan(frame, i));
         }
         if (scans_.size() < 2) throw Error("one scan is no drive");
@@ -64,8 +64,8 @@ private:
     std::size_t count_ = 0;
 };
 
-ordered_json hours(const io::Sequence& sequence, double hours) {
-    EndlessDrive drive(sequence);
+ordered_json hours(const io::Recording& recording, double hours) {
+    EndlessDrive drive(recording);
     OnlineOptions options;
     options.overload = Overload::wait;
     OnlineFilter filter(Config{}, options);
@@ -103,8 +103,8 @@ struct Ages {
     }
 };
 
-ordered_json overload(const io::Sequence& sequence, double seconds) {
-    EndlessDrive drive(sequence);
+ordered_json overload(const io::Recording& recording, double seconds) {
+    EndlessDrive drive(recording);
     Ages ages;
     std::size_t last_dropped = 0;
     OnlineFilter filter(Config{}, {},
@@ -179,10 +179,10 @@ int main(int argc, char** argv) {
         return 2;
     }
     try {
-        const auto sequence = io::open_sequence(argv[1]);
+        const auto recording = io::open_recording(argv[1]);
         const double amount = std::stod(argv[3]);
-        fmt::print("{}", app::text_of(what == "hours" ? hours(sequence, amount)
-                                                      : overload(sequence, amount)));
+        fmt::print("{}", app::text_of(what == "hours" ? hours(recording, amount)
+                                                      : overload(recording, amount)));
         return 0;
     } catch (const std::exception& error) {
         fmt::print(stderr, "replay: {}\n", error.what());

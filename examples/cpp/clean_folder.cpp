@@ -11,7 +11,7 @@ namespace df = dynamic_filter;
 
 namespace {
 
-df::Scan scan_of(const df::io::Frame& frame, std::size_t index) {
+df::Scan scan_of(const df::io::FullScan& frame, std::size_t index) {
     return {frame.points, frame.T_world_sensor, frame.stamp, index};
 }
 
@@ -20,11 +20,11 @@ void append(df::io::Cloud& map, const df::Point& in_world) {
     map.data.insert(map.data.end(), bytes, bytes + map.point_bytes);
 }
 
-void clean(const std::filesystem::path& recording, const std::filesystem::path& out) {
-    const df::io::Sequence sequence = df::io::open_sequence(recording);
+void clean(const std::filesystem::path& data, const std::filesystem::path& out) {
+    const df::io::Recording recording = df::io::open_recording(data);
     df::DynamicFilter filter{df::Config{}};
-    for (std::size_t i = 0; i < sequence.size(); ++i) {
-        filter.push(scan_of(df::io::read_frame(sequence, i), i));
+    for (std::size_t i = 0; i < recording.size(); ++i) {
+        filter.push(scan_of(recording.read(i), i));
     }
     filter.finish();
 
@@ -34,17 +34,17 @@ void clean(const std::filesystem::path& recording, const std::filesystem::path& 
         df::io::add_field(map, axis, df::io::FieldType::f32);
     }
     std::filesystem::create_directories(out / "labels");
-    for (std::size_t i = 0; i < sequence.size(); ++i) {
-        const df::Scan scan = scan_of(df::io::read_frame(sequence, i), i);
+    for (std::size_t i = 0; i < recording.size(); ++i) {
+        const df::Scan scan = scan_of(recording.read(i), i);
         const df::Labels labels = filter.verdict(scan).labels;
-        df::io::write_labels(out / "labels" / (df::io::stem(sequence, i) + ".label"), labels);
+        df::io::write_labels(out / "labels" / (df::io::stem(recording, i) + ".label"), labels);
         for (std::size_t p = 0; p < labels.size(); ++p) {
             if (labels[p] == df::Label::dynamic) continue;
             append(map, (scan.T_world_sensor * scan.points[p].cast<double>()).cast<float>());
         }
     }
     df::io::write_pcd(out / "static_map.pcd", map);
-    std::printf("%zu scans, %zu points stay\n", sequence.size(), map.size());
+    std::printf("%zu scans, %zu points stay\n", recording.size(), map.size());
 }
 
 }  // namespace

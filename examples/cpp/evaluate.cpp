@@ -10,22 +10,22 @@ namespace df = dynamic_filter;
 
 namespace {
 
-df::Scan scan_of(const df::io::Frame& frame, std::size_t index) {
+df::Scan scan_of(const df::io::FullScan& frame, std::size_t index) {
     return {frame.points, frame.T_world_sensor, frame.stamp, index};
 }
 
-void evaluate(const df::io::Sequence& sequence) {
-    if (!sequence.has_truth()) throw df::Error("this recording has no ground truth");
+void evaluate(const df::io::Recording& recording) {
+    if (!recording.info().has_truth()) throw df::Error("this recording has no ground truth");
     df::Config config;
     config.map.voxel_size = 0.2;  // [m], as any setting: see settings.hpp
     df::DynamicFilter filter(config);
-    for (std::size_t i = 0; i < sequence.size(); ++i) {
-        filter.push(scan_of(df::io::read_frame(sequence, i), i));
+    for (std::size_t i = 0; i < recording.size(); ++i) {
+        filter.push(scan_of(recording.read(i), i));
     }
     filter.finish();
 
     const auto judged = [&](std::size_t i) -> std::optional<df::eval::LabelledScan> {
-        df::io::Frame frame = df::io::read_frame(sequence, i);
+        df::io::FullScan frame = recording.read(i);
         df::Labels verdict = filter.verdict(scan_of(frame, i)).labels;
         for (df::Point& p : frame.points) {
             p = (frame.T_world_sensor * p.cast<double>()).cast<float>();
@@ -34,7 +34,7 @@ void evaluate(const df::io::Sequence& sequence) {
                                       std::move(verdict)};
     };
     const df::eval::Scores scores =
-        df::eval::score_labels(sequence.size(), judged, df::eval::kVoxelSize);
+        df::eval::score_labels(recording.size(), judged, df::eval::kVoxelSize);
     const df::eval::VoxelScore& voxel = scores.voxel.at("excluded");
     std::printf("PR %.4f  RR %.4f  F1 %.4f  IoU of what moves %.4f\n", voxel.pr.value_or(0.0),
                 voxel.rr.value_or(0.0), voxel.f1.value_or(0.0), scores.point.iou.value_or(0.0));
@@ -44,7 +44,7 @@ void evaluate(const df::io::Sequence& sequence) {
 
 int main(int argc, char** argv) try {
     if (argc != 2) throw df::Error("usage: evaluate RECORDING");
-    evaluate(df::io::open_sequence(argv[1]));
+    evaluate(df::io::open_recording(argv[1]));
 } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

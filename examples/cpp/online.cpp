@@ -12,7 +12,7 @@ namespace df = dynamic_filter;
 
 namespace {
 
-void replay(const df::io::Sequence& sequence) {
+void replay(const df::io::Recording& recording) {
     df::OnlineOptions options;
     options.settle_after = 10;                // scans until a verdict is corrected
     options.overload = df::Overload::wait;    // a robot keeps the default: drop the oldest
@@ -37,8 +37,8 @@ void replay(const df::io::Sequence& sequence) {
 
     df::OnlineFilter filter(df::Config{}, options, callbacks);
     df::Pose last;
-    for (std::size_t i = 0; i < sequence.size(); ++i) {
-        df::io::Frame frame = df::io::read_frame(sequence, i);
+    for (std::size_t i = 0; i < recording.size(); ++i) {
+        df::io::FullScan frame = recording.read(i);
         last = frame.T_world_sensor;
         filter.push({std::move(frame.points), frame.T_world_sensor, frame.stamp, i});
     }
@@ -51,7 +51,7 @@ void replay(const df::io::Sequence& sequence) {
 
 int main(int argc, char** argv) try {
     if (argc != 2) throw df::Error("usage: online RECORDING");
-    replay(df::io::open_sequence(argv[1]));
+    replay(df::io::open_recording(argv[1]));
 } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

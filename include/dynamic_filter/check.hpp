@@ -11,7 +11,7 @@
 ///   relative to where those of the other drive put it.
 /// - Shapes: lists, with one entry per scan where a function says so. Findings about stamps come
 ///   first, then those about points, then about poses.
-/// - Ownership: values; sequences are borrowed and must not be null.
+/// - Ownership: values; recordings are borrowed and must not be null.
 /// - Threads: thread-safe; uses parallel_for. Results do not depend on the number of threads.
 /// - Errors: none of its own; scans that cannot be read are skipped, or listed in
 ///   Preflight::unusable.
@@ -63,11 +63,11 @@ enum class Depth { quick, thorough };
 
 /// Checks some scans at each of several places of the recording. With 64 beams, `thorough` takes
 /// one to two seconds, and `quick` about a tenth of a second.
-Preflight check_recording(const Sequence& sequence, Depth depth);
+Preflight check_recording(const Recording& recording, Depth depth);
 
 /// Poses of all scans by odometry alone, one entry per scan; empty for a scan that cannot be read.
 /// `after` is called after each scan; if it returns false, the work stops.
-std::vector<std::optional<Tracked>> track_scans(const Sequence& sequence,
+std::vector<std::optional<Tracked>> track_scans(const Recording& recording,
                                                 const OdometryConfig& config,
                                                 const std::function<bool()>& after = {});
 
@@ -75,7 +75,7 @@ std::vector<std::optional<Tracked>> track_scans(const Sequence& sequence,
 /// the time of each point is computed from its azimuth. It is empty if motion compensation was
 /// already done, if the sensor did not move, or if it does not rotate. Reads a few consecutive
 /// scans at several places of the recording.
-std::optional<Sweep> find_sweep(const Sequence& sequence, const OdometryConfig& config);
+std::optional<Sweep> find_sweep(const Recording& recording, const OdometryConfig& config);
 
 /// Difference between the recorded poses and the motion that the scans show, for pairs of scans
 /// with a given separation. All values are medians.
@@ -112,13 +112,13 @@ struct MotionQuality {
 };
 
 /// Measures the pose errors and the blur. Reads 21 consecutive scans at each of several places of
-/// the recording, with the times of their points if Sequence::wants_times is set.
-MotionQuality measure_motion(const Sequence& sequence, const OdometryConfig& config);
+/// the recording, with the times of their points if they have them (with_times()).
+MotionQuality measure_motion(const Recording& recording, const OdometryConfig& config);
 
 /// Describes the mistake in the poses, if scans overlay clearly better at other poses, or if the
 /// poses belong to another frame or are delayed. Returns one sentence with the measured values;
 /// empty if there is no mistake. Reads up to 180 scans.
-std::string find_pose_mistake(const Sequence& sequence, const OdometryConfig& config);
+std::string find_pose_mistake(const Recording& recording, const OdometryConfig& config);
 
 /// What the places that two drives pass say about the frames of their poses.
 enum class FrameMatch {
@@ -159,17 +159,17 @@ struct DriveOffset {
 /// on: 8 scans at each of at most 8 places of a pair. A drive is compared with the three drives
 /// before it that it meets at most places; its other pairs are `not_known` or `apart`. Drives
 /// without poses are left out.
-std::vector<DriveOffset> measure_drive_offsets(std::span<const Sequence* const> drives);
+std::vector<DriveOffset> measure_drive_offsets(std::span<const Recording* const> drives);
 
 /// Sentences with advice about offsets between drives; empty if nothing is suspicious or if there
 /// are fewer than two drives. Of two drives that differ by a constant offset, the one with which
 /// fewer others agree is said to be off; otherwise the later one. A drive that meets no other one
 /// is reported if no two drives meet, or if it is more than 20 km away from all others. Drives
 /// without poses are reported.
-std::vector<Finding> compare_drives(std::span<const Sequence* const> drives);
+std::vector<Finding> compare_drives(std::span<const Recording* const> drives);
 
 /// The same, for offsets that are known already.
-std::vector<Finding> findings_of(std::span<const Sequence* const> drives,
+std::vector<Finding> findings_of(std::span<const Recording* const> drives,
                                  std::span<const DriveOffset> offsets);
 
 }  // namespace dynamic_filter::io

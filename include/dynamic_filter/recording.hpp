@@ -4,9 +4,9 @@
 ///
 /// - Units: [m]; stamps [s].
 /// - Frames: points in the sensor frame, poses T_world_sensor; other conventions are converted.
-/// - Shapes: arrays of a Sequence have one entry per scan, those of a Frame one per point.
-/// - Ownership: values; copies of a Sequence share its open bag.
-/// - Threads: a Sequence is not changed after it is open; functions that take one are thread-safe.
+/// - Shapes: arrays of an Info have one entry per scan, those of a FullScan one per point.
+/// - Ownership: values; copies of a Recording share its open bag and its Info.
+/// - Threads: a Recording never changes; its members and functions that take one are thread-safe.
 /// - Errors: InputError (with the file and the place in it) and ConfigError.
 #pragma once
 
@@ -24,17 +24,22 @@
 
 namespace dynamic_filter::io {
 
-/// The layouts of recordings; see docs/formats.md.
-enum class Format { kitti, benchmark, folder, bag };
+/// How the files of a recording may be arranged; see docs/formats.md.
+struct LayoutName {
+    std::string name;   ///< "kitti-360"
+    std::string what;   ///< "a drive of KITTI-360"
+    std::string files;  ///< the files by which it is recognised
+};
 
-std::string to_string(Format format);  ///< "kitti", "benchmark", "folder" or "bag"
-
-struct BagScans;
+/// All layouts, in the order in which they are looked for.
+std::vector<LayoutName> layouts();
+std::vector<std::string> layout_names();  ///< the names alone, in the same order
 
 /// How to read a recording, where its files do not tell.
 struct OpenOptions {
-    std::optional<Format> format;  ///< empty: recognized by the contents of the folder
-    /// Pose file; empty: the usual place of the format.
+    /// Name of one of layouts(), to read this one only; empty: recognised by the files.
+    std::string layout;
+    /// Pose file; empty: the usual place of the layout.
     std::optional<std::filesystem::path> poses;
     bool without_poses = false;  ///< true: the poses of the recording are not read
     std::size_t first = 0;       ///< index of the first scan to use
@@ -51,51 +56,43 @@ struct OpenOptions {
     double time_unit = 1.0;  ///< [s] per unit of the stamps of scans and poses
 };
 
-/// What is known of a recording without reading the scans. Not changed after open_sequence();
-/// thread-safe.
-struct Sequence {
-    Format format = Format::folder;  ///< as recognized, or as OpenOptions says
-    std::filesystem::path root;      ///< path that was opened
+/// What is known of a recording without reading the scans.
+struct Info {
+    std::string layout;          ///< name of one of layouts(), as recognised
+    std::filesystem::path root;  ///< path that was opened
     /// In the natural order of their names. For a bag, these are no files, but numbers below its
     /// path.
     std::vector<std::filesystem::path> scan_files;
     /// Parallel to scan_files, an empty path if a scan has none; or empty.
     std::vector<std::filesystem::path> label_files;
-    /// Parallel to scan_files; empty for `benchmark`, whose scan files hold the poses.
+    /// Parallel to scan_files; empty if the scan files hold the poses, or if there are none.
     std::vector<Pose> T_world_sensor;
     /// File of the poses; empty: the files of the scans, the bag, or none.
     std::filesystem::path pose_source;
-    bool has_poses = true;       ///< false: poses are not known, and T_world_sensor is empty
-    bool wants_times = false;    ///< true: read_frame() returns the times of the points
-    std::optional<Sweep> sweep;  ///< used to compute these times if the scans do not hold them
-    /// Velocities of the sensor, parallel to scan_files, or empty. If wants_times is set, motion
-    /// compensation is done with them, and frames then have no times.
-    std::vector<Twist> velocities;
+    bool has_poses = true;         ///< false: poses are not known, and T_world_sensor is empty
+    bool tracked = false;          ///< true: the poses are those of with_poses()
     std::vector<double> stamps;    ///< parallel to scan_files [s]; assumed at 10 Hz if not measured
     bool measured_stamps = false;  ///< true: the stamps come from the recording
     /// All poses of the recording, as dense in time as they are; may be empty.
     Trajectory trajectory;
-    bool deskew = false;           ///< as in OpenOptions
-    bool points_in_world = false;  ///< as in OpenOptions
+    std::optional<Sweep> sweep;    ///< tells the times of points if the scans do not hold them
+    bool deskewed = false;         ///< true: the points are those of deskewed()
+    bool points_in_world = false;  ///< true: the files have points in the frame of the poses
     /// For poses in the files of the scans; all other poses are already corrected.
     PoseFix pose_fix = PoseFix::none;
-    std::shared_ptr<const BagScans> bag;  ///< only for format `bag`
-    std::vector<std::size_t> bag_scans;   ///< parallel to scan_files: positions in the bag
-    bool intensity_is_truth = false;      ///< `benchmark` with ground truth in the intensity
-    std::vector<std::string> notes;       ///< assumptions that were made, as sentences for the user
+    bool intensity_is_truth = false;  ///< `benchmark` with ground truth in the intensity
+    std::vector<std::string> notes;   ///< assumptions that were made, as sentences for the user
     /// Parts of a bag that cannot be read, so that scans are missing.
     std::vector<std::string> losses;
     /// [s] Stamps of poses that were matched to scans by their order, if both have stamps.
     std::vector<double> pose_stamps;
 
-    /// Number of scans.
-    [[nodiscard]] std::size_t size() const { return scan_files.size(); }
     /// True if any scan has ground truth.
     [[nodiscard]] bool has_truth() const { return intensity_is_truth || !label_files.empty(); }
 };
 
 /// One scan as read: all fields of the file, and the points in the sensor frame.
-struct Frame {
+struct FullScan {
     Cloud cloud;    ///< as in the file (`benchmark`: x y z in the world frame)
     Points points;  ///< sensor frame, same order; after motion compensation if that was asked for
     Pose T_world_sensor = Pose::Identity();  ///< at `stamp`
@@ -108,33 +105,70 @@ struct Frame {
     std::string truth_fault;
 };
 
+struct RecordingParts;
+
+/// Scans in order. A value that is cheap to copy, and that never changes: the functions below make
+/// another recording of one. Thread-safe.
+class Recording {
+public:
+    Recording();  ///< has no scans
+    /// A recording of the files in `info.scan_files`.
+    explicit Recording(Info info);
+    /// For open_recording() and the functions below.
+    explicit Recording(RecordingParts parts);
+
+    [[nodiscard]] std::size_t size() const;  ///< number of scans
+    [[nodiscard]] const Info& info() const;  ///< valid as long as any copy of the recording
+
+    /// Reads scan i. Throws InputError if the scan cannot be used (truncated, without points, with
+    /// a non-finite pose); the caller may then count the scan as rejected and continue.
+    [[nodiscard]] FullScan read(std::size_t i) const;
+    /// Throws the exception that read() would throw, as far as the fault shows without reading the
+    /// points.
+    void check(std::size_t i) const;
+    /// For the functions below.
+    [[nodiscard]] const RecordingParts& parts() const { return *parts_; }
+
+private:
+    std::shared_ptr<const RecordingParts> parts_;
+};
+
 /// Recognizes the layout, and checks that the numbers of scans, poses and stamps agree. If no poses
 /// are found, a note says which files were looked for. Throws InputError (nothing found, different
 /// numbers, invalid rotation) and ConfigError (several topics to choose from).
-Sequence open_sequence(const std::filesystem::path& data, const OpenOptions& options = {});
+Recording open_recording(const std::filesystem::path& data, const OpenOptions& options = {});
 
-/// Switches on motion compensation of each scan with the poses of the recording and the times of
-/// the points. If that is not possible, a note says why.
-void prepare_deskew(Sequence& sequence);
+/// The scans `first`, `first + stride`, and so on up to `last` (empty: the last one). Throws
+/// ConfigError if that selects nothing.
+Recording slice(const Recording& recording, std::size_t first, std::optional<std::size_t> last = {},
+                std::size_t stride = 1);
 
-/// Gives the recording the poses that were estimated or refined, one entry per scan; empty: not
-/// known. From then on, motion compensation uses them.
-void use_poses(Sequence& sequence, const std::vector<std::optional<Tracked>>& tracked);
+/// Scans have the times of their points, if the files hold them; otherwise those of the sweep, if
+/// it is known or given.
+Recording with_times(const Recording& recording, std::optional<Sweep> sweep = {});
 
-/// Reads scan i. Throws InputError if the scan cannot be used (truncated, without points, with a
-/// non-finite pose); the caller may then count the scan as rejected and continue. Thread-safe.
-Frame read_frame(const Sequence& sequence, std::size_t i);
+/// The sensor's motion within each scan is undone, with the poses of the recording and the times of
+/// the points (as in with_times()), which scans then no longer have. If that is not possible, a
+/// note says why, and the recording is otherwise the same.
+Recording deskewed(const Recording& recording, std::optional<Sweep> sweep = {});
+
+/// Poses that were estimated or refined, one entry per scan; empty: not known. If scans have
+/// times, the motion within each scan is undone with the velocities, and scans then have none.
+Recording with_poses(const Recording& recording,
+                     const std::vector<std::optional<Tracked>>& tracked);
+
+/// The same without poses; points are as in the files.
+Recording without_poses(const Recording& recording);
+
+/// More notes, after those that there are.
+Recording with_notes(const Recording& recording, const std::vector<std::string>& notes);
 
 /// Reason for rejecting a scan whose fields differ from those of the previous scans.
 inline constexpr const char* kOtherFields =
     "its fields are not those of the first scan; one map cannot hold both";
 
-/// Throws the exception that read_frame() would throw, as far as the fault shows without reading
-/// the points. Thread-safe.
-void refuse_unusable(const Sequence& sequence, std::size_t i);
-
 /// Name of a scan without folder and extension: "000123" for velodyne/000123.bin.
-std::string stem(const Sequence& sequence, std::size_t i);
+std::string stem(const Recording& recording, std::size_t i);
 
 /// Reads ground-truth labels in the format of SemanticKITTI. The low 16 bits count: 251-259 are
 /// dynamic, 0 and 1 unknown, all others static. Throws InputError.

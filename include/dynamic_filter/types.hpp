@@ -32,8 +32,9 @@ using Labels = std::vector<Label>;  ///< N labels, parallel to the points
 struct Scan {
     Points points;                           ///< [m] in the sensor frame, in any order
     Pose T_world_sensor = Pose::Identity();  ///< pose of the sensor at `stamp`
-    double stamp = 0.0;                      ///< [s], must not decrease within a sequence
-    std::size_t index = 0;  ///< position in the sequence; identifies the scan in errors and outputs
+    double stamp = 0.0;                      ///< [s], must not decrease within a recording
+    std::size_t index =
+        0;  ///< position in the recording; identifies the scan in errors and outputs
     /// False: T_world_sensor has no meaning. Either all scans of a sequence have a pose, or none.
     bool has_pose = true;
     /// Time at which each point was measured, [s] relative to `stamp`. Empty if all points were

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 from os import PathLike
-from typing import Any, Iterator, Literal, Mapping, Optional, TypedDict, Union
+from typing import Any, Iterator, Literal, Mapping, Optional, TypedDict, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -54,7 +54,10 @@ class Frame:
 
 class Recording:
     def __len__(self) -> int: ...
+    @overload
     def __getitem__(self, i: int) -> Frame: ...
+    @overload
+    def __getitem__(self, scans: slice) -> "Recording": ...
     def __iter__(self) -> Iterator[Frame]: ...
     @property
     def format(self) -> str: ...

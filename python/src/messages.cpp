@@ -9,6 +9,33 @@ namespace dynamic_filter::python {
 
 namespace {
 
+/// Alternatives of regular expressions, with "|" before each: the reading options of each kind, and
+/// all their choices.
+struct Spellings {
+    std::string switches, numbers, choices;
+};
+
+void add(Spellings& known, const app::ReadingOption& option, const std::string&) {
+    for (const std::string& choice : option.choices) known.choices += "|" + choice;
+}
+void add(Spellings& known, const app::ReadingOption& option, bool) {
+    known.switches += "|" + app::as_option(option).substr(2);
+}
+void add(Spellings&, const app::ReadingOption&, const std::optional<std::filesystem::path>&) {}
+template <class Whole>
+void add(Spellings& known, const app::ReadingOption& option, const Whole&) {
+    known.numbers += "|" + app::as_option(option).substr(2);
+}
+
+Spellings spellings() {
+    const app::DataOptions standard;
+    Spellings known;
+    app::visit_reading(standard, [&](const app::ReadingOption& option, const auto& value) {
+        add(known, option, value);
+    });
+    return known;
+}
+
 /// `--stride` and `--pose-fix` become `stride` and `pose_fix`.
 std::string without_dashes(const std::string& text) {
     static const std::regex name("--([a-z]+(-[a-z]+)*)");
@@ -29,12 +56,11 @@ std::string with_keywords(std::string text) {
     // named.
     static const std::regex number_set(R"(--set ([a-z_.]+)=(-?[0-9][0-9.]*)\b)");
     static const std::regex set(R"(--set ([a-z_.]+)=(\w+))");
-    static const std::regex flag("--(overwrite|resume|online|points-in-world|quiet)\\b");
-    static const std::regex number("--(first|last|stride|voxel|min-range|max-range) (\\d+)\\b");
+    static const Spellings known = spellings();
+    static const std::regex flag("--(overwrite|resume|online|quiet" + known.switches + ")\\b");
+    static const std::regex number("--(voxel|min-range|max-range" + known.numbers + ") (\\d+)\\b");
     static const std::regex placeholder("--([a-z-]+[a-z]) ([A-Z]+)\\b");
-    static const std::regex word(
-        "--([a-z-]+[a-z]) (none|inverse|camera|lidar|wxyz|xyzw|mm|s|ms|us|ns|kitti|benchmark|"
-        "folder|bag|on|off|auto|/[\\w/]+)(?=$|[^\\w-])");
+    static const std::regex word("--([a-z-]+[a-z]) (/[\\w/]+" + known.choices + ")(?=$|[^\\w-])");
     static const std::regex folder("(^|[^\\w-])-o DIR\\b"), output("(^|[^\\w-])-o\\b");
     text = std::regex_replace(text, number_set, "config={\"$1\": $2}");
     text = std::regex_replace(text, set, "config={\"$1\": \"$2\"}");

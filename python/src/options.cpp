@@ -81,22 +81,13 @@ void take_switch(py::dict& options, const char* name, std::string& to) {
 app::DataOptions data_options(const std::filesystem::path& data, py::dict& options) {
     app::DataOptions o;
     o.data = data;
-    take(options, "format", o.format);
-    take(options, "poses", o.open.poses);
-    take(options, "topic", o.open.topic);
-    take(options, "pose_topic", o.open.pose_topic);
-    take(options, "pose_fix", o.pose_fix);
-    take(options, "points_in_world", o.open.points_in_world);
-    take(options, "time_unit", o.time_unit);
-    take_switch(options, "deskew", o.deskew);
-    take(options, "first", o.open.first);
-    take(options, "last", o.open.last);
-    take(options, "stride", o.open.stride);
-    std::vector<std::string> fixes{"none"};
-    for (const io::PoseFix fix : io::pose_fixes()) fixes.push_back(io::to_string(fix));
-    refuse_other("pose_fix", o.pose_fix, fixes);
-    refuse_other("time_unit", o.time_unit, {"s", "ms", "us", "ns"});
-    if (o.open.stride == 0) throw ConfigError("stride: 0 is no whole number of 1 or more");
+    app::visit_reading(o, [&](const app::ReadingOption& option, auto& value) {
+        if constexpr (std::is_same_v<decltype(value), std::string&>) {
+            if (option.alone != nullptr) return take_switch(options, option.name, value);
+        }
+        take(options, option.name, value);
+    });
+    app::refuse_invalid(o, app::Asker::python);
     return o;
 }
 

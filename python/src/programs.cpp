@@ -125,12 +125,12 @@ std::string check(const fs::path& data, py::dict options) {
     const app::DataOptions o = data_options(data, options);
     refuse_unknown("check", options);
     const py::gil_scoped_release others_go_on;
-    const io::Sequence sequence = app::open(o);
-    const io::Preflight preflight = io::check_recording(sequence, io::Depth::thorough);
+    const io::Recording recording = app::open(o);
+    const io::Preflight preflight = io::check_recording(recording, io::Depth::thorough);
     nlohmann::ordered_json json{{"findings", nlohmann::json::array()},
                                 {"overlays", nlohmann::json::object()},
                                 {"unusable", preflight.unusable},
-                                {"lost", sequence.losses}};
+                                {"lost", recording.info().losses}};
     for (const io::Finding& finding : preflight.findings) {
         json["findings"].push_back({{"what", finding.what}, {"advice", finding.advice}});
     }

@@ -22,6 +22,31 @@ std::string quoted(const std::string& word) {
     return word.find(' ') == std::string::npos ? word : "'" + word + "'";
 }
 
+std::string typed(const std::string& name, const std::string& value) {
+    return name + " " + quoted(value);
+}
+
+std::string typed(const std::string& name, const std::optional<std::filesystem::path>& value) {
+    return value ? typed(name, value->string()) : "";
+}
+
+std::string typed(const std::string& name, bool value) { return value ? name : ""; }
+
+/// Numbers select scans, but the run is over all of them.
+template <class T>
+std::string typed(const std::string&, const T&) {
+    return "";
+}
+
+/// Each option, and what was typed for it.
+std::vector<std::pair<std::string, std::string>> typed(const DataOptions& given) {
+    std::vector<std::pair<std::string, std::string>> words;
+    visit_reading(given, [&](const ReadingOption& option, const auto& value) {
+        words.emplace_back(as_option(option), typed(as_option(option), value));
+    });
+    return words;
+}
+
 }  // namespace
 
 io::Finding blame_needless_fix(io::Finding finding, const DataOptions& given) {
@@ -48,16 +73,11 @@ std::string next_command(const std::vector<std::filesystem::path>& recordings,
                          const DataOptions& given, const std::string& option) {
     std::string line = "dynamicfilter run";
     for (const auto& recording : recordings) line += " " + quoted(recording.string());
-    const auto add = [&](const std::string& name, const std::string& value) {
-        if (!value.empty() && !option.starts_with(name)) line += " " + name + " " + quoted(value);
-    };
-    add("--format", given.format);
-    if (given.open.poses) add("--poses", given.open.poses->string());
-    add("--topic", given.open.topic);
-    add("--pose-topic", given.open.pose_topic);
-    add("--pose-fix", given.pose_fix == "none" ? "" : given.pose_fix);
-    add("--time-unit", given.time_unit == "s" ? "" : given.time_unit);
-    if (given.open.points_in_world) line += " --points-in-world";
+    const auto usual = typed(DataOptions{}), words = typed(given);
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        const auto& [name, word] = words[i];
+        if (word != usual[i].second && !option.starts_with(name)) line += " " + word;
+    }
     return option.empty() ? line : line + " " + option;
 }
 

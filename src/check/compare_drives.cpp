@@ -26,15 +26,15 @@ constexpr std::size_t kMostCompared = 3;
 /// A drive of which the poses are known.
 struct Drive {
     std::size_t index = 0;
-    const Sequence* sequence = nullptr;
+    const Recording* recording = nullptr;
     Positions positions;
 };
 
 bool have_same_poses(const Drive& a, const Drive& b) {
     // Two poses may be equal by chance, such as that of a start.
     constexpr std::size_t kFewest = 3;
-    const auto& p = a.sequence->T_world_sensor;
-    const auto& q = b.sequence->T_world_sensor;
+    const auto& p = a.recording->info().T_world_sensor;
+    const auto& q = b.recording->info().T_world_sensor;
     const auto is_equal = [](const Pose& s, const Pose& t) { return s.matrix() == t.matrix(); };
     return p.size() >= kFewest && std::equal(p.begin(), p.end(), q.begin(), q.end(), is_equal);
 }
@@ -48,8 +48,8 @@ std::vector<PlaceOffset> measure_places(const Drive& a, const Drive& b,
             const Eigen::Vector3d at = b.positions[places[k].in_b];
             const auto of_a = scans_around(a.positions, places[k].in_a, kStepA, kAroundA);
             const auto of_b = scans_around(b.positions, places[k].in_b, kStepB, kAroundB);
-            measured[k] = register_clouds(cloud_around(*a.sequence, of_a, at),
-                                          cloud_around(*b.sequence, of_b, at), at);
+            measured[k] = register_clouds(cloud_around(*a.recording, of_a, at),
+                                          cloud_around(*b.recording, of_b, at), at);
         }
     });
     std::vector<PlaceOffset> known;
@@ -132,10 +132,10 @@ std::vector<std::size_t> most_met(const std::vector<DrivePair>& pairs) {
 
 }  // namespace
 
-std::vector<DriveOffset> measure_drive_offsets(std::span<const Sequence* const> drives) {
+std::vector<DriveOffset> measure_drive_offsets(std::span<const Recording* const> drives) {
     std::vector<Drive> known;
     for (std::size_t i = 0; i < drives.size(); ++i) {
-        if (drives[i]->has_poses) known.push_back({i, drives[i], positions_of(*drives[i])});
+        if (drives[i]->info().has_poses) known.push_back({i, drives[i], positions_of(*drives[i])});
     }
     std::vector<DriveOffset> offsets;
     for (std::size_t b = 1; b < known.size(); ++b) {
@@ -147,7 +147,7 @@ std::vector<DriveOffset> measure_drive_offsets(std::span<const Sequence* const> 
     return offsets;
 }
 
-std::vector<Finding> compare_drives(std::span<const Sequence* const> drives) {
+std::vector<Finding> compare_drives(std::span<const Recording* const> drives) {
     return findings_of(drives, measure_drive_offsets(drives));
 }
 

@@ -14,7 +14,7 @@
 namespace dynamic_filter::io {
 namespace {
 
-using Drives = std::span<const Sequence* const>;
+using Drives = std::span<const Recording* const>;
 
 constexpr double kNoTurn = 0.2;         // [deg] smaller turns are not mentioned
 constexpr double kOneWorld = 20'000.0;  // [m] drives of one map are not farther apart
@@ -25,13 +25,13 @@ constexpr const char* kTogether =
 
 /// The last part of the path; the whole path if two drives have the same last part.
 std::string name_of(Drives drives, std::size_t i) {
-    const auto last = [](const Sequence& drive) {
-        const auto name = drive.root.filename();
-        return name.empty() ? drive.root.parent_path().filename() : name;
+    const auto last = [](const Recording& drive) {
+        const auto name = drive.info().root.filename();
+        return name.empty() ? drive.info().root.parent_path().filename() : name;
     };
-    const auto has_it = [&](const Sequence* drive) { return last(*drive) == last(*drives[i]); };
+    const auto has_it = [&](const Recording* drive) { return last(*drive) == last(*drives[i]); };
     const bool unique = std::count_if(drives.begin(), drives.end(), has_it) == 1;
-    return (unique ? last(*drives[i]) : drives[i]->root).string();
+    return (unique ? last(*drives[i]) : drives[i]->info().root).string();
 }
 
 std::string vector_text(const Eigen::Vector3d& v) {
@@ -228,7 +228,7 @@ void add_apart(Drives drives, std::span<const DriveOffset> offsets,
 void add_without_poses(Drives drives, std::vector<Finding>& findings) {
     std::vector<std::string> names;
     for (std::size_t i = 0; i < drives.size(); ++i) {
-        if (!drives[i]->has_poses) names.push_back(name_of(drives, i));
+        if (!drives[i]->info().has_poses) names.push_back(name_of(drives, i));
     }
     if (names.empty()) return;
     findings.push_back(
@@ -240,7 +240,7 @@ void add_without_poses(Drives drives, std::vector<Finding>& findings) {
 
 }  // namespace
 
-std::vector<Finding> findings_of(std::span<const Sequence* const> drives,
+std::vector<Finding> findings_of(std::span<const Recording* const> drives,
                                  std::span<const DriveOffset> offsets) {
     std::vector<Finding> findings;
     if (drives.size() < 2) return findings;

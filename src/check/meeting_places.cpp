@@ -133,13 +133,14 @@ std::vector<MeetingPlace> spread_out(const std::vector<MeetingPlace>& all,
 
 }  // namespace
 
-Positions positions_of(const Sequence& sequence) {
-    Positions positions(sequence.size(), Eigen::Vector3d::Constant(kNan));
-    if (!sequence.has_poses) return positions;
-    for (std::size_t i = 0; i < sequence.size(); ++i) {
-        positions[i] = i < sequence.T_world_sensor.size()
-                           ? Eigen::Vector3d(sequence.T_world_sensor[i].translation())
-                           : viewpoint_of(sequence.scan_files[i], sequence.pose_fix);
+Positions positions_of(const Recording& recording) {
+    Positions positions(recording.size(), Eigen::Vector3d::Constant(kNan));
+    if (!recording.info().has_poses) return positions;
+    for (std::size_t i = 0; i < recording.size(); ++i) {
+        positions[i] =
+            i < recording.info().T_world_sensor.size()
+                ? Eigen::Vector3d(recording.info().T_world_sensor[i].translation())
+                : viewpoint_of(recording.info().scan_files[i], recording.info().pose_fix);
     }
     return positions;
 }

@@ -14,7 +14,7 @@ using Positions = std::vector<Eigen::Vector3d>;  ///< [m] world, one per scan
 
 /// Positions of the sensor; not finite for scans without a usable pose. Reads the headers of the
 /// scans if these hold the poses.
-Positions positions_of(const Sequence& sequence);
+Positions positions_of(const Recording& recording);
 
 /// Two scans that were taken near each other.
 struct MeetingPlace {

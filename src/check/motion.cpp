@@ -17,9 +17,9 @@ namespace dynamic_filter::app {
 
 namespace {
 
-bool has_times(const io::Sequence& sequence) {
+bool has_times(const io::Recording& recording) {
     try {
-        return !io::read_frame(sequence, 0).times.empty();
+        return !recording.read(0).times.empty();
     } catch (const InputError&) {
         return false;
     }
@@ -35,24 +35,23 @@ std::string error_text(const io::MotionQuality& quality) {
 }
 
 /// Chooses how the motion within scans is undone: by the times of the points, else by their
-/// azimuths. Returns a note, or "".
-std::string choose_deskew(io::Sequence& sequence, const OdometryConfig& config,
+/// azimuths. The recording then has these times. Returns a note, or "".
+std::string choose_deskew(io::Recording& recording, const OdometryConfig& config,
                           const MotionChoice& choice, bool timed, bool is_distorted) {
-    sequence.wants_times = false;
     if (choice.deskew == "off") return "";
     if (timed) {
-        sequence.wants_times = choice.deskew == "on" || is_distorted;
-        if (!sequence.wants_times) return "";
+        if (choice.deskew != "on" && !is_distorted) return "";
+        recording = io::with_times(recording);
         return "the motion during each scan is undone by the times of its points";
     }
-    sequence.sweep = io::find_sweep(sequence, config);
-    sequence.wants_times = sequence.sweep.has_value();
-    if (!sequence.sweep) return "";
+    const auto sweep = io::find_sweep(recording, config);
+    if (!sweep) return "";
+    recording = io::with_times(recording, sweep);
     return fmt::format(
         "the motion during each scan is undone by the azimuths of its points: the sensor turns "
         "{} and begins at {:.0f} deg",
-        sequence.sweep->clockwise ? "clockwise" : "counterclockwise",
-        sequence.sweep->seam * 180.0 / std::numbers::pi);
+        sweep->clockwise ? "clockwise" : "counterclockwise",
+        sweep->seam * 180.0 / std::numbers::pi);
 }
 
 void add(std::vector<std::string>& notes, std::string note) {
@@ -100,16 +99,17 @@ std::string track_text(const std::vector<std::optional<Tracked>>& tracked) {
     return to_text(summary_of(tracked));
 }
 
-std::vector<std::string> choose_motion(io::Sequence& sequence, Config& config,
+std::vector<std::string> choose_motion(io::Recording& recording, Config& config,
                                        const MotionChoice& choice) {
     std::vector<std::string> notes;
     config.odometry.refine = config.odometry.refine || choice.refine == "on";
-    const bool asks_poses = sequence.has_poses && choice.refine == "auto";
-    sequence.wants_times = choice.deskew != "off";
-    const bool timed = has_times(sequence);
+    const bool has_poses = recording.info().has_poses;
+    const bool asks_poses = has_poses && choice.refine == "auto";
+    const io::Recording looked_at = choice.deskew == "off" ? recording : io::with_times(recording);
+    const bool timed = has_times(looked_at);
     io::MotionQuality quality;
     if (asks_poses || (timed && choice.deskew == "auto")) {
-        quality = io::measure_motion(sequence, config.odometry);
+        quality = io::measure_motion(looked_at, config.odometry);
     }
     if (asks_poses && !config.odometry.refine && quality.has_bad_poses()) {
         config.odometry.refine = true;
@@ -119,22 +119,18 @@ std::vector<std::string> choose_motion(io::Sequence& sequence, Config& config,
             centimetres(quality.given.least()), centimetres(quality.found.least()),
             error_text(quality)));
     }
-    if (!sequence.has_poses) {
-        notes.emplace_back("no poses are used, so they are found by odometry");
-    }
-    if (!sequence.has_poses || config.odometry.refine) {
+    if (!has_poses) notes.emplace_back("no poses are used, so they are found by odometry");
+    if (!has_poses || config.odometry.refine) {
         add(notes,
-            choose_deskew(sequence, config.odometry, choice, timed, quality.found.is_distorted()));
+            choose_deskew(recording, config.odometry, choice, timed, quality.found.is_distorted()));
         return notes;
     }
-    sequence.wants_times = false;
     if (choice.deskew == "on" && !timed) {
-        add(notes, choose_deskew(sequence, config.odometry, choice, timed, false));
-        sequence.wants_times = false;
-        if (sequence.sweep) io::prepare_deskew(sequence);
+        add(notes, choose_deskew(recording, config.odometry, choice, timed, false));
+        if (recording.info().sweep) recording = io::deskewed(recording);
     }
     if (choice.deskew == "auto" && quality.given.is_distorted()) {
-        io::prepare_deskew(sequence);
+        recording = io::deskewed(recording);
         notes.push_back(fmt::format(
             "scans blur by {} as they are and by {} with the motion during each scan undone, so it "
             "is undone; --deskew off leaves it",
@@ -143,34 +139,32 @@ std::vector<std::string> choose_motion(io::Sequence& sequence, Config& config,
     return notes;
 }
 
-void ensure_poses(io::Sequence& sequence, const Config& config, const std::string& deskew,
+void ensure_poses(io::Recording& recording, const Config& config, const std::string& deskew,
                   bool quiet) {
-    if (sequence.has_poses) return;
+    if (recording.info().has_poses) return;
     Config chosen = config;
-    for (std::string& note : choose_motion(sequence, chosen, {.deskew = deskew})) {
-        sequence.notes.push_back(std::move(note));
-    }
+    const auto notes = choose_motion(recording, chosen, {.deskew = deskew});
     std::vector<std::optional<Tracked>> tracked;
     {
-        Progress progress("odometry", sequence.size(), quiet);
-        tracked = io::track_scans(sequence, config.odometry, [&] {
+        Progress progress("odometry", recording.size(), quiet);
+        tracked = io::track_scans(recording, config.odometry, [&] {
             progress.advance();
             return !interrupted();
         });
     }
     const Track track = summary_of(tracked);
     if (track.missing == tracked.size()) {
-        throw InputError(sequence.root, "", "no scan is usable");
+        throw InputError(recording.info().root, "", "no scan is usable");
     }
-    io::use_poses(sequence, tracked);
-    sequence.notes.push_back(to_text(track));
+    recording = io::with_poses(io::with_notes(recording, notes), tracked);
+    recording = io::with_notes(recording, {to_text(track)});
 }
 
-void write_poses(const std::filesystem::path& path, const io::Sequence& sequence) {
+void write_poses(const std::filesystem::path& path, const io::Recording& recording) {
     if (path.extension() == ".tum") {
-        io::write_poses_tum(path, sequence.stamps, sequence.T_world_sensor);
+        io::write_poses_tum(path, recording.info().stamps, recording.info().T_world_sensor);
     } else {
-        io::write_poses_kitti(path, sequence.T_world_sensor);
+        io::write_poses_kitti(path, recording.info().T_world_sensor);
     }
 }
 

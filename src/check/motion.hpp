@@ -20,18 +20,18 @@ struct MotionChoice {
 /// For a run: whether poses are found or refined (`config.odometry.refine`) and whether the motion
 /// during scans is undone. With "auto", scans decide: those of some places are looked at, and good
 /// poses stay as they are. Returns what was decided and why, a sentence each.
-std::vector<std::string> choose_motion(io::Sequence& sequence, Config& config,
+std::vector<std::string> choose_motion(io::Recording& recording, Config& config,
                                        const MotionChoice& choice);
 
 /// For whatever needs poses: if the recording has none, they are found by odometry, and notes of
-/// the sequence say how far that got. `deskew`: as in MotionChoice.
-void ensure_poses(io::Sequence& sequence, const Config& config, const std::string& deskew,
+/// the recording say how far that got. `deskew`: as in MotionChoice.
+void ensure_poses(io::Recording& recording, const Config& config, const std::string& deskew,
                   bool quiet);
 
 /// How far the odometry got, in a sentence.
 std::string track_text(const std::vector<std::optional<Tracked>>& tracked);
 
 /// The recording's poses: .tum with stamps, otherwise KITTI's rows.
-void write_poses(const std::filesystem::path& path, const io::Sequence& sequence);
+void write_poses(const std::filesystem::path& path, const io::Recording& recording);
 
 }  // namespace dynamic_filter::app

@@ -162,13 +162,13 @@ FlatInformation flat_information(const Information& of_points) {
 
 bool PlaceOffset::fits() const { return fit >= kFits; }
 
-Points cloud_around(const Sequence& sequence, const std::vector<std::size_t>& scans,
+Points cloud_around(const Recording& recording, const std::vector<std::size_t>& scans,
                     const Eigen::Vector3d& place) {
     const OdometryConfig config;
     Points cloud;
     for (const std::size_t i : scans) {
         try {
-            const Frame frame = read_frame(sequence, i);
+            const FullScan frame = recording.read(i);
             if (!frame.has_pose) continue;
             const Pose T_place_sensor = Eigen::Translation3d(-place) * frame.T_world_sensor;
             const ScanSample sample = sample_for_map(frame.points, {}, config);

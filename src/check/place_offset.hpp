@@ -26,7 +26,7 @@ struct PlaceOffset {
 
 /// Points of a few scans, relative to a place and with the axes of the world. Empty if no scan can
 /// be read.
-Points cloud_around(const Sequence& sequence, const std::vector<std::size_t>& scans,
+Points cloud_around(const Recording& recording, const std::vector<std::size_t>& scans,
                     const Eigen::Vector3d& place);
 
 /// Registers the points of drive b to those of drive a; both are relative to the place. Finds

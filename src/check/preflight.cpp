@@ -149,7 +149,7 @@ Finding in_sensor_finding(const std::vector<Overlay>& overlays, bool files_in_wo
 
 /// `nearly_right` is called before poses are reported as wrong as a whole: if the sensor hardly
 /// moves, drifting poses overlay better under every interpretation.
-void judge_poses(Preflight& result, const Sequence& sequence, const Samples& samples,
+void judge_poses(Preflight& result, const Recording& recording, const Samples& samples,
                  const std::vector<Pair>& pairs, const std::function<bool()>& nearly_right) {
     const auto& overlays = result.overlays;
     const double given = share_of(overlays, kAsGiven);
@@ -161,7 +161,7 @@ void judge_poses(Preflight& result, const Sequence& sequence, const Samples& sam
                                    "--poses none finds it for scans in the sensor's frame"});
         return;
     }
-    const bool files_in_world = sequence.format == Format::benchmark;
+    const bool files_in_world = recording.info().layout == "benchmark";
     if (!files_in_world && lie_in_world(samples)) {
         result.findings.push_back(
             {"the points are in the world's frame already: " + fits_better(overlays, kInWorld),
@@ -184,7 +184,7 @@ void judge_poses(Preflight& result, const Sequence& sequence, const Samples& sam
         judge_upside_down(result, samples);
         return;
     }
-    if (best->reading == kInSensor && (files_in_world || sequence.points_in_world)) {
+    if (best->reading == kInSensor && (files_in_world || recording.info().points_in_world)) {
         if (much) result.findings.push_back(in_sensor_finding(overlays, files_in_world));
         return;
     }
@@ -240,9 +240,9 @@ void judge_unit(Preflight& result, const Samples& samples) {
 }
 
 /// Scans and poses were matched by order, but both have stamps, which may contradict each other.
-void judge_pose_stamps(Preflight& result, const Sequence& sequence, double step) {
-    const auto& scans = sequence.stamps;
-    const auto& poses = sequence.pose_stamps;
+void judge_pose_stamps(Preflight& result, const Recording& recording, double step) {
+    const auto& scans = recording.info().stamps;
+    const auto& poses = recording.info().pose_stamps;
     if (poses.size() != scans.size()) return;
     const double ratio = (poses.back() - poses.front()) / (scans.back() - scans.front());
     for (const auto& [unit, seconds] : {std::pair{"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}}) {
@@ -274,14 +274,14 @@ void judge_pose_stamps(Preflight& result, const Sequence& sequence, double step)
          kOtherPoses});
 }
 
-void judge_stamps(Preflight& result, const Sequence& sequence) {
-    if (!sequence.measured_stamps || sequence.size() < 3) return;
+void judge_stamps(Preflight& result, const Recording& recording) {
+    if (!recording.info().measured_stamps || recording.size() < 3) return;
     std::vector<double> steps;
-    for (std::size_t i = 1; i < sequence.size(); ++i) {
-        steps.push_back(sequence.stamps[i] - sequence.stamps[i - 1]);
+    for (std::size_t i = 1; i < recording.size(); ++i) {
+        steps.push_back(recording.info().stamps[i] - recording.info().stamps[i - 1]);
     }
     const double step = median(std::move(steps));
-    judge_pose_stamps(result, sequence, step);
+    judge_pose_stamps(result, recording, step);
     constexpr double kLongest = 20.0, kShortest = 1e-3;  // [s] between scans
     if (step < kLongest && step > kShortest) return;
     for (const auto& [unit, seconds] : {std::pair{"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}}) {
@@ -297,9 +297,10 @@ void judge_stamps(Preflight& result, const Sequence& sequence) {
 }
 
 /// Natural order puts "10.pcd" after "9.pcd"; the order of other names may not be that of time.
-void judge_order(Preflight& result, const Sequence& sequence, const Samples& samples) {
+void judge_order(Preflight& result, const Recording& recording, const Samples& samples) {
     const auto unknown = [](const auto& sample) { return !sample.second.began; };
-    if (sequence.bag || std::any_of(samples.begin(), samples.end(), unknown)) return;
+    if (recording.info().layout == "bag" || std::any_of(samples.begin(), samples.end(), unknown))
+        return;
     const auto back = std::adjacent_find(
         samples.begin(), samples.end(),
         [](const auto& a, const auto& b) { return *b.second.began < *a.second.began; });
@@ -308,26 +309,27 @@ void judge_order(Preflight& result, const Sequence& sequence, const Samples& sam
     result.findings.push_back(
         {fmt::format("the order of the file names is not the order in time: by the times of its "
                      "points, {} was taken {:.3g} s before {}, whose name comes first",
-                     sequence.scan_files[next->first].filename().string(),
+                     recording.info().scan_files[next->first].filename().string(),
                      *back->second.began - *next->second.began,
-                     sequence.scan_files[back->first].filename().string()),
+                     recording.info().scan_files[back->first].filename().string()),
          "rename the scans, and their labels, so that their names sort by time"});
 }
 
 /// Findings about poses that are nearly right, and about motion during scans.
-void judge_motion(Preflight& result, Sequence sequence) {
-    sequence.wants_times = !sequence.deskew;
+void judge_motion(Preflight& result, const Recording& given) {
+    const Info& info = given.info();
+    const Recording recording = info.deskewed ? given : with_times(given);
     const OdometryConfig config;
-    const std::string mistake = find_pose_mistake(sequence, config);
+    const std::string mistake = find_pose_mistake(recording, config);
     if (!mistake.empty()) {
         result.findings.push_back({mistake,
                                    "`run` refines such poses of a single recording without being "
                                    "asked (as with --refine on), but not those of several; more "
                                    "accurate poses give better results"});
     }
-    if (sequence.deskew || !sequence.velocities.empty()) return;
-    const Blur blur = measure_motion(sequence, config).found;
-    if (blur.is_distorted() || (blur.undone == 0.0 && find_sweep(sequence, config))) {
+    if (info.deskewed || info.tracked) return;
+    const Blur blur = measure_motion(recording, config).found;
+    if (blur.is_distorted() || (blur.undone == 0.0 && find_sweep(recording, config))) {
         result.findings.push_back(
             {"the sensor's motion during each scan is still in the points: scans overlay better "
              "without it",
@@ -336,11 +338,11 @@ void judge_motion(Preflight& result, Sequence sequence) {
 }
 
 /// Faults of all scans that show without reading the points.
-std::map<std::size_t, std::string> find_unusable(const Sequence& sequence) {
+std::map<std::size_t, std::string> find_unusable(const Recording& recording) {
     std::map<std::size_t, std::string> unusable;
-    for (std::size_t i = 0; i < sequence.size(); ++i) {
+    for (std::size_t i = 0; i < recording.size(); ++i) {
         try {
-            refuse_unusable(sequence, i);
+            recording.check(i);
         } catch (const InputError& error) {
             unusable[i] = error.what();
         }
@@ -350,35 +352,36 @@ std::map<std::size_t, std::string> find_unusable(const Sequence& sequence) {
 
 }  // namespace
 
-Preflight check_recording(const Sequence& sequence, Depth depth) {
+Preflight check_recording(const Recording& recording, Depth depth) {
     const std::size_t places = depth == Depth::thorough ? 12 : 3;
-    const std::vector<Pair> chosen = choose_pairs(sequence.size(), places);
+    const std::vector<Pair> chosen = choose_pairs(recording.size(), places);
     Preflight result;
-    std::map<std::size_t, std::string> unusable = find_unusable(sequence);
-    const Samples samples = read_samples(sequence, chosen, unusable);
+    std::map<std::size_t, std::string> unusable = find_unusable(recording);
+    const Samples samples = read_samples(recording, chosen, unusable);
     const std::vector<Pair> pairs = comparable(samples, chosen);
-    for (const auto& [i, why] : unusable) result.unusable.push_back(stem(sequence, i) + ": " + why);
+    for (const auto& [i, why] : unusable)
+        result.unusable.push_back(stem(recording, i) + ": " + why);
     result.scans = samples.size();
-    if (sequence.has_poses) result.overlays = compare(samples, pairs);
-    judge_stamps(result, sequence);
-    judge_order(result, sequence, samples);
+    if (recording.info().has_poses) result.overlays = compare(samples, pairs);
+    judge_stamps(result, recording);
+    judge_order(result, recording, samples);
     judge_unit(result, samples);
     judge_points(result, samples);
     if (result.overlays.empty()) return result;
     std::optional<bool> known;  // evaluated once, because it reads scans
     const auto nearly_right = [&] {
         if (depth == Depth::quick) return false;
-        if (!known) known = measure_motion(sequence, OdometryConfig{}).nearly_right;
+        if (!known) known = measure_motion(recording, OdometryConfig{}).nearly_right;
         return *known;
     };
-    judge_poses(result, sequence, samples, pairs, nearly_right);
+    judge_poses(result, recording, samples, pairs, nearly_right);
     if (!result.findings.empty() || depth == Depth::quick) return result;
     auto finding = misfit(samples, pairs);
     if (finding && !nearly_right()) {
         result.findings.push_back(std::move(*finding));
         return result;
     }
-    judge_motion(result, sequence);
+    judge_motion(result, recording);
     return result;
 }
 

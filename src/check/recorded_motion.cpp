@@ -23,9 +23,9 @@ constexpr std::array<std::size_t, 4> kErrorsApart = {1, 5, 10, 20};
 /// Consecutive scans as input of the odometry.
 using Piece = std::vector<Scan>;
 
-std::optional<Scan> read(const Sequence& sequence, std::size_t i) {
+std::optional<Scan> read(const Recording& recording, std::size_t i) {
     try {
-        Frame frame = read_frame(sequence, i);
+        FullScan frame = recording.read(i);
         return Scan{std::move(frame.points), frame.T_world_sensor,  frame.stamp, i,
                     frame.has_pose,          std::move(frame.times)};
     } catch (const InputError&) {
@@ -33,16 +33,16 @@ std::optional<Scan> read(const Sequence& sequence, std::size_t i) {
     }
 }
 
-std::vector<Piece> read_pieces(const Sequence& sequence, std::size_t in_a_row) {
+std::vector<Piece> read_pieces(const Recording& recording, std::size_t in_a_row) {
     std::vector<Piece> pieces;
-    const std::size_t n = sequence.size();
+    const std::size_t n = recording.size();
     const std::size_t places = std::clamp<std::size_t>(n / (2 * in_a_row), 1, kPlaces);
     for (std::size_t k = 0; k < places; ++k) {
         const std::size_t room = n > in_a_row ? n - in_a_row : 0;
         const std::size_t first = places > 1 ? k * room / (places - 1) : room / 2;
         Piece piece;
         for (std::size_t i = first; i < std::min(n, first + in_a_row); ++i) {
-            if (auto scan = read(sequence, i)) piece.push_back(*std::move(scan));
+            if (auto scan = read(recording, i)) piece.push_back(*std::move(scan));
         }
         pieces.push_back(std::move(piece));
     }
@@ -172,17 +172,17 @@ bool nearly_right(const std::vector<Compared>& pieces) {
     return !errors.empty() && std::all_of(errors.begin(), errors.end(), is_small);
 }
 
-double usual_step(const Sequence& sequence) {
+double usual_step(const Recording& recording) {
     std::vector<double> steps;
-    for (std::size_t i = 1; i < sequence.size(); ++i) {
-        steps.push_back(sequence.stamps[i] - sequence.stamps[i - 1]);
+    for (std::size_t i = 1; i < recording.size(); ++i) {
+        steps.push_back(recording.info().stamps[i] - recording.info().stamps[i - 1]);
     }
     return median(std::move(steps));
 }
 
-std::vector<Compared> compare_places(const Sequence& sequence, std::size_t in_a_row,
+std::vector<Compared> compare_places(const Recording& recording, std::size_t in_a_row,
                                      const OdometryConfig& config) {
-    std::vector<Piece> pieces = read_pieces(sequence, in_a_row);
+    std::vector<Piece> pieces = read_pieces(recording, in_a_row);
     std::erase_if(pieces, [](const Piece& piece) { return piece.size() < 2; });
     std::vector<Compared> compared(pieces.size());
     parallel_for(pieces.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -224,13 +224,13 @@ bool sharpens_both_halves(const Piece& piece, const Sweep& sweep, const Odometry
 
 }  // namespace
 
-std::vector<std::optional<Tracked>> track_scans(const Sequence& sequence,
+std::vector<std::optional<Tracked>> track_scans(const Recording& recording,
                                                 const OdometryConfig& config,
                                                 const std::function<bool()>& after) {
-    std::vector<std::optional<Tracked>> tracked(sequence.size());
+    std::vector<std::optional<Tracked>> tracked(recording.size());
     Odometry odometry(config);
-    for (std::size_t i = 0; i < sequence.size(); ++i) {
-        if (const auto scan = read(sequence, i)) {
+    for (std::size_t i = 0; i < recording.size(); ++i) {
+        if (const auto scan = read(recording, i)) {
             tracked[i] = odometry.track(scan->points, scan->times, scan->stamp);
             odometry.learn({});
         }
@@ -239,18 +239,18 @@ std::vector<std::optional<Tracked>> track_scans(const Sequence& sequence,
     return tracked;
 }
 
-std::optional<Sweep> find_sweep(const Sequence& sequence, const OdometryConfig& given) {
+std::optional<Sweep> find_sweep(const Recording& recording, const OdometryConfig& given) {
     OdometryConfig config = given;
     config.points = std::min(config.points, 1500);  // fewer points, because this takes long
     // [s] of one rotation; a longer time means that scans were left out.
     constexpr double kLongest = 0.25;
     constexpr double kLeast = 0.3;      // [m] of distortion; less does not matter
     constexpr double kClearly = 0.988;  // factor of the blur that counts as clearly better
-    const double duration = usual_step(sequence);
+    const double duration = usual_step(recording);
     if (!(duration > 0.0) || duration > kLongest) return std::nullopt;
     const Piece* fastest = nullptr;
     double most_distorted = kLeast, as_it_is = 0.0;
-    std::vector<Piece> pieces = read_pieces(sequence, kInARow);
+    std::vector<Piece> pieces = read_pieces(recording, kInARow);
     for (Piece& piece : pieces) {
         if (piece.size() < 2 || !turns(piece.front())) continue;
         for (Scan& scan : piece) scan.times.clear();
@@ -291,15 +291,15 @@ bool MotionQuality::has_bad_poses() const {
     return given.least() > kClearly * found.least();
 }
 
-MotionQuality measure_motion(const Sequence& sequence, const OdometryConfig& config) {
-    return quality_of(compare_places(sequence, kInARow, config), sequence.has_poses);
+MotionQuality measure_motion(const Recording& recording, const OdometryConfig& config) {
+    return quality_of(compare_places(recording, kInARow, config), recording.info().has_poses);
 }
 
-std::string find_pose_mistake(const Sequence& sequence, const OdometryConfig& config) {
+std::string find_pose_mistake(const Recording& recording, const OdometryConfig& config) {
     // Number of consecutive scans; long enough that the motion varies.
     constexpr std::size_t kLong = 60;
-    std::vector<Compared> compared = compare_places(sequence, kLong, config);
-    if (compared.empty() || !sequence.has_poses) return "";
+    std::vector<Compared> compared = compare_places(recording, kLong, config);
+    if (compared.empty() || !recording.info().has_poses) return "";
     const bool blur = quality_of(compared, true).has_bad_poses();
     std::vector<TwoTracks> tracks;
     for (Compared& piece : compared) {

@@ -100,8 +100,8 @@ std::optional<double> began_of(const Cloud& cloud) {
 
 /// The points without motion compensation, after which they are seen from several places and
 /// naturally lie behind each other.
-Points as_measured(const Sequence& sequence, const Frame& frame) {
-    return sequence.points_in_world ? frame.points : positions(frame.cloud);
+Points as_measured(const Recording& recording, const FullScan& frame) {
+    return recording.info().points_in_world ? frame.points : positions(frame.cloud);
 }
 
 float typical_range(const Points& points) {
@@ -112,11 +112,11 @@ float typical_range(const Points& points) {
     return median(std::move(ranges));
 }
 
-Sample sample_of(const Sequence& sequence, const Frame& frame) {
+Sample sample_of(const Recording& recording, const FullScan& frame) {
     const Point said = frame.T_world_sensor.translation().cast<float>();
     return {upright(frame.points),
             frame.T_world_sensor,
-            share_of_doubles(as_measured(sequence, frame)),
+            share_of_doubles(as_measured(recording, frame)),
             count_near(frame.points, Point::Zero()),
             count_near(frame.points, said),
             typical_range(frame.points),
@@ -136,7 +136,7 @@ std::vector<Pair> choose_pairs(std::size_t scans, std::size_t places) {
     return pairs;
 }
 
-Samples read_samples(const Sequence& sequence, const std::vector<Pair>& pairs,
+Samples read_samples(const Recording& recording, const std::vector<Pair>& pairs,
                      std::map<std::size_t, std::string>& unusable) {
     std::set<std::size_t> chosen = {0};
     for (const Pair& pair : pairs) chosen.insert({pair.from, pair.from + pair.apart});
@@ -144,10 +144,10 @@ Samples read_samples(const Sequence& sequence, const std::vector<Pair>& pairs,
     std::vector<Field> fields;
     for (const std::size_t i : chosen) {
         try {
-            const Frame frame = read_frame(sequence, i);
+            const FullScan frame = recording.read(i);
             if (fields.empty()) fields = frame.cloud.fields;
             if (frame.cloud.fields != fields) unusable[i] = kOtherFields;
-            samples.emplace(i, sample_of(sequence, frame));
+            samples.emplace(i, sample_of(recording, frame));
         } catch (const InputError& error) {
             unusable[i] = error.what();
         }

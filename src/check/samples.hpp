@@ -34,7 +34,7 @@ struct Pair {
 std::vector<Pair> choose_pairs(std::size_t scans, std::size_t places);
 
 /// Reads the first scan and those of the pairs; adds the faults of unusable ones to `unusable`.
-Samples read_samples(const Sequence& sequence, const std::vector<Pair>& pairs,
+Samples read_samples(const Recording& recording, const std::vector<Pair>& pairs,
                      std::map<std::size_t, std::string>& unusable);
 
 /// The pairs that can be compared: those whose poses lie within 20 m, if those of all neighbors do.

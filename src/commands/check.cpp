@@ -40,18 +40,19 @@ void print_finding(const io::Finding& finding, const DataOptions& options) {
 }
 
 /// True if nothing was found.
-bool check_one(io::Sequence sequence, const DataOptions& options) {
-    ensure_poses(sequence, preset("default"), options.deskew, true);
-    for (const std::string& note : sequence.notes) fmt::print("note      {}\n", note);
-    const io::Preflight preflight = io::check_recording(sequence, io::Depth::thorough);
-    fmt::print("scans     {}, of which {} were read\n", sequence.size(), preflight.scans);
+bool check_one(io::Recording recording, const DataOptions& options) {
+    ensure_poses(recording, preset("default"), options.deskew, true);
+    for (const std::string& note : recording.info().notes) fmt::print("note      {}\n", note);
+    const io::Preflight preflight = io::check_recording(recording, io::Depth::thorough);
+    fmt::print("scans     {}, of which {} were read\n", recording.size(), preflight.scans);
     print_overlays(preflight);
-    for (const std::string& line : sequence.losses) fmt::print("LOST      {}\n", line);
+    for (const std::string& line : recording.info().losses) fmt::print("LOST      {}\n", line);
     for (const std::string& line : preflight.unusable) fmt::print("UNUSABLE  {}\n", line);
     for (const io::Finding& finding : preflight.findings) {
         print_finding(blame_needless_fix(finding, options), options);
     }
-    return preflight.findings.empty() && preflight.unusable.empty() && sequence.losses.empty();
+    return preflight.findings.empty() && preflight.unusable.empty() &&
+           recording.info().losses.empty();
 }
 
 std::string match_text(const io::DriveOffset& offset) {
@@ -77,14 +78,14 @@ std::string match_text(const io::DriveOffset& offset) {
 }
 
 /// True if nothing was found.
-bool check_together(const std::vector<io::Sequence>& sequences,
+bool check_together(const std::vector<io::Recording>& sequences,
                     const std::vector<DataOptions>& each) {
     // Scans that the motion of the sensor distorts overlay badly, so it is undone as in a run.
-    std::vector<io::Sequence> drives = sequences;
-    std::vector<const io::Sequence*> all;
-    for (io::Sequence& drive : drives) {
+    std::vector<io::Recording> drives = sequences;
+    std::vector<const io::Recording*> all;
+    for (io::Recording& drive : drives) {
         Config config = preset("default");
-        if (drive.has_poses) {
+        if (drive.info().has_poses) {
             choose_motion(drive, config, {.refine = "off", .deskew = each.front().deskew});
         }
         all.push_back(&drive);
@@ -105,7 +106,7 @@ bool check_together(const std::vector<io::Sequence>& sequences,
 int check(const CheckOptions& options) {
     const std::vector<DataOptions> each = options_of(expand(options.recordings), options.how);
     const bool several = each.size() > 1;
-    std::vector<io::Sequence> sequences;
+    std::vector<io::Recording> sequences;
     for (const DataOptions& one : each) sequences.push_back(open(one));
     bool fine = true;
     for (std::size_t i = 0; i < sequences.size(); ++i) {

@@ -27,7 +27,7 @@ struct Sample {
     Points in_world;
 };
 
-Sample sample_of(const io::Frame& frame, std::size_t index, const Eigen::Vector3d& origin,
+Sample sample_of(const io::FullScan& frame, std::size_t index, const Eigen::Vector3d& origin,
                  double points) {
     Sample sample{{{}, frame.T_world_sensor, frame.stamp, index}, {}};
     const double share = points / static_cast<double>(frame.points.size());
@@ -118,7 +118,8 @@ Camera camera_for(const Eigen::AlignedBox3f& box, int width, int height, const R
                                      static_cast<float>(kRadian * o.elevation_deg));
 }
 
-void animate_cleaning(const io::Sequence& sequence, const Config& config, const RenderOptions& o) {
+void animate_cleaning(const io::Recording& recording, const Config& config,
+                      const RenderOptions& o) {
     if (config.method != Method::scans) {
         throw ConfigError(
             "render: only where scans observe (--preset default) is there a map to "
@@ -127,19 +128,19 @@ void animate_cleaning(const io::Sequence& sequence, const Config& config, const 
     DynamicFilter filter(config);
     constexpr double kPoints = 600'000.0, kMostOfScan = 6000.0;  // of all samples
     const double points = std::min(
-        kMostOfScan, kPoints / static_cast<double>(std::max<std::size_t>(1, sequence.size())));
-    std::vector<std::size_t> scans(sequence.size());
+        kMostOfScan, kPoints / static_cast<double>(std::max<std::size_t>(1, recording.size())));
+    std::vector<std::size_t> scans(recording.size());
     std::iota(scans.begin(), scans.end(), std::size_t{0});
 
     std::vector<Sample> samples;
     std::optional<Eigen::Vector3d> origin;
-    for_each_frame(sequence, scans, {}, [&](std::size_t i, MaybeFrame& maybe) {
+    for_each_frame(recording, scans, {}, [&](std::size_t i, MaybeFrame& maybe) {
         if (!maybe.frame) return true;
         if (!origin) origin = nearby_origin(maybe.frame->T_world_sensor, 1.0);
         samples.push_back(sample_of(*maybe.frame, i, *origin, points));
         return true;
     });
-    if (samples.empty()) throw InputError(sequence.root, "", "no scan is usable");
+    if (samples.empty()) throw InputError(recording.info().root, "", "no scan is usable");
     const Stage stage = stage_for(samples, o);
 
     constexpr int kMilliseconds = 100;
@@ -148,7 +149,7 @@ void animate_cleaning(const io::Sequence& sequence, const Config& config, const 
                                static_cast<std::size_t>(o.pictures);
     Progress progress("draw", samples.size());
     std::size_t done = 0;
-    for_each_frame(sequence, scans, {}, [&](std::size_t i, MaybeFrame& maybe) {
+    for_each_frame(recording, scans, {}, [&](std::size_t i, MaybeFrame& maybe) {
         if (!maybe.frame) return true;
         const bool drawn = ++done % stride == 0 || done == samples.size();
         constexpr double kOfNewest = 20'000.0;

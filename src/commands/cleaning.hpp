@@ -13,7 +13,7 @@ Camera camera_for(const Eigen::AlignedBox3f& box, int width, int height,
 
 /// The front-end and the back-end at work, as an animated WebP: above, the newest scan with its
 /// instant verdict; below, the map so far by the evidence so far.
-void animate_cleaning(const io::Sequence& sequence, const Config& config,
+void animate_cleaning(const io::Recording& recording, const Config& config,
                       const RenderOptions& options);
 
 }  // namespace dynamic_filter::app

@@ -34,7 +34,7 @@ std::string name_of(const fs::path& result) {
 }
 
 /// A map that somebody else made clean: its points, and its scores if there is ground truth.
-PageRun view_of_map(const fs::path& file, const io::Sequence* truth, double voxel) {
+PageRun view_of_map(const fs::path& file, const io::Recording* truth, double voxel) {
     const io::Cloud cloud = io::read_cloud(file);
     PageRun run = view_of(cloud);
     run.info["name"] = file.filename().string();
@@ -49,7 +49,7 @@ PageRun view_of_map(const fs::path& file, const io::Sequence* truth, double voxe
     return run;
 }
 
-std::string run_of(const fs::path& result, std::size_t number, const io::Sequence* truth,
+std::string run_of(const fs::path& result, std::size_t number, const io::Recording* truth,
                    double voxel) {
     if (fs::is_directory(result)) {
         const fs::path page = result / "report.html";
@@ -74,9 +74,9 @@ std::string run_of(const fs::path& result, std::size_t number, const io::Sequenc
 
 int report(const ReportOptions& o) {
     require_extension(o.output, ".html");
-    std::optional<io::Sequence> truth;
+    std::optional<io::Recording> truth;
     if (!o.truth.data.empty()) truth = open(o.truth);
-    if (truth && !truth->has_truth()) {
+    if (truth && !truth->info().has_truth()) {
         throw InputError(o.truth.data, "",
                          "has no ground truth (labels/*.label, or 0/1 intensities)");
     }
@@ -104,6 +104,7 @@ void add_report(Program& program) {
     c.path("-o,--output", o->output, "file of the page");
     c.path("--truth", o->truth.data, "recording with ground truth, by which maps are scored");
     add_reading_options(c, o->truth);
+    add_selection_options(c, o->truth);
     c.number("--voxel", o->voxel, {0.01, 10.0}, "edge of a voxel for the scores [m]");
     c.action([o] { return report(*o); });
 }

@@ -35,19 +35,19 @@ void say(const std::string& note) {
 }
 
 /// Reads the labels of a run if --labels is given, else the recording's own ground truth.
-Labels labels_of(const ConvertOptions& o, const io::Sequence& sequence, std::size_t i,
-                 const io::Frame& frame) {
+Labels labels_of(const ConvertOptions& o, const io::Recording& recording, std::size_t i,
+                 const io::FullScan& frame) {
     if (!o.labels) {
-        const bool has_own = !sequence.has_truth() || !frame.truth.empty();
+        const bool has_own = !recording.info().has_truth() || !frame.truth.empty();
         return has_own ? frame.truth : Labels(frame.points.size(), Label::unknown);
     }
     const fs::path folder = io::label_folder(*o.labels);
-    Labels labels = io::read_labels(io::label_file(folder, io::stem(sequence, i)));
+    Labels labels = io::read_labels(io::label_file(folder, io::stem(recording, i)));
     if (labels.size() == frame.points.size()) return labels;
     throw ConfigError(
         fmt::format("{}: {} labels for the {} points of scan {}; are they of another "
                     "recording?",
-                    folder.string(), labels.size(), frame.points.size(), io::stem(sequence, i)));
+                    folder.string(), labels.size(), frame.points.size(), io::stem(recording, i)));
 }
 
 /// The settings of the run that left the labels; the default ones for other labels.
@@ -79,10 +79,11 @@ void refuse_map_options(const ConvertOptions& o) {
 int convert_recording(const ConvertOptions& o) {
     if (o.to == "autoware")
         throw ConfigError("--to autoware is for a map: give a cloud file as IN");
-    io::Sequence sequence = open(o.data);
-    ensure_poses(sequence, preset("default"), o.data.deskew, false);
-    for (const std::string& note : sequence.notes) fmt::print(stderr, "note: {}\n", note);
-    for (const std::string& line : sequence.losses) fmt::print(stderr, "lost     {}\n", line);
+    io::Recording recording = open(o.data);
+    ensure_poses(recording, preset("default"), o.data.deskew, false);
+    for (const std::string& note : recording.info().notes) fmt::print(stderr, "note: {}\n", note);
+    for (const std::string& line : recording.info().losses)
+        fmt::print(stderr, "lost     {}\n", line);
     catch_interrupts();
     ConvertOptions of_sink = o;
     // Only bags ask for it.
@@ -90,12 +91,12 @@ int convert_recording(const ConvertOptions& o) {
         of_sink.keep_unknown = settings_of(o).map.keep_unknown;
     }
     const std::unique_ptr<Sink> sink = make_sink(of_sink);
-    std::vector<std::size_t> scans(sequence.size());
+    std::vector<std::size_t> scans(recording.size());
     std::iota(scans.begin(), scans.end(), 0U);
     std::vector<std::string> rejected, notes;
     {
         Progress progress("convert", scans.size());
-        for_each_frame(sequence, scans, {}, [&](std::size_t i, MaybeFrame& maybe) {
+        for_each_frame(recording, scans, {}, [&](std::size_t i, MaybeFrame& maybe) {
             progress.advance();
             if (interrupted()) return false;
             if (!maybe.frame) {
@@ -105,7 +106,7 @@ int convert_recording(const ConvertOptions& o) {
             if (!o.labels && !maybe.frame->truth_fault.empty()) {
                 notes.push_back(maybe.frame->truth_fault + "; its points are unknown");
             }
-            sink->append(*maybe.frame, labels_of(o, sequence, i, *maybe.frame));
+            sink->append(*maybe.frame, labels_of(o, recording, i, *maybe.frame));
             return true;
         });
     }
@@ -115,7 +116,7 @@ int convert_recording(const ConvertOptions& o) {
     if (rejected.size() == scans.size()) throw InputError(o.data.data, "", "no scan is usable");
     say(sink->commit());
     fmt::print("written  {} ({} scans)\n", o.output.string(), scans.size() - rejected.size());
-    return rejected.empty() && sequence.losses.empty() ? kDone : kRejected;
+    return rejected.empty() && recording.info().losses.empty() ? kDone : kRejected;
 }
 
 int write_tiles(const io::Cloud& cloud, const ConvertOptions& o) {
@@ -171,9 +172,9 @@ int convert(const ConvertOptions& o) {
     }
     if (o.data.format.empty() && is_city_map(o.data.data)) return convert_map(o);
     refuse_map_options(o);
-    const bool recording = !o.data.format.empty() || fs::is_directory(o.data.data, ignored) ||
-                           io::Bag::recognises(o.data.data);
-    return recording ? convert_recording(o) : convert_cloud(o);
+    const bool is_recording = !o.data.format.empty() || fs::is_directory(o.data.data, ignored) ||
+                              io::Bag::recognises(o.data.data);
+    return is_recording ? convert_recording(o) : convert_cloud(o);
 }
 
 void add_convert(Program& program) {

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string random_token() {
-    std::random_device random;  // of the system, not a sequence that can be guessed
+    std::random_device random;  // of the system, not a recording that can be guessed
     std::string token;
     for (int i = 0; i < 4; ++i) token += fmt::format("{:08x}", random());
     return token;

@@ -34,17 +34,17 @@ eval::ScanSource noting(eval::ScanSource source, std::vector<std::atomic<bool>>&
     };
 }
 
-eval::ScanSource with_labels(const io::Sequence& sequence, const Eigen::Vector3d& origin,
+eval::ScanSource with_labels(const io::Recording& recording, const Eigen::Vector3d& origin,
                              const std::filesystem::path& folder, const RangeLimits& ranges) {
     // Given the output folder of a run, its labels are meant.
     const auto labels = io::label_folder(folder);
     if (!std::filesystem::is_directory(labels)) throw InputError(labels, "", "is not a folder");
-    const auto labels_of = [&sequence, labels](std::size_t i) -> std::optional<Labels> {
-        const auto file = io::label_file(labels, io::stem(sequence, i));
+    const auto labels_of = [&recording, labels](std::size_t i) -> std::optional<Labels> {
+        const auto file = io::label_file(labels, io::stem(recording, i));
         if (!std::filesystem::exists(file)) return std::nullopt;
         return io::read_labels(file);
     };
-    return scan_source(sequence, origin, labels_of, ranges);
+    return scan_source(recording, origin, labels_of, ranges);
 }
 
 std::string ranges_text(const RangeLimits& ranges) {
@@ -54,14 +54,14 @@ std::string ranges_text(const RangeLimits& ranges) {
 }
 
 /// Opens the recording. If it has no poses, uses those that the run found.
-io::Sequence with_poses(const EvalOptions& o) {
-    io::Sequence sequence = open(o.truth);
-    if (sequence.has_poses) return sequence;
+io::Recording with_poses(const EvalOptions& o) {
+    io::Recording recording = open(o.truth);
+    if (recording.info().has_poses) return recording;
     const std::filesystem::path labels = o.labels.value_or("");
     for (const auto& file : {labels / "poses.txt", labels.parent_path() / "poses.txt"}) {
         if (!o.labels || !std::filesystem::exists(file)) continue;
         DataOptions with = o.truth;
-        with.open.poses = file;
+        with.poses = file;
         return open(with);
     }
     throw InputError(o.truth.data, "",
@@ -75,31 +75,31 @@ Evaluation scores_of(const EvalOptions& o) {
     if (!(o.ranges.min >= 0.0 && o.ranges.max > o.ranges.min)) {
         throw ConfigError("--min-range must be 0 or more, and less than --max-range");
     }
-    const io::Sequence sequence = with_poses(o);
-    if (!sequence.has_truth()) {
+    const io::Recording recording = with_poses(o);
+    if (!recording.info().has_truth()) {
         throw InputError(o.truth.data, "",
                          "has no ground truth (labels/*.label, or 0/1 intensities)");
     }
-    const Eigen::Vector3d origin = scoring_origin(sequence, o.voxel);
-    std::vector<std::atomic<bool>> left_out(sequence.size());
+    const Eigen::Vector3d origin = scoring_origin(recording, o.voxel);
+    std::vector<std::atomic<bool>> left_out(recording.size());
     const eval::ScanSource source =
-        noting(o.labels ? with_labels(sequence, origin, *o.labels, o.ranges)
-                        : scan_source(sequence, origin, {}, o.ranges),
+        noting(o.labels ? with_labels(recording, origin, *o.labels, o.ranges)
+                        : scan_source(recording, origin, {}, o.ranges),
                left_out);
     eval::Scores scores =
-        o.labels ? eval::score_labels(sequence.size(), source, o.voxel)
-                 : eval::score_map(sequence.size(), source,
+        o.labels ? eval::score_labels(recording.size(), source, o.voxel)
+                 : eval::score_map(recording.size(), source,
                                    positions_from(io::read_cloud(*o.map), origin), o.voxel);
     const auto missing =
         static_cast<std::size_t>(std::count(left_out.begin(), left_out.end(), true));
-    if (missing == sequence.size()) {
+    if (missing == recording.size()) {
         throw InputError(
             o.labels ? *o.labels : o.truth.data, "",
             fmt::format("holds no label file of any readable scan in {}; labels are named "
                         "as the scans, for instance {}.label",
-                        o.truth.data.string(), io::stem(sequence, 0)));
+                        o.truth.data.string(), io::stem(recording, 0)));
     }
-    return {std::move(scores), sequence.size(), missing};
+    return {std::move(scores), recording.size(), missing};
 }
 
 int evaluate(const EvalOptions& o) {
@@ -121,6 +121,7 @@ void add_eval(Program& program) {
         c.path("--labels", o->labels, "folder with label files, or the output folder of a run");
     c.path("--map", o->map, "clean map (.pcd or .ply) in the world frame").excludes(labels);
     add_reading_options(c, o->truth);
+    add_selection_options(c, o->truth);
     c.number("--voxel", o->voxel, {0.01, 10.0}, "edge of a voxel [m]");
     c.choice("--protocol", o->protocol, protocol_names(),
              "rules by which to score: voxel is this project's, strict FreeDOM's, benchmark "

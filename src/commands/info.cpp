@@ -68,12 +68,12 @@ double path_of(const std::vector<Pose>& poses) {
     return length;
 }
 
-void describe_poses(const io::Sequence& s) {
-    if (!s.has_poses) {
+void describe_poses(const io::Recording& s) {
+    if (!s.info().has_poses) {
         fmt::print("  poses   none: the odometry finds them\n");
         return;
     }
-    const std::vector<Pose>& poses = s.T_world_sensor;
+    const std::vector<Pose>& poses = s.info().T_world_sensor;
     if (poses.empty()) {
         fmt::print("  poses   in the scans' files (VIEWPOINT)\n");
         return;
@@ -83,29 +83,29 @@ void describe_poses(const io::Sequence& s) {
     fmt::print(
         "  poses   of {} scans{}\n  path    {:.1f} m\n",
         static_cast<std::size_t>(known) == s.size() ? "all" : fmt::format("{} of the", known),
-        s.pose_source.empty() ? "" : ", from " + s.pose_source.string(), path_of(poses));
+        s.info().pose_source.empty() ? "" : ", from " + s.info().pose_source.string(),
+        path_of(poses));
 }
 
 /// What a run would use of it.
-void describe_scans(const io::Sequence& s) {
+void describe_scans(const io::Recording& s) {
     fmt::print("  scans   {}\n", s.size());
     if (s.size() > 1) {
-        fmt::print("  stamps  {:.3f} .. {:.3f} s{}\n", s.stamps.front(), s.stamps.back(),
-                   s.measured_stamps ? "" : " (made up at 10 Hz)");
+        fmt::print("  stamps  {:.3f} .. {:.3f} s{}\n", s.info().stamps.front(),
+                   s.info().stamps.back(), s.info().measured_stamps ? "" : " (made up at 10 Hz)");
     }
     describe_poses(s);
-    fmt::print("  truth   {}\n", s.has_truth() ? "yes" : "none");
-    for (const std::string& note : s.notes) fmt::print("  note    {}\n", note);
+    fmt::print("  truth   {}\n", s.info().has_truth() ? "yes" : "none");
+    for (const std::string& note : s.info().notes) fmt::print("  note    {}\n", note);
 }
 
 /// The first scan that can be read stands for all, whether it has a pose or not.
-void describe_first(io::Sequence s) {
+void describe_first(const io::Recording& recording) {
     constexpr std::size_t kTried = 5;
-    s.T_world_sensor.clear();
-    s.has_poses = s.points_in_world = false;
+    const io::Recording s = io::without_poses(recording);
     for (std::size_t i = 0; i < std::min(s.size(), kTried); ++i) {
         try {
-            describe_cloud(s.scan_files[i], io::read_frame(s, i).cloud);
+            describe_cloud(s.info().scan_files[i], s.read(i).cloud);
             return;
         } catch (const InputError& error) {
             fmt::print("  note    {}\n", error.what());
@@ -113,17 +113,17 @@ void describe_first(io::Sequence s) {
     }
 }
 
-void describe_sequence(const DataOptions& o) {
-    const io::Sequence s = o.format.empty() ? io::open_sequence(o.data) : open(o);
-    fmt::print("{}\n  format  {}\n", o.data.string(), io::to_string(s.format));
+void describe_recording(const DataOptions& of) {
+    const io::Recording s = open(of);
+    fmt::print("{}\n  format  {}\n", of.data.string(), s.info().layout);
     describe_scans(s);
     describe_first(s);
 }
 
 /// Its topics are told before: several of clouds, or none, are no mistake here.
-void describe_scans_of_bag(const DataOptions& o) {
+void describe_scans_of_bag(const DataOptions& of) {
     try {
-        const io::Sequence s = o.format.empty() ? io::open_sequence(o.data) : open(o);
+        const io::Recording s = open(of);
         describe_scans(s);
         describe_first(s);
     } catch (const Error& error) {
@@ -186,19 +186,28 @@ void describe_map(const std::filesystem::path& path) {
         fmt::print("  {:<28} {:>7} scans\n", drive.name, drive.scans);
 }
 
+/// Throws if scans are chosen of a file that has none.
+void refuse_selection(const DataOptions& of) {
+    if (of.first == 0 && !of.last && of.stride == 1) return;
+    throw ConfigError("--first, --last and --stride are for recordings; " + of.data.string() +
+                      " is none");
+}
+
 }  // namespace
 
-int info(const DataOptions& o) {
-    const std::filesystem::path& file = o.data;
-    if (o.format.empty() && is_city_map(file)) {
+int info(const DataOptions& of) {
+    const std::filesystem::path& file = of.data;
+    if (of.format.empty() && is_city_map(file)) {
+        refuse_selection(of);
         describe_map(file);
-    } else if (o.format == "bag" || (o.format.empty() && io::Bag::recognises(file))) {
+    } else if (of.format == "bag" || (of.format.empty() && io::Bag::recognises(file))) {
         describe_bag(file);
-        describe_scans_of_bag(o);
-    } else if (o.format.empty() && std::filesystem::is_regular_file(file)) {
+        describe_scans_of_bag(of);
+    } else if (of.format.empty() && std::filesystem::is_regular_file(file)) {
+        refuse_selection(of);
         describe_cloud(file, io::read_cloud(file));
     } else {
-        describe_sequence(o);  // also a scene that is named behind its folder
+        describe_recording(of);  // also a scene that is named behind its folder
     }
     return kDone;
 }
@@ -206,11 +215,12 @@ int info(const DataOptions& o) {
 void add_info(Program& program) {
     Command c = program.command(
         "info", "Describe a point cloud file, a recording, or the map of several drives");
-    const auto o = std::make_shared<DataOptions>();
-    c.path("FILE", o->data, "point cloud file, bag or folder").required();
-    c.choice("--format", o->format, {"kitti", "benchmark", "folder", "bag"},
-             "format of a recording (default: recognised by its files)");
-    c.action([o] { return info(*o); });
+    const auto of = std::make_shared<DataOptions>();
+    c.path("FILE", of->data, "point cloud file, bag or folder").required();
+    c.choice("--format", of->format, io::layout_names(),
+             "layout of a recording (default: recognised by its files)");
+    add_selection_options(c, *of);
+    c.action([of] { return info(*of); });
 }
 
 }  // namespace dynamic_filter::app

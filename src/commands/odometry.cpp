@@ -28,14 +28,14 @@ int odometry(const OdometryOptions& o) {
     const Config config = load_config(o.config);
     refuse_existing(o.output, o.overwrite);
     DataOptions without_poses = o.data;
-    without_poses.open.poses = "none";
-    io::Sequence sequence = open(without_poses);
+    without_poses.poses = "none";
+    io::Recording recording = open(without_poses);
     catch_interrupts();
-    ensure_poses(sequence, config, o.data.deskew, o.quiet);
+    ensure_poses(recording, config, o.data.deskew, o.quiet);
     if (interrupted()) return kInterrupted;
-    write_poses(o.output, sequence);
+    write_poses(o.output, recording);
     if (o.quiet) return kDone;
-    for (const std::string& note : sequence.notes) fmt::print("note     {}\n", note);
+    for (const std::string& note : recording.info().notes) fmt::print("note     {}\n", note);
     fmt::print("written  {}\n", o.output.string());
     return kDone;
 }

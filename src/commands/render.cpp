@@ -34,9 +34,9 @@ int render(const RenderOptions& o) {
     const std::string extension = extension_of(o.output);
     if (extension == ".webp") {
         const Config config = load_config(o.config);
-        io::Sequence sequence = open(o.data);
-        ensure_poses(sequence, config, o.data.deskew, false);
-        animate_cleaning(sequence, config, o);
+        io::Recording recording = open(o.data);
+        ensure_poses(recording, config, o.data.deskew, false);
+        animate_cleaning(recording, config, o);
     } else if (extension == ".png") {
         const fs::path& in = o.data.data;
         if (fs::is_directory(in) && !fs::exists(in / "static_map.pcd")) {

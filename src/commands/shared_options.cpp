@@ -20,32 +20,47 @@ void add_recordings(Command& command, RunOptions& options) {
         .required();
 }
 
+namespace {
+
+void add(Command& command, const std::string& name, const ReadingOption& option,
+         std::string& value) {
+    if (option.alone != nullptr) {
+        command.choice_or(name.c_str(), value, option.choices, option.alone, option.help);
+    } else if (!option.choices.empty()) {
+        command.choice(name.c_str(), value, option.choices, option.help);
+    } else {
+        command.text(name.c_str(), value, option.help);
+    }
+}
+
+void add(Command& command, const std::string& name, const ReadingOption& option,
+         std::optional<std::filesystem::path>& value) {
+    command.path(name.c_str(), value, option.help);
+}
+
+void add(Command& command, const std::string& name, const ReadingOption& option, bool& value) {
+    command.flag(name.c_str(), value, option.help);
+}
+
+template <class Whole>
+void add(Command& command, const std::string& name, const ReadingOption& option, Whole& value) {
+    command.whole(name.c_str(), value, {.low = static_cast<double>(option.low)}, option.help);
+}
+
+void add_rows(Command& command, DataOptions& options, bool that_select) {
+    visit_reading(options, [&](const ReadingOption& option, auto& value) {
+        if (option.selects == that_select) add(command, as_option(option), option, value);
+    });
+}
+
+}  // namespace
+
 void add_reading_options(Command& command, DataOptions& options) {
-    command.path(
-        "--poses", options.open.poses,
-        "pose file; `none` finds the poses by odometry (default: the recording's own poses)");
-    command.choice("--format", options.format, {"kitti", "benchmark", "folder", "bag"},
-                   "format of the recording (default: recognised by its files)");
-    command.text("--topic", options.open.topic,
-                 "topic of the scans in a bag (default: the only one)");
-    command.text("--pose-topic", options.open.pose_topic,
-                 "topic of the poses in a bag, or /tf (default: the one that fits)");
-    std::vector<std::string> fixes{"none"};
-    for (const io::PoseFix fix : io::pose_fixes()) fixes.push_back(io::to_string(fix));
-    command.choice("--pose-fix", options.pose_fix, fixes,
-                   "correct the poses; `check` says which correction is needed");
-    command.flag("--points-in-world", options.open.points_in_world,
-                 "the points are in the world frame, not in the sensor's frame");
-    command.choice("--time-unit", options.time_unit, {"s", "ms", "us", "ns"}, "unit of the stamps");
-    command.choice_or(
-        "--deskew", options.deskew, {"auto", "on", "off"}, "auto",
-        "undo the sensor's motion during each scan; auto does so if the scans overlay better then");
+    add_rows(command, options, false);
 }
 
 void add_selection_options(Command& command, DataOptions& options) {
-    command.whole("--first", options.open.first, {}, "index of the first scan to use");
-    command.whole("--last", options.open.last, {}, "index of the last scan to use");
-    command.whole("--stride", options.open.stride, {.low = 1}, "use every n-th scan only");
+    add_rows(command, options, true);
 }
 
 void add_config_options(Command& command, ConfigOptions& options) {

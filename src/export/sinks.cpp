@@ -45,7 +45,7 @@ public:
         : output_(folder, Contents::recording, replaced_if(overwrite)),
           scans_(output_.subfolder("velodyne")) {}
 
-    void append(const io::Frame& frame, const Labels& labels) override {
+    void append(const io::FullScan& frame, const Labels& labels) override {
         const std::string name = fmt::format("{:06}", poses_.size());
         fields_ = frame.cloud.fields;
         io::write_bin(scans_ / (name + ".bin"), frame.points, intensities(frame.cloud));
@@ -88,7 +88,7 @@ public:
         }
     }
 
-    void append(const io::Frame& frame, const Labels& labels) override {
+    void append(const io::FullScan& frame, const Labels& labels) override {
         io::Cloud cloud = layout_;
         fields_ = frame.cloud.fields;
         cloud.data.resize(frame.points.size() * cloud.point_bytes);
@@ -132,7 +132,7 @@ public:
           map_(std::move(map)),
           keep_unknown_(keep_unknown) {}
 
-    void append(const io::Frame& frame, const Labels& labels) override {
+    void append(const io::FullScan& frame, const Labels& labels) override {
         last_ = frame.stamp;
         const io::Cloud cloud = in_sensor(frame);
         for (const io::Field& field : cloud.fields) {
@@ -168,9 +168,9 @@ private:
     static constexpr const char *kWorld = "map", *kSensor = "lidar";
 
     /// The record with the coordinates that the filter sees.
-    static io::Cloud in_sensor(const io::Frame& frame) {
+    static io::Cloud in_sensor(const io::FullScan& frame) {
         io::Cloud cloud = frame.cloud;
-        io::Frame local = frame;
+        io::FullScan local = frame;
         local.T_world_sensor = Pose::Identity();
         cloud.data = world_records(local, cloud);
         return cloud;
@@ -198,7 +198,7 @@ class MapSink final : public Sink {
 public:
     explicit MapSink(fs::path file) : file_(std::move(file)) {}
 
-    void append(const io::Frame& frame, const Labels& labels) override {
+    void append(const io::FullScan& frame, const Labels& labels) override {
         if (layout_.fields.empty()) {
             layout_ = layout_of(frame, false);
             map_.fields = layout_.fields;

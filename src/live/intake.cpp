@@ -7,7 +7,7 @@
 #include "dynamic_filter/poses.hpp"
 #include "formats/byte_reader.hpp"
 #include "formats/messages/messages.hpp"
-#include "recording/frame.hpp"
+#include "recording/recording_parts.hpp"
 #include "tracking/pose_jump.hpp"
 
 namespace dynamic_filter::live {

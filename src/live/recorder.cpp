@@ -98,7 +98,7 @@ int finish_recording(const std::filesystem::path& bag, const std::filesystem::pa
     run.threads = config.limits.threads;
     run.refine = config.filter.odometry.refine ? "on" : "off";
     run.data.deskew = config.input.deskew ? "on" : "off";
-    if (without_poses) run.data.open.poses = "none";
+    if (without_poses) run.data.poses = "none";
     visit(config.filter, [&](const Setting& setting, const auto&) {
         if (!in_force(config.filter, setting)) return;
         const std::string key(setting.key);

@@ -149,7 +149,7 @@ void add_path(const ViewInput& in, const Shown& shown, const Origin& origin, Pag
     run.arrays.push_back(page_array("path-index", 1, index));
     run.arrays.push_back(page_array("path-frame", 1, shown.frame_of_scan));
     run.arrays.push_back(page_array("path-counts", 4, counts));
-    if (in.sequence.has_truth()) run.arrays.push_back(page_array("path-scores", 8, scores));
+    if (in.recording.info().has_truth()) run.arrays.push_back(page_array("path-scores", 8, scores));
 }
 
 void add_geometry(const Steps& steps, const Origin& origin, PageRun& run) {
@@ -212,7 +212,7 @@ PageRun view_of(const ViewInput& in) {
     const Steps steps{&map, &shown.frames};
     add_geometry(steps, origin, run);
     run.info["scans"] = in.scans.size();
-    run.info["has_truth"] = in.sequence.has_truth();
+    run.info["has_truth"] = in.recording.info().has_truth();
     run.info["has_instant"] = true;
     run.info["has_evidence"] = in.has_evidence;
     run.info["points_total"] = all_points(in);

@@ -18,7 +18,7 @@ namespace dynamic_filter::app {
 
 /// Counts of a scan, made while its labels are written.
 struct ScanNote {
-    std::size_t index = 0;                               ///< in the sequence
+    std::size_t index = 0;                               ///< in the recording
     Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] of the sensor, in the world
     double stamp = 0.0;                                  ///< [s]
     std::array<std::uint32_t, 3> counts{};               ///< final: static, dynamic, unknown
@@ -31,7 +31,7 @@ struct ScanNote {
 ScanNote note_of(const Labels& labels, const Labels& instant, const Labels& truth);
 
 struct ViewInput {
-    const io::Sequence& sequence;
+    const io::Recording& recording;
     const std::vector<ScanNote>& scans;  ///< that were used, in order
     std::filesystem::path labels;        ///< folder of the final verdicts
     /// The instant verdict on a scan of the recording; empty where it was not kept.

@@ -20,7 +20,7 @@ std::uint8_t code_at(const Labels& labels, std::size_t i) {
 }
 
 /// Chooses about `most` measured points of a scan at random. Up to half of them are dynamic.
-std::vector<std::uint32_t> drawn(const io::Frame& frame, const Labels& labels, std::size_t scan,
+std::vector<std::uint32_t> drawn(const io::FullScan& frame, const Labels& labels, std::size_t scan,
                                  std::size_t most) {
     const auto moving =
         static_cast<double>(std::count(labels.begin(), labels.end(), Label::dynamic));
@@ -40,7 +40,7 @@ std::vector<std::uint32_t> drawn(const io::Frame& frame, const Labels& labels, s
 }
 
 /// About `most` points of one scan. `intensity`: of all its points, or empty.
-std::vector<ShownPoint> draw(const ViewInput& in, std::size_t row, const io::Frame& frame,
+std::vector<ShownPoint> draw(const ViewInput& in, std::size_t row, const io::FullScan& frame,
                              const Labels& labels, const std::vector<double>& intensity,
                              const Eigen::Vector3d& origin, std::size_t most) {
     const std::size_t index = in.scans[row].index;
@@ -89,8 +89,8 @@ Shown collect(const ViewInput& in, const Eigen::Vector3d& origin) {
     constexpr std::size_t kMostScans = 2000;  // more do not show in so few points
     constexpr std::size_t kPerMapPoint = 4;   // offered, so that the cubes are well filled
     const std::size_t n = in.scans.size(), stride = stride_for(n, kMostScans);
-    const auto is_frame = [&](std::size_t i) { return is_shown(i, in.sequence.size()); };
-    std::vector<std::size_t> scans, row_of(in.sequence.size());
+    const auto is_frame = [&](std::size_t i) { return is_shown(i, in.recording.size()); };
+    std::vector<std::size_t> scans, row_of(in.recording.size());
     std::size_t frames = 0;
     for (std::size_t row = 0; row < n; ++row) {
         if (row % stride != 0 && !is_frame(in.scans[row].index)) continue;
@@ -102,12 +102,13 @@ Shown collect(const ViewInput& in, const Eigen::Vector3d& origin) {
                       for_frame = kFramePoints / std::max<std::size_t>(1, frames);
     Shown shown{.map = ThinnedCloud(kMapPoints)};
     shown.frame_of_scan.assign(n, -1);
-    std::vector<Drawn> drawn(in.sequence.size());
+    std::vector<Drawn> drawn(in.recording.size());
     const auto draw_both = [&](std::size_t i, MaybeFrame& maybe) {
-        const Labels labels = io::read_labels(io::label_file(in.labels, io::stem(in.sequence, i)));
+        const Labels labels = io::read_labels(io::label_file(in.labels, io::stem(in.recording, i)));
         const std::size_t row = row_of[i];
-        const auto intensity = in.sequence.intensity_is_truth ? std::vector<double>{}
-                                                              : intensities(maybe.frame->cloud);
+        const auto intensity = in.recording.info().intensity_is_truth
+                                   ? std::vector<double>{}
+                                   : intensities(maybe.frame->cloud);
         drawn[i].has_intensity = !intensity.empty();
         drawn[i].map = draw(in, row, *maybe.frame, labels, intensity, origin, for_map);
         if (is_frame(i))
@@ -125,7 +126,7 @@ Shown collect(const ViewInput& in, const Eigen::Vector3d& origin) {
         }
         return true;
     };
-    for_each_frame(in.sequence, scans, draw_both, use);
+    for_each_frame(in.recording, scans, draw_both, use);
     shown.frame_begin.push_back(static_cast<std::uint32_t>(shown.frames.size()));
     return shown;
 }

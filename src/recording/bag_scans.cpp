@@ -133,91 +133,89 @@ std::optional<PoseSource> choose_poses(const BagContents& contents, const CloudT
 }
 
 /// Assigns poses from a file: interpolated if it has stamps, otherwise one row per scan.
-void assign_file_poses(Sequence& sequence, const std::filesystem::path& file) {
+void assign_file_poses(Info& info, const std::filesystem::path& file) {
     PoseFile poses = read_poses(file);
     if (poses.stamps.empty()) {
-        if (poses.poses.size() != sequence.stamps.size()) {
+        if (poses.poses.size() != info.stamps.size()) {
             throw InputError(file, "",
                              fmt::format("{} poses without stamps for {} scans; give one pose per "
                                          "scan, or poses with stamps (TUM)",
-                                         poses.poses.size(), sequence.stamps.size()));
+                                         poses.poses.size(), info.stamps.size()));
         }
-        sequence.T_world_sensor = std::move(poses.poses);
-        sequence.trajectory = {sequence.stamps, sequence.T_world_sensor};
-        sequence.notes.push_back("poses matched to the scans by their order");
+        info.T_world_sensor = std::move(poses.poses);
+        info.trajectory = {info.stamps, info.T_world_sensor};
+        info.notes.push_back("poses matched to the scans by their order");
         return;
     }
-    sequence.trajectory = {std::move(poses.stamps), std::move(poses.poses)};
-    put_in_order(sequence.trajectory);
-    for (const double stamp : sequence.stamps) {
-        sequence.T_world_sensor.push_back(
-            pose_at(sequence.trajectory, stamp, 1.0, 0.2).value_or(lost_pose()));
+    info.trajectory = {std::move(poses.stamps), std::move(poses.poses)};
+    put_in_order(info.trajectory);
+    for (const double stamp : info.stamps) {
+        info.T_world_sensor.push_back(
+            pose_at(info.trajectory, stamp, 1.0, 0.2).value_or(lost_pose()));
     }
-    sequence.notes.push_back("poses interpolated at the scans' stamps, from " + file.string());
+    info.notes.push_back("poses interpolated at the scans' stamps, from " + file.string());
 }
 
-void assign_poses(Sequence& sequence, const PoseSource& source) {
-    for (const double stamp : sequence.stamps) {
-        sequence.T_world_sensor.push_back(source.T_world_sensor(stamp).value_or(lost_pose()));
+void assign_poses(Info& info, const PoseSource& source) {
+    for (const double stamp : info.stamps) {
+        info.T_world_sensor.push_back(source.T_world_sensor(stamp).value_or(lost_pose()));
     }
-    sequence.trajectory = trajectory_of(source);
-    sequence.notes.push_back(source.note);
+    info.trajectory = trajectory_of(source);
+    info.notes.push_back(source.note);
 }
 
-void refuse_if_all_lost(const Sequence& sequence, const std::filesystem::path& data) {
-    const bool all_lost =
-        std::all_of(sequence.T_world_sensor.begin(), sequence.T_world_sensor.end(),
-                    [](const Pose& pose) { return !pose.matrix().allFinite(); });
+void refuse_if_all_lost(const Info& info, const std::filesystem::path& data) {
+    const bool all_lost = std::all_of(info.T_world_sensor.begin(), info.T_world_sensor.end(),
+                                      [](const Pose& pose) { return !pose.matrix().allFinite(); });
     if (!all_lost) return;
-    const auto& of = sequence.trajectory.stamps;
+    const auto& of = info.trajectory.stamps;
     throw InputError(
         data, "",
         fmt::format("no scan has a pose: scans are from {:.3f} to {:.3f} s, poses {}; are the "
                     "poses of another recording, of another clock, or in another unit of time?",
-                    sequence.stamps.front(), sequence.stamps.back(),
+                    info.stamps.front(), info.stamps.back(),
                     of.empty() ? "at no time"
                                : fmt::format("from {:.3f} to {:.3f} s", of.front(), of.back())));
 }
 
 }  // namespace
 
-Sequence open_bag(const std::filesystem::path& data, const OpenOptions& options) {
+RecordingParts open_bag(const std::filesystem::path& data, const OpenOptions& options) {
     auto scans = std::make_shared<BagScans>(BagScans{Bag(data), {}, {}});
     const BagContents contents = contents_of(scans->bag);
     const CloudTopic& clouds = choose_clouds(contents, data, options);
-    Sequence sequence;
-    sequence.format = Format::bag;
-    sequence.root = data;
-    sequence.notes = contents.notes;
-    sequence.losses = contents.losses;
+    Info info;
+    info.layout = "bag";
+    info.root = data;
+    info.notes = contents.notes;
+    info.losses = contents.losses;
     if (scans->bag.files().size() > 1) {
-        sequence.notes.push_back(fmt::format(
+        info.notes.push_back(fmt::format(
             "{} bags are read as parts of one recording; if they are not, give one of them",
             scans->bag.files().size()));
     }
-    sequence.notes.push_back("scans from " + clouds.topic.name);
-    for (const FoundScan& scan : in_order(clouds, sequence.notes)) {
-        sequence.stamps.push_back(scan.stamp);
+    info.notes.push_back("scans from " + clouds.topic.name);
+    for (const FoundScan& scan : in_order(clouds, info.notes)) {
+        info.stamps.push_back(scan.stamp);
         scans->messages.push_back(scan.ref);
     }
-    sequence.measured_stamps = true;
+    info.measured_stamps = true;
     scans->topic = clouds.topic;
     if (options.poses) {
-        assign_file_poses(sequence, *options.poses);
-    } else if (const auto source = choose_poses(contents, clouds, options, sequence.notes)) {
-        assign_poses(sequence, *source);
-        sequence.points_in_world = source->points_in_world;
+        assign_file_poses(info, *options.poses);
+    } else if (const auto source = choose_poses(contents, clouds, options, info.notes)) {
+        assign_poses(info, *source);
+        info.points_in_world = source->points_in_world;
     }
-    sequence.has_poses = !sequence.T_world_sensor.empty();
-    if (sequence.has_poses) refuse_if_all_lost(sequence, data);
+    info.has_poses = !info.T_world_sensor.empty();
+    if (info.has_poses) refuse_if_all_lost(info, data);
     const std::size_t digits =
         std::max<std::size_t>(6, fmt::format("{}", scans->messages.size()).size());
     for (std::size_t i = 0; i < scans->messages.size(); ++i) {
-        sequence.scan_files.push_back(data / fmt::format("{:0{}}", i, digits));
-        sequence.bag_scans.push_back(i);
+        info.scan_files.push_back(data / fmt::format("{:0{}}", i, digits));
     }
-    sequence.bag = std::move(scans);
-    return sequence;
+    return {.info = std::move(info),
+            .read_cloud = [scans](std::size_t i) { return read_bag_cloud(*scans, i); }};
 }
 
 Cloud read_bag_cloud(const BagScans& scans, std::size_t i) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "dynamic_filter/bag.hpp"
-#include "dynamic_filter/recording.hpp"
+#include "recording/recording_parts.hpp"
 
 namespace dynamic_filter::io {
 
@@ -18,7 +18,7 @@ struct BagScans {
 };
 
 /// Opens a bag; does everything except the selection of scans. Throws InputError and ConfigError.
-Sequence open_bag(const std::filesystem::path& data, const OpenOptions& options);
+RecordingParts open_bag(const std::filesystem::path& data, const OpenOptions& options);
 
 /// Reads scan i with the fields of its message. Throws InputError.
 Cloud read_bag_cloud(const BagScans& scans, std::size_t i);

@@ -39,9 +39,9 @@ Verdict judge_intensity(const std::filesystem::path& scan) {
     }
 }
 
-bool all_intensities_are_flags(const Sequence& sequence) {
+bool all_intensities_are_flags(const Info& info) {
     bool any_dynamic = false;
-    for (const auto& scan : sequence.scan_files) {
+    for (const auto& scan : info.scan_files) {
         const Verdict verdict = judge_intensity(scan);
         if (verdict == Verdict::no_truth) return false;
         any_dynamic = any_dynamic || verdict == Verdict::truth;
@@ -51,23 +51,23 @@ bool all_intensities_are_flags(const Sequence& sequence) {
 
 }  // namespace
 
-void require_viewpoints(Sequence& sequence) {
-    for (const auto& scan : sequence.scan_files) {
+void require_viewpoints(Info& info) {
+    for (const auto& scan : info.scan_files) {
         if (may_have_viewpoint(scan)) return;
     }
-    if (sequence.size() > 1) {
-        throw InputError(sequence.scan_files[0].parent_path(), "",
+    if (info.scan_files.size() > 1) {
+        throw InputError(info.scan_files[0].parent_path(), "",
                          "no poses: VIEWPOINT of every scan is the identity; give poses with "
                          "--poses, and --format folder if the points are in the sensor's frame");
     }
-    sequence.notes.emplace_back("VIEWPOINT is the identity; the sensor is taken to be there");
+    info.notes.emplace_back("VIEWPOINT is the identity; the sensor is taken to be there");
 }
 
-void find_intensity_truth(Sequence& sequence, const Layout& layout) {
-    if (!sequence.label_files.empty()) return;  // label files are more precise
-    sequence.intensity_is_truth = layout.truth_map || all_intensities_are_flags(sequence);
-    if (sequence.intensity_is_truth) {
-        sequence.notes.emplace_back("intensity is taken as ground truth (1: dynamic)");
+void find_intensity_truth(Info& info, const Layout& layout) {
+    if (!info.label_files.empty()) return;  // label files are more precise
+    info.intensity_is_truth = layout.truth_map || all_intensities_are_flags(info);
+    if (info.intensity_is_truth) {
+        info.notes.emplace_back("intensity is taken as ground truth (1: dynamic)");
     }
 }
 

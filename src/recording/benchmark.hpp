@@ -9,10 +9,10 @@ namespace dynamic_filter::io {
 
 /// Throws InputError if several scans have no pose except the identity. For a single scan, adds a
 /// note.
-void require_viewpoints(Sequence& sequence);
+void require_viewpoints(Info& info);
 
 /// Sets `intensity_is_truth` if there is a gt_cloud.pcd, or if all intensities are 0 or 1 and at
 /// least one is 1.
-void find_intensity_truth(Sequence& sequence, const Layout& layout);
+void find_intensity_truth(Info& info, const Layout& layout);
 
 }  // namespace dynamic_filter::io

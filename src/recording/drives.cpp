@@ -112,7 +112,7 @@ std::vector<std::string> names_of(const std::vector<DriveSource>& sources) {
 std::vector<DataOptions> options_of(const std::vector<DriveSource>& sources,
                                     const DataOptions& how) {
     refuse_twice(sources);
-    const auto& poses = how.open.poses;
+    const auto& poses = how.poses;
     if (sources.size() > 1 && poses && *poses != "none") {
         throw ConfigError(
             "--poses " + poses->string() +
@@ -124,7 +124,7 @@ std::vector<DataOptions> options_of(const std::vector<DriveSource>& sources,
     for (const DriveSource& source : sources) {
         each.push_back(how);
         each.back().data = source.recording;
-        if (source.poses && !poses) each.back().open.poses = source.poses;
+        if (source.poses && !poses) each.back().poses = source.poses;
     }
     return each;
 }
@@ -140,8 +140,8 @@ std::vector<Drive> open_drives(const std::vector<DriveSource>& sources, const Da
     const std::vector<std::string> names = names_of(sources);
     std::vector<Drive> drives;
     for (std::size_t i = 0; i < sources.size(); ++i) {
-        Drive drive{.name = names[i], .sequence = open(options[i])};
-        if (!drive.sequence.has_poses) {
+        Drive drive{.name = names[i], .recording = open(options[i])};
+        if (!drive.recording.info().has_poses) {
             throw InputError(
                 options[i].data, "",
                 "has no poses, so it has no place in a common world; give its poses (a single "

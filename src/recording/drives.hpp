@@ -20,7 +20,7 @@ struct DriveSource {
 
 struct Drive {
     std::string name;  ///< of its folder in the result
-    io::Sequence sequence;
+    io::Recording recording;
 };
 
 /// The recordings, with each list (a .txt file) replaced by what it lists: one recording a line;
@@ -32,7 +32,7 @@ std::vector<DriveSource> expand(const std::vector<std::filesystem::path>& record
 /// does not help, a number is added.
 std::vector<std::string> names_of(const std::vector<DriveSource>& sources);
 
-/// How to read each recording. `how.open.poses` goes before the pose file in a list. Throws
+/// How to read each recording. `how.poses` goes before the pose file in a list. Throws
 /// ConfigError if a recording is given twice, or one pose file for several recordings.
 std::vector<DataOptions> options_of(const std::vector<DriveSource>& sources,
                                     const DataOptions& how);

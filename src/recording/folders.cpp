@@ -30,6 +30,24 @@ fs::path whole_path(const fs::path& path) {
     return whole.has_filename() ? whole : whole.parent_path();
 }
 
+fs::path without_slash(const fs::path& path) {
+    const fs::path normal = path.lexically_normal();
+    return normal.has_filename() ? normal : normal.parent_path();
+}
+
+fs::path parent_of(const fs::path& folder) {
+    std::error_code ignored;
+    const fs::path parent = without_slash(folder).parent_path();
+    if (!parent.empty() && folder.filename() != "." && folder.filename() != "..") return parent;
+    return without_slash(fs::absolute(folder, ignored)).parent_path();
+}
+
+const std::vector<std::string>& usual_scan_folders() {
+    static const std::vector<std::string> names = {"Scans",  "scans",    "pcds", "pcd",
+                                                   "clouds", "velodyne", "."};
+    return names;
+}
+
 Paths list_files(const fs::path& folder, const std::set<std::string>& extensions,
                  std::error_code& error) {
     Paths files;

@@ -16,14 +16,6 @@ namespace dynamic_filter::app {
 
 namespace {
 
-io::Format format_of(const std::string& name) {
-    for (const auto format :
-         {io::Format::kitti, io::Format::benchmark, io::Format::folder, io::Format::bag}) {
-        if (io::to_string(format) == name) return format;
-    }
-    throw ConfigError("unknown format '" + name + "'; choose kitti, benchmark, folder or bag");
-}
-
 io::PoseFix pose_fix_of(const std::string& name) {
     for (const io::PoseFix fix : io::pose_fixes()) {
         if (io::to_string(fix) == name) return fix;
@@ -44,44 +36,50 @@ void require_extension(const std::filesystem::path& output, const std::string& e
     throw ConfigError(output.string() + ": the name of what is written must end in " + extension);
 }
 
-io::Sequence open(const DataOptions& options) {
-    io::OpenOptions how = options.open;
-    if (!options.format.empty()) how.format = format_of(options.format);
-    how.pose_fix = pose_fix_of(options.pose_fix);
-    how.time_unit = seconds_of(options.time_unit);
+io::Recording open(const DataOptions& options) {
+    io::OpenOptions how{.layout = options.format,
+                        .poses = options.poses,
+                        .first = options.first,
+                        .last = options.last,
+                        .stride = options.stride,
+                        .topic = options.topic,
+                        .pose_topic = options.pose_topic,
+                        .deskew = options.deskew == "on",
+                        .pose_fix = pose_fix_of(options.pose_fix),
+                        .points_in_world = options.points_in_world,
+                        .time_unit = seconds_of(options.time_unit)};
     // A file of that name would be meant by ./none.
     if (how.poses == std::filesystem::path("none")) {
         how.poses.reset();
         how.without_poses = true;
     }
-    how.deskew = options.deskew == "on";
-    io::Sequence sequence = io::open_sequence(options.data, how);
-    if (how.pose_fix != io::PoseFix::none && !sequence.has_poses) {
+    io::Recording recording = io::open_recording(options.data, how);
+    if (how.pose_fix != io::PoseFix::none && !recording.info().has_poses) {
         throw ConfigError("--pose-fix " + options.pose_fix +
                           " has no poses to correct; give them with --poses FILE");
     }
-    return sequence;
+    return recording;
 }
 
-std::vector<std::size_t> all_scans(const io::Sequence& sequence) {
-    std::vector<std::size_t> scans(sequence.size());
+std::vector<std::size_t> all_scans(const io::Recording& recording) {
+    std::vector<std::size_t> scans(recording.size());
     std::iota(scans.begin(), scans.end(), std::size_t{0});
     return scans;
 }
 
-InputError changed_in_use(const io::Sequence& sequence, std::size_t i, const std::string& why) {
-    const std::string file = sequence.scan_files[i].string();
+InputError changed_in_use(const io::Recording& recording, std::size_t i, const std::string& why) {
+    const std::string file = recording.info().scan_files[i].string();
     const bool names_it = why.starts_with(file + ": ");
     return {file, "", "changed while it was in use: " + why.substr(names_it ? file.size() + 2 : 0)};
 }
 
-void for_each_frame(const io::Sequence& sequence, const std::vector<std::size_t>& scans,
+void for_each_frame(const io::Recording& recording, const std::vector<std::size_t>& scans,
                     const std::function<void(std::size_t, MaybeFrame&)>& prepare,
                     const std::function<bool(std::size_t, MaybeFrame&)>& use) {
     constexpr std::size_t kAhead = 8;
     const auto read = [&](std::size_t i, MaybeFrame& maybe) {
         try {
-            maybe.frame = io::read_frame(sequence, scans[i]);
+            maybe.frame = recording.read(scans[i]);
             if (prepare) prepare(scans[i], maybe);
         } catch (const InputError& error) {
             maybe = {std::nullopt, error.what()};
@@ -112,7 +110,7 @@ void for_each_frame(const io::Sequence& sequence, const std::vector<std::size_t>
     }
 }
 
-Scan take_scan(io::Frame& frame, std::size_t index) {
+Scan take_scan(io::FullScan& frame, std::size_t index) {
     return {std::move(frame.points), frame.T_world_sensor,  frame.stamp, index,
             frame.has_pose,          std::move(frame.times)};
 }
@@ -128,7 +126,7 @@ Points shifted_world(const Points& points, const Pose& T_world_sensor,
     return shifted;
 }
 
-Points shifted_world(const io::Frame& frame, const Eigen::Vector3d& origin) {
+Points shifted_world(const io::FullScan& frame, const Eigen::Vector3d& origin) {
     return shifted_world(frame.points, frame.T_world_sensor, origin);
 }
 
@@ -152,10 +150,10 @@ Eigen::Vector3d origin_of(const io::Cloud& cloud) {
     return nearby_origin(near, 1.0);
 }
 
-Eigen::Vector3d scoring_origin(const io::Sequence& sequence, double voxel_size) {
-    for (std::size_t i = 0; i < sequence.size(); ++i) {
+Eigen::Vector3d scoring_origin(const io::Recording& recording, double voxel_size) {
+    for (std::size_t i = 0; i < recording.size(); ++i) {
         try {
-            return nearby_origin(io::read_frame(sequence, i).T_world_sensor, voxel_size);
+            return nearby_origin(recording.read(i).T_world_sensor, voxel_size);
         } catch (const InputError&) {
             continue;  // a rejected scan; the next will do
         }

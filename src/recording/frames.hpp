@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Reading a sequence with read-ahead, and putting its scans into a frame that floats can hold.
+/// Reading a recording with read-ahead, and putting its scans into a frame that floats can hold.
 #pragma once
 
 #include <functional>
@@ -18,36 +18,36 @@ namespace dynamic_filter::app {
 /// file of the user's recording.
 void require_extension(const std::filesystem::path& output, const std::string& extension);
 
-io::Sequence open(const DataOptions& options);
+io::Recording open(const DataOptions& options);
 
 /// A frame, or why it cannot be used.
 struct MaybeFrame {
-    std::optional<io::Frame> frame;
+    std::optional<io::FullScan> frame;
     std::string error;
 };
 
 /// The indices of all scans, in order.
-std::vector<std::size_t> all_scans(const io::Sequence& sequence);
+std::vector<std::size_t> all_scans(const io::Recording& recording);
 
 /// What to throw if a scan that could be used before is another one now, or gone.
-InputError changed_in_use(const io::Sequence& sequence, std::size_t i, const std::string& why);
+InputError changed_in_use(const io::Recording& recording, std::size_t i, const std::string& why);
 
 /// Reads `scans` (indices) a few at a time, in parallel, and the next few meanwhile; `prepare` runs
 /// on each in parallel, then `use` on each in order, in the caller's thread. Stops early when `use`
 /// returns false.
-void for_each_frame(const io::Sequence& sequence, const std::vector<std::size_t>& scans,
+void for_each_frame(const io::Recording& recording, const std::vector<std::size_t>& scans,
                     const std::function<void(std::size_t, MaybeFrame&)>& prepare,
                     const std::function<bool(std::size_t, MaybeFrame&)>& use);
 
 /// The core's view of a frame; takes the frame's points.
-Scan take_scan(io::Frame& frame, std::size_t index);
+Scan take_scan(io::FullScan& frame, std::size_t index);
 
 /// Points of the sensor in the world, shifted by `-origin`. Near the origin floats are exact
 /// enough.
 Points shifted_world(const Points& points, const Pose& T_world_sensor,
                      const Eigen::Vector3d& origin);
 /// The scan's points, shifted by `-origin` from the world. Near the origin floats are exact enough.
-Points shifted_world(const io::Frame& frame, const Eigen::Vector3d& origin);
+Points shifted_world(const io::FullScan& frame, const Eigen::Vector3d& origin);
 
 /// x y z of a cloud in the world, less the origin; in double until then.
 Points positions_from(const io::Cloud& cloud, const Eigen::Vector3d& origin);
@@ -56,6 +56,6 @@ Points positions_from(const io::Cloud& cloud, const Eigen::Vector3d& origin);
 Eigen::Vector3d origin_of(const io::Cloud& cloud);
 
 /// A whole number of voxels near the first usable pose; the world's origin if there is none.
-Eigen::Vector3d scoring_origin(const io::Sequence& sequence, double voxel_size);
+Eigen::Vector3d scoring_origin(const io::Recording& recording, double voxel_size);
 
 }  // namespace dynamic_filter::app

@@ -14,14 +14,18 @@ namespace dynamic_filter::io {
 using Paths = std::vector<std::filesystem::path>;
 
 struct Layout {
-    Format format = Format::folder;
+    std::string name;  ///< of the row of layouts/registry.cpp that found it
     std::filesystem::path scan_folder;
     Paths scans;  ///< in natural order; never empty
     /// Poses of the scans if the layout defines them; otherwise empty.
     std::vector<Pose> T_world_sensor;
+    bool poses_in_scans = false;        ///< true: each scan file holds its pose
+    bool points_in_world = false;       ///< true: points are in the frame of the poses
+    bool truth_in_intensity = false;    ///< true: intensity may be ground truth
     std::vector<double> stamps;         ///< [s] stamps of the scans if the layout defines them
     std::filesystem::path pose_source;  ///< file of T_world_sensor
     std::optional<std::filesystem::path> poses, times, calib, labels, truth_map;
+    Cloud (*read)(const std::filesystem::path& scan) = read_cloud;
     std::vector<std::string> notes;
 };
 

@@ -26,7 +26,7 @@ struct Column {
 
 }  // namespace
 
-io::Cloud layout_of(const io::Frame& frame, bool in_world) {
+io::Cloud layout_of(const io::FullScan& frame, bool in_world) {
     constexpr double kFar = 1e4;  // [m]
     const bool far = !in_world && frame.T_world_sensor.translation().norm() > kFar;
     io::Cloud layout;
@@ -37,7 +37,7 @@ io::Cloud layout_of(const io::Frame& frame, bool in_world) {
     return layout;
 }
 
-std::vector<std::byte> world_records(const io::Frame& frame, const io::Cloud& layout) {
+std::vector<std::byte> world_records(const io::FullScan& frame, const io::Cloud& layout) {
     const io::Cloud& cloud = frame.cloud;
     std::vector<std::byte> records(frame.points.size() * layout.point_bytes);
     std::vector<Column> columns;

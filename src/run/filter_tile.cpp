@@ -68,7 +68,7 @@ struct TileRun {
     bool look_again(DynamicFilter& filter, const ScanGroup& scans) const;
     bool decide(const DynamicFilter& filter, const ScanGroup& scans,
                 const std::vector<std::size_t>& numbers, const LabelStore& instants);
-    [[nodiscard]] Seen look(const DynamicFilter& filter, const io::Frame& frame,
+    [[nodiscard]] Seen look(const DynamicFilter& filter, const io::FullScan& frame,
                             std::size_t number) const;
     void score(const Pose& T_world_sensor, const Seen& seen, const Labels& instant);
     bool score_near(const ScanGroup& scans, const std::vector<std::size_t>& numbers,
@@ -102,8 +102,8 @@ Eigen::Vector3d TileRun::scoring_origin() const {
 /// Calls use(number, scan, frame) for the scans in order; `prepare` (number, frame) runs in
 /// parallel before. False if it was interrupted.
 bool each_scan(const Job& job, const ScanGroup& group, const std::vector<std::size_t>& numbers,
-               const std::function<void(std::size_t, io::Frame&)>& prepare,
-               const std::function<void(std::size_t, io::Frame&)>& use) {
+               const std::function<void(std::size_t, io::FullScan&)>& prepare,
+               const std::function<void(std::size_t, io::FullScan&)>& use) {
     for (std::size_t begin = 0; begin < numbers.size();) {
         const std::uint32_t drive = group[numbers[begin]].drive;
         std::map<std::size_t, std::size_t> number_of;  // by index in the drive
@@ -112,14 +112,14 @@ bool each_scan(const Job& job, const ScanGroup& group, const std::vector<std::si
             scans.push_back(group[numbers[begin]].scan);
             number_of[scans.back()] = numbers[begin];
         }
-        const io::Sequence& sequence = job.drives[drive].sequence;
+        const io::Recording& recording = job.drives[drive].recording;
         for_each_frame(
-            sequence, scans,
+            recording, scans,
             [&](std::size_t i, MaybeFrame& maybe) {
                 if (prepare) prepare(number_of.at(i), *maybe.frame);
             },
             [&](std::size_t i, MaybeFrame& maybe) {
-                if (!maybe.frame) throw changed_in_use(sequence, i, maybe.error);
+                if (!maybe.frame) throw changed_in_use(recording, i, maybe.error);
                 use(number_of.at(i), *maybe.frame);
                 return !interrupted();
             });
@@ -150,7 +150,7 @@ std::vector<std::vector<std::size_t>> inside_by_drive(const ScanGroup& group,
 /// First pass: every scan goes through the filter.
 bool TileRun::filter(DynamicFilter& filter, const ScanGroup& scans, LabelStore& instants) const {
     std::uint32_t drive = scans.front().drive;
-    return each_scan(job, scans, all_of(scans), {}, [&](std::size_t number, io::Frame& frame) {
+    return each_scan(job, scans, all_of(scans), {}, [&](std::size_t number, io::FullScan& frame) {
         if (std::exchange(drive, scans[number].drive) != scans[number].drive) filter.begin_drive();
         instants.put(number, filter.push(take_scan(frame, number)).labels);
     });
@@ -164,12 +164,13 @@ bool TileRun::look_again(DynamicFilter& filter, const ScanGroup& scans) const {
         drive_of.push_back(n == 0 ? 0 : drive_of.back() + (begins ? 1 : 0));
         earlier.push_back(n);
     }
-    return each_scan(job, scans, earlier, {}, [&](std::size_t number, io::Frame& frame) {
+    return each_scan(job, scans, earlier, {}, [&](std::size_t number, io::FullScan& frame) {
         filter.look_again(drive_of[number], take_scan(frame, number));
     });
 }
 
-Seen TileRun::look(const DynamicFilter& filter, const io::Frame& frame, std::size_t number) const {
+Seen TileRun::look(const DynamicFilter& filter, const io::FullScan& frame,
+                   std::size_t number) const {
     Seen seen{.piece = cut(frame, work.tile, job.plan.cell), .verdict = {}, .voxels = {}};
     seen.verdict =
         filter.verdict({seen.piece.points, frame.T_world_sensor, frame.stamp, number}, seen.voxels);
@@ -184,10 +185,10 @@ bool TileRun::decide(const DynamicFilter& filter, const ScanGroup& scans,
                      const std::vector<std::size_t>& numbers, const LabelStore& instants) {
     std::vector<Seen> seen(scans.size());
     LabelStore finals(folder);
-    const auto prepare = [&](std::size_t number, io::Frame& frame) {
+    const auto prepare = [&](std::size_t number, io::FullScan& frame) {
         seen[number] = look(filter, frame, number);
     };
-    const auto use = [&](std::size_t number, io::Frame& frame) {
+    const auto use = [&](std::size_t number, io::FullScan& frame) {
         const Seen one = std::exchange(seen[number], {});
         const Labels instant = labels_of(one.piece, instants.get(number));
         const auto& [index, labels, probability, stays, tracked] = one.verdict;
@@ -216,7 +217,7 @@ void TileRun::score(const Pose& T_world_sensor, const Seen& seen, const Labels& 
 bool TileRun::score_near(const ScanGroup& scans, const std::vector<std::size_t>& numbers,
                          const LabelStore& finals, const LabelStore& instants) {
     std::vector<std::vector<Points>> near(scans.size());
-    const auto prepare = [&](std::size_t number, io::Frame& frame) {
+    const auto prepare = [&](std::size_t number, io::FullScan& frame) {
         if (frame.truth.empty()) return;
         const Piece piece = cut(frame, work.tile, job.plan.cell);
         const Labels final = finals.get(number);
@@ -225,7 +226,7 @@ bool TileRun::score_near(const ScanGroup& scans, const std::vector<std::size_t>&
             scorer->near_removed(labelled_inside(piece, frame.T_world_sensor, scoring_origin()),
                                  std::array<const Labels*, 2>{&final, &instant});
     };
-    const auto use = [&](std::size_t number, io::Frame&) {
+    const auto use = [&](std::size_t number, io::FullScan&) {
         if (!near[number].empty()) scorer->add_near(std::exchange(near[number], {}));
     };
     if (!each_scan(job, scans, numbers, prepare, use)) return false;

@@ -43,9 +43,9 @@ struct Whole {
     const OutputFolder& output;
     StageClock& clock;
     LiveView* live;
-    io::Sequence& sequence = job.drives.front().sequence;
+    io::Recording& recording = job.drives.front().recording;
     RunSummary summary{};
-    std::vector<bool> accepted = std::vector<bool>(sequence.size());
+    std::vector<bool> accepted = std::vector<bool>(recording.size());
     std::vector<std::optional<Tracked>> tracked{};  ///< by scan; if poses are found or refined
     LabelStore instant{output.path()};              ///< verdicts of scans that are scored or shown
     std::vector<ScanNote> scan_notes{};
@@ -77,7 +77,7 @@ struct Whole {
     void keep(const Verdict& verdict) {
         tracked[verdict.index] = verdict.tracked;
         const bool is_wanted =
-            sequence.has_truth() || (o.report && is_shown(verdict.index, sequence.size()));
+            recording.info().has_truth() || (o.report && is_shown(verdict.index, recording.size()));
         if (is_wanted) instant.put(verdict.index, verdict.labels);
         if (live) live->feed().judged(verdict.index, verdict.labels, verdict.tracked);
     }
@@ -110,14 +110,14 @@ std::vector<std::size_t> accepted_scans(const Whole& whole) {
 }
 
 void reject(Whole& whole, std::size_t i, const std::string& why) {
-    whole.summary.rejected.push_back(fmt::format("{}: {}", io::stem(whole.sequence, i), why));
+    whole.summary.rejected.push_back(fmt::format("{}: {}", io::stem(whole.recording, i), why));
 }
 
 /// Puts the filter's notices about scans into the summary.
 void take_notices(Whole& whole) {
     for (const Notice& notice : whole.notices) {
         const std::string line =
-            fmt::format("{}: {}", io::stem(whole.sequence, notice.index), notice.text);
+            fmt::format("{}: {}", io::stem(whole.recording, notice.index), notice.text);
         if (notice.kind == NoticeKind::jump || notice.kind == NoticeKind::restart) {
             whole.summary.notes.push_back(line);
             continue;
@@ -132,7 +132,7 @@ void take_notices(Whole& whole) {
 void keep_pace(const Whole& whole, Clock::time_point start, double stamp) {
     const double speed = (whole.o.online ? whole.o.speed : 0.0);
     if (speed <= 0.0) return;
-    const double due = (stamp - whole.sequence.stamps.front()) / speed;
+    const double due = (stamp - whole.recording.info().stamps.front()) / speed;
     while (!interrupted()) {
         const double left = due - seconds_since(start);
         if (left <= 0.0) return;
@@ -144,15 +144,15 @@ void keep_pace(const Whole& whole, Clock::time_point start, double stamp) {
 void take_poses(Whole& whole) {
     const auto was_tracked = [](const auto& tracked) { return tracked.has_value(); };
     if (std::none_of(whole.tracked.begin(), whole.tracked.end(), was_tracked)) return;
-    io::use_poses(whole.sequence, whole.tracked);
-    write_poses(whole.output.path() / "poses.txt", whole.sequence);
+    whole.recording = io::with_poses(whole.recording, whole.tracked);
+    write_poses(whole.output.path() / "poses.txt", whole.recording);
     whole.summary.notes.push_back(track_text(whole.tracked));
 }
 
 /// First reading: every usable scan goes through the filter.
 void filter_scans(Whole& whole) {
-    Progress progress("filter", whole.sequence.size(), whole.o.quiet);
-    whole.tracked.resize(whole.sequence.size());
+    Progress progress("filter", whole.recording.size(), whole.o.quiet);
+    whole.tracked.resize(whole.recording.size());
     std::vector<io::Field> fields;
     std::optional<Clock::time_point> start;
     const auto use = [&](std::size_t i, MaybeFrame& maybe) {
@@ -178,18 +178,18 @@ void filter_scans(Whole& whole) {
         progress.advance();
         return !(whole.summary.interrupted = interrupted());
     };
-    for_each_frame(whole.sequence, all_scans(whole.sequence), {}, use);
+    for_each_frame(whole.recording, all_scans(whole.recording), {}, use);
     finish(whole);
     take_notices(whole);
     take_poses(whole);
     const bool none =
         std::find(whole.accepted.begin(), whole.accepted.end(), true) == whole.accepted.end();
     if (none && !whole.summary.interrupted) {
-        throw no_scan_is_usable(whole.sequence, whole.summary.rejected);
+        throw no_scan_is_usable(whole.recording, whole.summary.rejected);
     }
 }
 
-void note(Whole& whole, std::size_t i, const io::Frame& frame, const Labels& labels,
+void note(Whole& whole, std::size_t i, const io::FullScan& frame, const Labels& labels,
           const Labels& instant) {
     ScanNote note = note_of(labels, instant, frame.truth);
     note.index = i;
@@ -203,14 +203,14 @@ void note(Whole& whole, std::size_t i, const io::Frame& frame, const Labels& lab
 void write_results(Whole& whole) {
     const std::vector<std::size_t> scans = accepted_scans(whole);
     Progress progress("write", scans.size(), whole.o.quiet);
-    if (whole.sequence.has_truth()) {
+    if (whole.recording.info().has_truth()) {
         whole.scorer.emplace(eval::kVoxelSize, 2);
-        whole.scoring_origin = scoring_origin(whole.sequence, eval::kVoxelSize);
+        whole.scoring_origin = scoring_origin(whole.recording, eval::kVoxelSize);
     }
-    const auto decide = [&](std::size_t i, const io::Frame& frame) {
+    const auto decide = [&](std::size_t i, const io::FullScan& frame) {
         return whole.maps.verdict({frame.points, frame.T_world_sensor, frame.stamp, i});
     };
-    const auto use = [&](std::size_t i, const io::Frame& frame, const Verdict& verdict) {
+    const auto use = [&](std::size_t i, const io::FullScan& frame, const Verdict& verdict) {
         const Labels instant = whole.instant.get(i);
         if (whole.scorer && !frame.truth.empty()) {
             whole.scorer->add(labelled(frame, whole.scoring_origin),
@@ -222,7 +222,7 @@ void write_results(Whole& whole) {
         }
         progress.advance();
     };
-    write_scans(whole.sequence, scans, whole.job.config, whole.o.maps, whole.output.path(),
+    write_scans(whole.recording, scans, whole.job.config, whole.o.maps, whole.output.path(),
                 {.decide = decide, .use = use});
 }
 
@@ -230,10 +230,10 @@ void write_results(Whole& whole) {
 /// While the scans were written, all else was counted.
 void score(Whole& whole) {
     const auto folder = whole.output.path() / "labels";
-    std::vector<std::vector<Points>> near(whole.sequence.size());
+    std::vector<std::vector<Points>> near(whole.recording.size());
     const auto find = [&](std::size_t i, MaybeFrame& maybe) {
         if (maybe.frame->truth.empty()) return;
-        const Labels labels = io::read_labels(io::label_file(folder, io::stem(whole.sequence, i)));
+        const Labels labels = io::read_labels(io::label_file(folder, io::stem(whole.recording, i)));
         const Labels instant = whole.instant.get(i);
         near[i] = whole.scorer->near_removed(labelled(*maybe.frame, whole.scoring_origin),
                                              std::array<const Labels*, 2>{&labels, &instant});
@@ -242,7 +242,7 @@ void score(Whole& whole) {
         if (!near[i].empty()) whole.scorer->add_near(std::exchange(near[i], {}));
         return true;  // half of it would be wrong scores; a second interruption kills
     };
-    for_each_frame(whole.sequence, accepted_scans(whole), find, use);
+    for_each_frame(whole.recording, accepted_scans(whole), find, use);
     whole.summary.scores = whole.scorer->scores(0);
     whole.summary.instant_scores = whole.scorer->scores(1);
 }
@@ -287,8 +287,8 @@ void describe(PageRun& run, const Whole& whole) {
     run.info["name"] = whole.output.name().filename().string();
     run.info["command"] = "run";
     run.info["version"] = DYNAMIC_FILTER_VERSION;
-    run.info["input"] = whole.sequence.root.string();
-    run.info["format"] = io::to_string(whole.sequence.format);
+    run.info["input"] = whole.recording.info().root.string();
+    run.info["format"] = whole.recording.info().layout;
     run.info["created"] = fmt::format("{:%FT%TZ}", fmt::gmtime(std::time(nullptr)));
     for (const char* name : {"default", "paper"}) {
         if (to_toml(config) == to_toml(preset(name))) run.info["preset"] = name;
@@ -298,7 +298,7 @@ void describe(PageRun& run, const Whole& whole) {
     run.info["keyframes_total"] = s.contents.keyframes.empty() ? 0 : s.contents.observers;
     run.info["config"] = to_toml(config);
     run.info["counts"] = {{"static", s.still}, {"dynamic", s.dynamic}, {"unknown", s.unknown}};
-    run.info["notes"] = whole.sequence.notes;
+    run.info["notes"] = whole.recording.info().notes;
     for (const std::string& note : s.notes) run.info["notes"].push_back(note);
     run.info["rejected"] = s.rejected;
     run.info["dropped"] = s.dropped;
@@ -314,7 +314,7 @@ void write_page(Whole& whole, const Json& metrics) {
         return;
     }
     const Maps& maps = whole.maps;
-    PageRun run = view_of({.sequence = whole.sequence,
+    PageRun run = view_of({.recording = whole.recording,
                            .scans = whole.scan_notes,
                            .labels = whole.output.path() / "labels",
                            .instant = [&](std::size_t scan) { return whole.instant.get(scan); },
@@ -333,14 +333,14 @@ void write_page(Whole& whole, const Json& metrics) {
 void write_reports(Whole& whole) {
     const std::filesystem::path& folder = whole.output.path();
     take_contents(whole);
-    const Json metrics = metrics_of(whole.summary, whole.sequence.losses);
+    const Json metrics = metrics_of(whole.summary, whole.recording.info().losses);
     write_page(whole, metrics);
     io::write_file(folder / "metrics.json", text_of(metrics));
     whole.summary.seconds = whole.clock.total();
     RunSummary logged = whole.summary;
-    logged.notes.insert(logged.notes.begin(), whole.sequence.notes.begin(),
-                        whole.sequence.notes.end());
-    io::write_file(folder / "run.log", log_of(whole.sequence, logged) + to_text(whole.summary));
+    logged.notes.insert(logged.notes.begin(), whole.recording.info().notes.begin(),
+                        whole.recording.info().notes.end());
+    io::write_file(folder / "run.log", log_of(whole.recording, logged) + to_text(whole.summary));
     io::write_file(folder / "timing.json", text_of(timing(whole)));
 }
 

@@ -65,7 +65,7 @@ Job open_tiled_job(const RunOptions& o, std::vector<DriveSource> sources) {
     refuse_what_tiles_cannot(o, job.config);
     job.drives = open_drives(job.sources, o.data);
     job.mark = version_text() + fmt::format("tiles of {} voxels\n", o.tile_voxels);
-    for (const Drive& drive : job.drives) job.mark += state_of(drive.sequence);
+    for (const Drive& drive : job.drives) job.mark += state_of(drive.recording);
     job.mark += to_toml(job.config);
     return job;
 }
@@ -83,18 +83,18 @@ Job open_job(const RunOptions& o) {
             .part = {},
             .plan = {},
             .mark = {}};
-    job.drives.push_back({.name = o.data.data.filename().string(), .sequence = open(o.data)});
+    job.drives.push_back({.name = o.data.data.filename().string(), .recording = open(o.data)});
     return job;
 }
 
 void choose_job_motion(Job& job, const RunOptions& o) {
-    io::Sequence& sequence = job.drives.front().sequence;
+    io::Recording& recording = job.drives.front().recording;
     with_threads(o.threads, [&] {
         const auto chosen =
-            choose_motion(sequence, job.config, {.refine = o.refine, .deskew = o.data.deskew});
-        sequence.notes.insert(sequence.notes.end(), chosen.begin(), chosen.end());
+            choose_motion(recording, job.config, {.refine = o.refine, .deskew = o.data.deskew});
+        recording = io::with_notes(recording, chosen);
     });
-    job.mark = version_text() + state_of(sequence) + to_toml(job.config);
+    job.mark = version_text() + state_of(recording) + to_toml(job.config);
 }
 
 std::string mark_of_output(const Job& job, const RunOptions& o) {
@@ -113,9 +113,9 @@ void tell_notes(const Job& job, const RunOptions& o) {
     };
     const auto warn = [](const std::string& text) { fmt::print(stderr, "warning: {}\n", text); };
     if (!job.is_tiled) {
-        const io::Sequence& sequence = job.drives.front().sequence;
-        for (const std::string& text : sequence.notes) note(text);
-        for (const auto& found : io::check_recording(sequence, io::Depth::quick).findings) {
+        const io::Recording& recording = job.drives.front().recording;
+        for (const std::string& text : recording.info().notes) note(text);
+        for (const auto& found : io::check_recording(recording, io::Depth::quick).findings) {
             warn(warning_of(found, o.data));
         }
         return;

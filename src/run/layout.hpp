@@ -44,7 +44,7 @@ inline bool has_cell(const Eigen::Vector3d& world) {
 
 /// Calls use(i, world) for every point of the frame that was measured and has a cell, in order.
 template <class Use>
-void each_measured(const io::Frame& frame, const Use& use) {
+void each_measured(const io::FullScan& frame, const Use& use) {
     for (std::size_t i = 0; i < frame.points.size(); ++i) {
         if (!is_measured(frame.points[i])) continue;
         const Eigen::Vector3d world = frame.T_world_sensor * frame.points[i].cast<double>();

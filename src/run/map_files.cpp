@@ -8,13 +8,13 @@
 
 namespace dynamic_filter::app {
 
-void MapFiles::begin(const io::Frame& first) {
+void MapFiles::begin(const io::FullScan& first) {
     layout_ = layout_of(first, in_world_);
     still_.emplace(folder_ / "static_map.pcd", layout_.fields, layout_.point_bytes);
     dynamic_.emplace(folder_ / "dynamic_points.pcd", layout_.fields, layout_.point_bytes);
 }
 
-MapFiles::Records MapFiles::records_of(const io::Frame& frame, const Verdict& verdict) const {
+MapFiles::Records MapFiles::records_of(const io::FullScan& frame, const Verdict& verdict) const {
     const std::size_t bytes = layout_.point_bytes;
     const auto all = in_world_ ? frame.cloud.data : world_records(frame, layout_);
     Records records;
@@ -36,7 +36,7 @@ void MapFiles::append(const Records& records) {
     dynamic_->append(records.dynamic);
 }
 
-void MapFiles::append(const io::Frame& frame, const Verdict& verdict) {
+void MapFiles::append(const io::FullScan& frame, const Verdict& verdict) {
     if (!still_) begin(frame);
     append(records_of(frame, verdict));
 }

@@ -24,12 +24,12 @@ public:
         : folder_(std::move(folder)), keep_unknown_(keep_unknown), in_world_(in_world) {}
 
     /// Takes the fields of the first frame, and opens the files.
-    void begin(const io::Frame& first);
+    void begin(const io::FullScan& first);
     /// Splits the points of a frame. Points with Verdict::stays belong to the static map.
-    [[nodiscard]] Records records_of(const io::Frame& frame, const Verdict& verdict) const;
+    [[nodiscard]] Records records_of(const io::FullScan& frame, const Verdict& verdict) const;
     void append(const Records& records);
     /// Begins if need be, and appends the records of this frame.
-    void append(const io::Frame& frame, const Verdict& verdict);
+    void append(const io::FullScan& frame, const Verdict& verdict);
     void commit();
 
 private:

@@ -28,34 +28,45 @@ Json json_of(const std::vector<DriveSource>& sources) {
     return json;
 }
 
+void add(Json& json, const char* name, const std::optional<fs::path>& value) {
+    if (value) json[name] = full(*value);
+}
+
+void add(Json& json, const char* name, const std::optional<std::size_t>& value) {
+    if (value) json[name] = *value;
+}
+
+template <class T>
+void add(Json& json, const char* name, const T& value) {
+    json[name] = value;
+}
+
 Json json_of(const DataOptions& data) {
-    Json json{{"format", data.format},
-              {"pose_fix", data.pose_fix},
-              {"time_unit", data.time_unit},
-              {"deskew", data.deskew},
-              {"first", data.open.first},
-              {"stride", data.open.stride},
-              {"topic", data.open.topic},
-              {"pose_topic", data.open.pose_topic},
-              {"points_in_world", data.open.points_in_world}};
-    if (data.open.last) json["last"] = *data.open.last;
-    if (data.open.poses) json["poses"] = full(*data.open.poses);
+    Json json;
+    visit_reading(data, [&](const ReadingOption& option, const auto& value) {
+        add(json, option.name, value);
+    });
     return json;
+}
+
+template <class T>
+void find(const Json& json, const char* name, T& value) {
+    json.at(name).get_to(value);
+}
+
+void find(const Json& json, const char* name, std::optional<fs::path>& value) {
+    if (json.contains(name)) value = json[name].get<std::string>();
+}
+
+void find(const Json& json, const char* name, std::optional<std::size_t>& value) {
+    if (json.contains(name)) value = json[name].get<std::size_t>();
 }
 
 DataOptions data_of(const Json& json) {
     DataOptions data;
-    data.format = json.at("format");
-    data.pose_fix = json.at("pose_fix");
-    data.time_unit = json.at("time_unit");
-    data.deskew = json.at("deskew");
-    data.open.first = json.at("first");
-    data.open.stride = json.at("stride");
-    data.open.topic = json.at("topic");
-    data.open.pose_topic = json.at("pose_topic");
-    data.open.points_in_world = json.at("points_in_world");
-    if (json.contains("last")) data.open.last = json["last"].get<std::size_t>();
-    if (json.contains("poses")) data.open.poses = json["poses"].get<std::string>();
+    visit_reading(
+        data, [&](const ReadingOption& option, auto& value) { find(json, option.name, value); });
+    refuse_invalid(data, Asker::command);
     return data;
 }
 

@@ -39,7 +39,7 @@ bool is_around(const Tile& tile, const PlaneCell& cell) {
 
 }  // namespace
 
-Piece cut(const io::Frame& frame, const Tile& tile, double edge) {
+Piece cut(const io::FullScan& frame, const Tile& tile, double edge) {
     const FarFromTile is_far(tile, frame.T_world_sensor, edge);
     Piece piece;
     for (std::uint32_t i = 0; i < frame.points.size(); ++i) {

@@ -20,7 +20,7 @@ struct Piece {
 };
 
 /// The measured points in the tile and in the cells around it. `edge` [m]: of a cell.
-Piece cut(const io::Frame& frame, const Tile& tile, double edge);
+Piece cut(const io::FullScan& frame, const Tile& tile, double edge);
 
 /// The labels of the piece out of those of the whole scan.
 Labels labels_of(const Piece& piece, const Labels& of_scan);

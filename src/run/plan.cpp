@@ -63,7 +63,7 @@ void add_around(const Eigen::Vector3d& world, const PlaneCell& cell, double edge
     if (dx != 0 && dy != 0) add({cell.x + dx, cell.y + dy});
 }
 
-Extent extent_of(const io::Frame& frame, double voxel_size) {
+Extent extent_of(const io::FullScan& frame, double voxel_size) {
     const double edge = cell_edge(voxel_size);
     Extent extent;
     each_measured(frame, [&](std::size_t, const Eigen::Vector3d& world) {
@@ -85,14 +85,14 @@ Extent extent_of(const io::Frame& frame, double voxel_size) {
 /// Decides in the order of the scans which of them are used, as the filter of one recording does.
 class ScanGate {
 public:
-    ScanGate(const io::Sequence& sequence, PlannedDrive& drive)
-        : sequence_(sequence), drive_(drive) {}
+    ScanGate(const io::Recording& recording, PlannedDrive& drive)
+        : recording_(recording), drive_(drive) {}
 
     void reject(std::size_t i, const std::string& why) {
-        drive_.rejected.push_back(fmt::format("{}: {}", io::stem(sequence_, i), why));
+        drive_.rejected.push_back(fmt::format("{}: {}", io::stem(recording_, i), why));
     }
 
-    void take(std::size_t i, const io::Frame& frame, const Extent& extent) {
+    void take(std::size_t i, const io::FullScan& frame, const Extent& extent) {
         if (!fields_.empty() && frame.cloud.fields != fields_) {
             reject(i, io::kOtherFields);
             return;
@@ -141,7 +141,7 @@ private:
     }
     /// False if the scan comes too late.
     bool begin_part(std::size_t i, const StampedPose& now) {
-        const std::string name = io::stem(sequence_, i);
+        const std::string name = io::stem(recording_, i);
         if (last_ && now.stamp < last_->stamp) {
             if (now.stamp >= last_->stamp - kRestart) {
                 reject(i, "its stamp is before that of the scan before");
@@ -165,7 +165,7 @@ private:
         before_last_ = last_ = std::nullopt;
     }
 
-    const io::Sequence& sequence_;
+    const io::Recording& recording_;
     PlannedDrive& drive_;
     std::vector<io::Field> fields_;
     std::optional<StampedPose> before_last_, last_;
@@ -193,9 +193,9 @@ private:
 
 void scan_drive(const Drive& drive, double voxel_size, PlannedDrive& planned, VoxelSample& sample,
                 Progress& progress) {
-    planned.scans.resize(drive.sequence.size());
-    ScanGate gate(drive.sequence, planned);
-    std::vector<Extent> extents(drive.sequence.size());
+    planned.scans.resize(drive.recording.size());
+    ScanGate gate(drive.recording, planned);
+    std::vector<Extent> extents(drive.recording.size());
     const auto measure = [&](std::size_t i, MaybeFrame& maybe) {
         extents[i] = extent_of(*maybe.frame, voxel_size);
     };
@@ -210,10 +210,10 @@ void scan_drive(const Drive& drive, double voxel_size, PlannedDrive& planned, Vo
         progress.advance();
         return !interrupted();
     };
-    for_each_frame(drive.sequence, all_scans(drive.sequence), measure, use);
+    for_each_frame(drive.recording, all_scans(drive.recording), measure, use);
     gate.finish();
     if (used_scans(planned).empty() && !interrupted()) {
-        throw InputError(drive.sequence.root, "",
+        throw InputError(drive.recording.info().root, "",
                          "no scan is usable; the first was rejected: " + planned.rejected.front());
     }
 }
@@ -221,13 +221,13 @@ void scan_drive(const Drive& drive, double voxel_size, PlannedDrive& planned, Vo
 /// Looks at motion and poses, as a run of one recording does; poses are not refined.
 void look_at(Drive& drive, const Config& config, const DataOptions& how, PlannedDrive& planned) {
     Config unrefined = config;
-    planned.notes = drive.sequence.notes;
+    planned.notes = drive.recording.info().notes;
     const auto chosen =
-        choose_motion(drive.sequence, unrefined, {.refine = "off", .deskew = how.deskew});
+        choose_motion(drive.recording, unrefined, {.refine = "off", .deskew = how.deskew});
     planned.notes.insert(planned.notes.end(), chosen.begin(), chosen.end());
-    planned.deskew = drive.sequence.deskew;
-    planned.sweep = drive.sequence.sweep;
-    for (const auto& found : io::check_recording(drive.sequence, io::Depth::quick).findings) {
+    planned.deskew = drive.recording.info().deskewed;
+    planned.sweep = drive.recording.info().sweep;
+    for (const auto& found : io::check_recording(drive.recording, io::Depth::quick).findings) {
         planned.warnings.push_back(warning_of(found, how));
     }
 }
@@ -235,10 +235,10 @@ void look_at(Drive& drive, const Config& config, const DataOptions& how, Planned
 /// Drives that do not fit each other would see each other's walls as moving.
 std::vector<std::string> offsets_of(const std::vector<Drive>& drives) {
     if (drives.size() < 2) return {};
-    std::vector<const io::Sequence*> sequences;
-    for (const Drive& drive : drives) sequences.push_back(&drive.sequence);
+    std::vector<const io::Recording*> recordings;
+    for (const Drive& drive : drives) recordings.push_back(&drive.recording);
     std::vector<std::string> warnings;
-    for (const io::Finding& finding : io::compare_drives(sequences)) {
+    for (const io::Finding& finding : io::compare_drives(recordings)) {
         warnings.push_back(
             fmt::format("{}; {} (`dynamicfilter check` with all drives looks closer)", finding.what,
                         finding.advice));
@@ -333,7 +333,7 @@ Plan make_plan(std::vector<Drive>& drives, const Config& config, const DataOptio
               .most_voxels = most_voxels,
               .tiles = {}};
     std::size_t scans = 0;
-    for (const Drive& drive : drives) scans += drive.sequence.size();
+    for (const Drive& drive : drives) scans += drive.recording.size();
     plan.warnings = offsets_of(drives);
     VoxelSample sample;
     Progress progress("plan", scans, quiet);
@@ -348,9 +348,9 @@ Plan make_plan(std::vector<Drive>& drives, const Config& config, const DataOptio
 
 void prepare(std::vector<Drive>& drives, const Plan& plan) {
     for (std::size_t d = 0; d < drives.size(); ++d) {
-        io::Sequence& sequence = drives[d].sequence;
-        sequence.sweep = plan.drives[d].sweep;
-        if (plan.drives[d].deskew && !sequence.deskew) io::prepare_deskew(sequence);
+        io::Recording& recording = drives[d].recording;
+        if (!plan.drives[d].deskew || recording.info().deskewed) continue;
+        recording = io::deskewed(recording, plan.drives[d].sweep);
     }
 }
 

@@ -24,12 +24,12 @@ struct PlannedScan {
 };
 
 struct PlannedDrive {
-    std::vector<PlannedScan> scans;     ///< parallel to the sequence
+    std::vector<PlannedScan> scans;     ///< parallel to the recording
     std::vector<std::string> rejected;  ///< "name: reason"
     std::vector<std::string> notes;     ///< for the user
     std::vector<std::string> warnings;  ///< what is suspicious in the recording
     std::size_t most_points = 0;        ///< in a scan
-    /// How the motion during each scan is undone, as Sequence has it.
+    /// How the motion during each scan is undone, as Recording has it.
     bool deskew = false;
     std::optional<Sweep> sweep;
 };
@@ -67,7 +67,7 @@ struct Plan {
 Plan make_plan(std::vector<Drive>& drives, const Config& config, const DataOptions& how,
                std::size_t most_voxels, bool quiet);
 
-/// Gives the sequences what the plan decided about them. make_plan() has done so.
+/// Gives the recordings what the plan decided about them. make_plan() has done so.
 void prepare(std::vector<Drive>& drives, const Plan& plan);
 
 /// Cuts the area of the plan into tiles, and finds the scans of each. Part of make_plan() and of

@@ -31,8 +31,8 @@ constexpr const char* kPlan = "plan";
 fs::path choose_folder(const Job& job, const RunOptions& o) {
     if (!o.output) return default_output();
     for (const Drive& drive : job.drives) {
-        refuse_same_folder(drive.sequence.root, *o.output);
-        refuse_same_folder(drive.sequence.scan_files.front().parent_path(), *o.output);
+        refuse_same_folder(drive.recording.info().root, *o.output);
+        refuse_same_folder(drive.recording.info().scan_files.front().parent_path(), *o.output);
     }
     if (o.overwrite) refuse_foreign_labels(*o.output);
     return *o.output;
@@ -73,11 +73,11 @@ RunResult tell_interrupted(const RunSummary& summary, std::size_t scans, OutputF
 
 RunResult run_whole(Job& job, const RunOptions& o, StageClock& clock) {
     const fs::path folder = choose_folder(job, o);
-    const io::Sequence& sequence = job.drives.front().sequence;
+    const io::Recording& recording = job.drives.front().recording;
     const std::optional<Edits> edits = edits_for(folder, o, job.config);
     std::optional<LiveView> live;
     if (o.view) {
-        live.emplace(o.port, folder.filename().string(), o.data.data.string(), sequence.size());
+        live.emplace(o.port, folder.filename().string(), o.data.data.string(), recording.size());
         fmt::print(stderr, "view     {}\n", live->url());
     }
     const auto output = open_folder(o, folder);
@@ -100,8 +100,8 @@ RunResult run_whole(Job& job, const RunOptions& o, StageClock& clock) {
     for (const std::string& note : summary.notes) {
         if (!o.quiet) fmt::print(stderr, "note: {}\n", note);
     }
-    const bool all = tell_losses("", sequence, summary);
-    if (summary.interrupted) return tell_interrupted(summary, sequence.size(), *output);
+    const bool all = tell_losses("", recording, summary);
+    if (summary.interrupted) return tell_interrupted(summary, recording.size(), *output);
     if (edits) apply_to_run(output->path(), *edits, o.quiet);
     write_complete(*output, mark);
     output->commit();

@@ -16,17 +16,19 @@ constexpr std::string_view kComplete = "complete\n";
 
 }  // namespace
 
-std::string state_of(const io::Sequence& sequence) {
+std::string state_of(const io::Recording& recording) {
     std::error_code ignored;
-    std::uintmax_t bytes = sequence.bag && fs::is_regular_file(sequence.root, ignored)
-                               ? fs::file_size(sequence.root, ignored)
-                               : 0;
-    for (const fs::path& file : sequence.scan_files) {
+    std::uintmax_t bytes =
+        recording.info().layout == "bag" && fs::is_regular_file(recording.info().root, ignored)
+            ? fs::file_size(recording.info().root, ignored)
+            : 0;
+    for (const fs::path& file : recording.info().scan_files) {
         if (fs::is_regular_file(file, ignored)) bytes += fs::file_size(file, ignored);
     }
     return fmt::format("input {}\nscans {} from {} to {}, {} bytes\n",
-                       fs::absolute(sequence.root).lexically_normal().string(), sequence.size(),
-                       io::stem(sequence, 0), io::stem(sequence, sequence.size() - 1), bytes);
+                       fs::absolute(recording.info().root).lexically_normal().string(),
+                       recording.size(), io::stem(recording, 0),
+                       io::stem(recording, recording.size() - 1), bytes);
 }
 
 void refuse_foreign_labels(const fs::path& folder) {

@@ -12,7 +12,7 @@
 namespace dynamic_filter::app {
 
 /// The recording: where it is, its scans and their size.
-std::string state_of(const io::Sequence& sequence);
+std::string state_of(const io::Recording& recording);
 
 /// Throws ConfigError if the folder holds labels that no run left: they may be somebody's ground
 /// truth, so they must not be overwritten.

@@ -14,17 +14,17 @@ namespace {
 
 /// A ConfigError, because it is the pair of arguments that is wrong, and must not pass as a scan
 /// that cannot be read.
-void refuse_other_count(const io::Sequence& sequence, std::size_t i, std::size_t labels,
+void refuse_other_count(const io::Recording& recording, std::size_t i, std::size_t labels,
                         std::size_t points) {
     if (labels == points) return;
     throw ConfigError(
         fmt::format("scan {}: {} labels, but {} points; are they of another recording?",
-                    io::stem(sequence, i), labels, points));
+                    io::stem(recording, i), labels, points));
 }
 
 }  // namespace
 
-eval::LabelledScan labelled(const io::Frame& frame, const Eigen::Vector3d& origin,
+eval::LabelledScan labelled(const io::FullScan& frame, const Eigen::Vector3d& origin,
                             const RangeLimits& limits) {
     eval::LabelledScan scan{shifted_world(frame, origin), frame.truth, {}};
     for (std::size_t p = 0; p < frame.points.size(); ++p) {
@@ -36,19 +36,19 @@ eval::LabelledScan labelled(const io::Frame& frame, const Eigen::Vector3d& origi
     return scan;
 }
 
-eval::ScanSource scan_source(const io::Sequence& sequence, const Eigen::Vector3d& origin,
+eval::ScanSource scan_source(const io::Recording& recording, const Eigen::Vector3d& origin,
                              std::function<std::optional<Labels>(std::size_t)> labels_of,
                              const RangeLimits& limits) {
-    return [&sequence, origin, limits,
+    return [&recording, origin, limits,
             labels_of = std::move(labels_of)](std::size_t i) -> std::optional<eval::LabelledScan> {
         try {
-            const io::Frame frame = io::read_frame(sequence, i);
+            const io::FullScan frame = recording.read(i);
             if (frame.truth.empty()) return std::nullopt;
             eval::LabelledScan scan = labelled(frame, origin, limits);
             if (labels_of) {
                 auto labels = labels_of(i);
                 if (!labels) return std::nullopt;
-                refuse_other_count(sequence, i, labels->size(), scan.truth.size());
+                refuse_other_count(recording, i, labels->size(), scan.truth.size());
                 scan.verdict = std::move(*labels);
             }
             return scan;

@@ -13,12 +13,12 @@ namespace dynamic_filter::app {
 
 /// A frame with ground truth as the scores take it, without a verdict. Points outside of `limits`
 /// get an unknown truth, so that every score leaves them out.
-eval::LabelledScan labelled(const io::Frame& frame, const Eigen::Vector3d& origin,
+eval::LabelledScan labelled(const io::FullScan& frame, const Eigen::Vector3d& origin,
                             const RangeLimits& limits = {});
 
 /// For the scores: scans with ground truth, verdicts from `labels_of` (may be empty).
 /// Rejected scans (unreadable, or without labels) give nothing.
-eval::ScanSource scan_source(const io::Sequence& sequence, const Eigen::Vector3d& origin,
+eval::ScanSource scan_source(const io::Recording& recording, const Eigen::Vector3d& origin,
                              std::function<std::optional<Labels>(std::size_t)> labels_of,
                              const RangeLimits& limits = {});
 

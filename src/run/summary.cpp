@@ -45,9 +45,10 @@ void RunSummary::count(const Labels& labels) {
     }
 }
 
-InputError no_scan_is_usable(const io::Sequence& sequence,
+InputError no_scan_is_usable(const io::Recording& recording,
                              const std::vector<std::string>& rejected) {
-    return {sequence.root, "", "no scan is usable; the first was rejected: " + rejected.front()};
+    return {recording.info().root, "",
+            "no scan is usable; the first was rejected: " + rejected.front()};
 }
 
 Json metrics_of(const RunSummary& s, const std::vector<std::string>& losses) {
@@ -63,16 +64,16 @@ Json metrics_of(const RunSummary& s, const std::vector<std::string>& losses) {
     return json;
 }
 
-std::string log_of(const io::Sequence& sequence, const RunSummary& s) {
-    const auto root = std::filesystem::absolute(sequence.root).lexically_normal();
+std::string log_of(const io::Recording& recording, const RunSummary& s) {
+    const auto root = std::filesystem::absolute(recording.info().root).lexically_normal();
     std::string log = fmt::format("input    {} ({}, {} scans)\n", root.string(),
-                                  io::to_string(sequence.format), sequence.size());
+                                  recording.info().layout, recording.size());
     const auto add = [&](const char* what, const std::vector<std::string>& lines) {
         for (const std::string& line : lines) log += fmt::format("{:<8} {}\n", what, line);
     };
     add("note", s.notes);
     add("warning", s.warnings);
-    add("lost", sequence.losses);
+    add("lost", recording.info().losses);
     add("rejected", s.rejected);
     add("dropped", s.dropped);
     if (const auto& beams = s.contents.beams) {
@@ -120,14 +121,14 @@ std::string to_text(const RunSummary& s) {
     return text;
 }
 
-bool tell_losses(const std::string& name, const io::Sequence& sequence, const RunSummary& s) {
+bool tell_losses(const std::string& name, const io::Recording& recording, const RunSummary& s) {
     const auto tell = [&](const char* what, const std::vector<std::string>& lines) {
         for (const std::string& line : lines) {
             fmt::print(stderr, "{:<8} {}{}\n", what, name, line);
         }
         return lines.empty();
     };
-    const bool all_read = tell("lost", sequence.losses),
+    const bool all_read = tell("lost", recording.info().losses),
                none_rejected = tell("rejected", s.rejected),
                none_dropped = tell("dropped", s.dropped);
     return all_read && none_rejected && none_dropped;

@@ -41,14 +41,14 @@ struct RunSummary {
 };
 
 /// The scans that cannot be used.
-InputError no_scan_is_usable(const io::Sequence& sequence,
+InputError no_scan_is_usable(const io::Recording& recording,
                              const std::vector<std::string>& rejected);
 
 /// metrics.json. `losses`: what of the recording cannot be read.
 nlohmann::ordered_json metrics_of(const RunSummary& summary,
                                   const std::vector<std::string>& losses);
 /// run.log but for its closing lines.
-std::string log_of(const io::Sequence& sequence, const RunSummary& summary);
+std::string log_of(const io::Recording& recording, const RunSummary& summary);
 /// timing.json as far as all runs have it.
 nlohmann::ordered_json timing_of(std::size_t scans, const StageClock& clock, int threads);
 
@@ -58,6 +58,7 @@ std::string points_text(const RunSummary& summary);
 std::string to_text(const RunSummary& summary);
 
 /// Prints what was rejected, dropped and lost; each line begins with `name`. True if there is none.
-bool tell_losses(const std::string& name, const io::Sequence& sequence, const RunSummary& summary);
+bool tell_losses(const std::string& name, const io::Recording& recording,
+                 const RunSummary& summary);
 
 }  // namespace dynamic_filter::app

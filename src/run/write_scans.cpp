@@ -13,26 +13,26 @@
 
 namespace dynamic_filter::app {
 
-void write_scans(const io::Sequence& sequence, const std::vector<std::size_t>& scans,
+void write_scans(const io::Recording& recording, const std::vector<std::size_t>& scans,
                  const Config& config, bool with_maps, const std::filesystem::path& folder,
                  const ScanResults& results) {
     const auto labels = folder / "labels";
     std::filesystem::create_directories(labels);
-    MapFiles maps(folder, config.map.keep_unknown, sequence.format == io::Format::benchmark);
+    MapFiles maps(folder, config.map.keep_unknown, recording.info().layout == "benchmark");
     if (with_maps && !scans.empty()) {
         try {
-            maps.begin(io::read_frame(sequence, scans.front()));
+            maps.begin(recording.read(scans.front()));
         } catch (const InputError& error) {
-            throw changed_in_use(sequence, scans.front(), error.what());
+            throw changed_in_use(recording, scans.front(), error.what());
         }
     }
-    std::vector<Verdict> verdicts(sequence.size());
-    std::vector<MapFiles::Records> records(sequence.size());
-    std::vector<Gaps> gaps(sequence.size());
+    std::vector<Verdict> verdicts(recording.size());
+    std::vector<MapFiles::Records> records(recording.size());
+    std::vector<Gaps> gaps(recording.size());
     const auto decide = [&](std::size_t i, MaybeFrame& maybe) {
-        const io::Frame& frame = *maybe.frame;
+        const io::FullScan& frame = *maybe.frame;
         verdicts[i] = results.decide(i, frame);
-        io::write_labels(io::label_file(labels, io::stem(sequence, i)), verdicts[i].labels,
+        io::write_labels(io::label_file(labels, io::stem(recording, i)), verdicts[i].labels,
                          io::Durable::contents);
         if (with_maps) {
             records[i] = maps.records_of(frame, verdicts[i]);
@@ -40,12 +40,12 @@ void write_scans(const io::Sequence& sequence, const std::vector<std::size_t>& s
         }
     };
     const auto use = [&](std::size_t i, MaybeFrame& maybe) {
-        if (!maybe.frame) throw changed_in_use(sequence, i, maybe.error);
+        if (!maybe.frame) throw changed_in_use(recording, i, maybe.error);
         if (with_maps) maps.append(std::exchange(records[i], {}));
         results.use(i, *maybe.frame, std::exchange(verdicts[i], {}));
         return true;  // what is filtered is written even after an interruption; a second one kills
     };
-    for_each_frame(sequence, scans, decide, use);
+    for_each_frame(recording, scans, decide, use);
     io::sync_folder(labels);
     maps.commit();
     std::vector<Gaps> of_scans;

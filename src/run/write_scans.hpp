@@ -14,15 +14,15 @@ namespace dynamic_filter::app {
 /// Where final verdicts come from and go to.
 struct ScanResults {
     /// The final verdict on a scan. Called from several threads.
-    std::function<Verdict(std::size_t, const io::Frame&)> decide;
+    std::function<Verdict(std::size_t, const io::FullScan&)> decide;
     /// Takes each scan in order, after its labels are written.
-    std::function<void(std::size_t, const io::Frame&, const Verdict&)> use;
+    std::function<void(std::size_t, const io::FullScan&, const Verdict&)> use;
 };
 
 /// Writes what a run leaves of these scans into `folder`: a label file for each, and with `maps`
 /// static_map.pcd, dynamic_points.pcd and map_gaps.bin. Throws InputError if a scan cannot be read
 /// any more.
-void write_scans(const io::Sequence& sequence, const std::vector<std::size_t>& scans,
+void write_scans(const io::Recording& recording, const std::vector<std::size_t>& scans,
                  const Config& config, bool maps, const std::filesystem::path& folder,
                  const ScanResults& results);
 

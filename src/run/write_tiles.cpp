@@ -41,7 +41,7 @@ Tiles open_tiles(const Job& job, const TileFolders& folders) {
     std::vector<Tile> order;
     for (const TileWork& work : job.plan.tiles) order.push_back(work.tile);
     Tiles tiles{.readers = {}, .inside = {}, .lookup = TileLookup(order)};
-    for (const Drive& drive : job.drives) tiles.inside.emplace_back(drive.sequence.size());
+    for (const Drive& drive : job.drives) tiles.inside.emplace_back(drive.recording.size());
     for (std::size_t t = 0; t < order.size(); ++t) {
         tiles.readers.push_back(
             std::make_unique<TileReader>(folders(order[t]) / tile_file(order[t]), job.mark));
@@ -54,7 +54,7 @@ Tiles open_tiles(const Job& job, const TileFolders& folders) {
 
 /// The verdict on a scan, put together from the tiles in which it has points.
 Verdict verdict_of(const Job& job, const Tiles& tiles, const ScanOfDrive& scan,
-                   const io::Frame& frame) {
+                   const io::FullScan& frame) {
     struct Open {
         std::uint32_t tile;
         PointVerdicts verdicts;
@@ -80,7 +80,7 @@ Verdict verdict_of(const Job& job, const Tiles& tiles, const ScanOfDrive& scan,
             in = found == open.end() ? nullptr : &*found;
         }
         if (!in || in->next >= in->verdicts.size()) {
-            throw InputError(job.drives[scan.drive].sequence.scan_files[scan.scan], "",
+            throw InputError(job.drives[scan.drive].recording.info().scan_files[scan.scan], "",
                              "its points or its pose are others than before");
         }
         const PointVerdict& of_point = in->verdicts[in->next++];
@@ -115,18 +115,19 @@ RunSummary write_drive(const Job& job, const Tiles& tiles, std::uint32_t number,
     summary.rejected = planned.rejected;
     summary.notes = planned.notes;
     summary.warnings = planned.warnings;
-    const auto decide = [&](std::size_t i, const io::Frame& frame) {
+    const auto decide = [&](std::size_t i, const io::FullScan& frame) {
         return verdict_of(job, tiles, {number, static_cast<std::uint32_t>(i)}, frame);
     };
-    const auto use = [&](std::size_t, const io::Frame&, const Verdict& verdict) {
+    const auto use = [&](std::size_t, const io::FullScan&, const Verdict& verdict) {
         summary.count(verdict.labels);
         progress.advance();
     };
-    write_scans(drive.sequence, used_scans(planned), job.config, maps, folder,
+    write_scans(drive.recording, used_scans(planned), job.config, maps, folder,
                 {.decide = decide, .use = use});
     add_scores(tiles, number, summary);
-    io::write_file(folder / "metrics.json", text_of(metrics_of(summary, drive.sequence.losses)));
-    std::string log = log_of(drive.sequence, summary) + "scans    " + points_text(summary) + "\n";
+    io::write_file(folder / "metrics.json",
+                   text_of(metrics_of(summary, drive.recording.info().losses)));
+    std::string log = log_of(drive.recording, summary) + "scans    " + points_text(summary) + "\n";
     if (summary.scores) {
         log += "scores against the ground truth of the recording\n" + table(*summary.scores);
     }
@@ -206,7 +207,7 @@ Totals totals_of(const Job& job, const Tiles& tiles, const std::vector<RunSummar
 std::vector<RunSummary> write_drives(const Job& job, const Tiles& tiles, bool maps,
                                      const fs::path& out, bool quiet) {
     std::size_t scans = 0;
-    for (const Drive& drive : job.drives) scans += drive.sequence.size();
+    for (const Drive& drive : job.drives) scans += drive.recording.size();
     Progress progress("write", scans, quiet);
     std::vector<RunSummary> summaries;
     for (std::uint32_t d = 0; d < job.drives.size(); ++d) {
@@ -221,7 +222,8 @@ std::vector<RunSummary> write_drives(const Job& job, const Tiles& tiles, bool ma
 Json metrics_of_all(const Job& job, const std::vector<RunSummary>& summaries) {
     Json drives = Json::object();
     for (std::size_t d = 0; d < job.drives.size(); ++d) {
-        drives[job.drives[d].name] = metrics_of(summaries[d], job.drives[d].sequence.losses);
+        drives[job.drives[d].name] =
+            metrics_of(summaries[d], job.drives[d].recording.info().losses);
     }
     if (job.drives.size() == 1) return drives.front();
     return {{"drives", drives}};
@@ -298,7 +300,8 @@ RunResult finish_tiles(const Job& job, const TileFolders& folders, const RunOpti
     if (!o.quiet) fmt::print("{}written  {}\n", text, output.name().string());
     bool all = true;
     for (std::size_t d = 0; d < job.drives.size(); ++d) {
-        all &= tell_losses(job.drives[d].name + ": ", job.drives[d].sequence, result.recordings[d]);
+        all &=
+            tell_losses(job.drives[d].name + ": ", job.drives[d].recording, result.recordings[d]);
     }
     result.exit_code = all ? kDone : kRejected;
     return result;

@@ -19,18 +19,18 @@ TEST(Advice, TheNextCommandRepeatsWhatWasTyped) {
     EXPECT_EQ(next_command(options, "--deskew on"), "dynamicfilter run drive --deskew on");
     options.data = "my drive";
     options.format = "folder";
-    options.open.poses = "p.tum";
-    options.open.points_in_world = true;
+    options.poses = "p.tum";
+    options.points_in_world = true;
     options.time_unit = "ms";
     EXPECT_EQ(next_command(options, "--pose-fix wxyz"),
-              "dynamicfilter run 'my drive' --format folder --poses p.tum --time-unit ms "
-              "--points-in-world --pose-fix wxyz");
+              "dynamicfilter run 'my drive' --poses p.tum --format folder --points-in-world "
+              "--time-unit ms --pose-fix wxyz");
     EXPECT_EQ(next_command(options, "--time-unit ns"),
-              "dynamicfilter run 'my drive' --format folder --poses p.tum --points-in-world "
+              "dynamicfilter run 'my drive' --poses p.tum --format folder --points-in-world "
               "--time-unit ns");
     DataOptions bag = with_fix("mm");
-    bag.open.topic = "/points";
-    bag.open.pose_topic = "/odom";
+    bag.topic = "/points";
+    bag.pose_topic = "/odom";
     EXPECT_EQ(next_command(bag, "--pose-fix camera"),
               "dynamicfilter run drive --topic /points --pose-topic /odom --pose-fix camera");
     EXPECT_EQ(next_command(bag, ""),

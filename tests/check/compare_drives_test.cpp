@@ -8,6 +8,7 @@
 
 #include "commands/write_simulation.hpp"
 #include "dynamic_filter/parallel.hpp"
+#include "support/changed.hpp"
 #include "support/random.hpp"
 #include "support/recording.hpp"
 
@@ -35,19 +36,19 @@ const std::filesystem::path& recording(const std::string& scene, const std::stri
     return it->second;
 }
 
-Sequence part(const std::filesystem::path& data, std::size_t first, std::optional<std::size_t> last,
-              std::size_t stride = 1) {
+Recording part(const std::filesystem::path& data, std::size_t first,
+               std::optional<std::size_t> last, std::size_t stride = 1) {
     OpenOptions how;
     how.first = first;
     how.last = last;
     how.stride = stride;
-    return open_sequence(data, how);
+    return open_recording(data, how);
 }
 
 struct TwoDrives {
-    Sequence a, b;
+    Recording a, b;
 
-    [[nodiscard]] std::vector<const Sequence*> all() const { return {&a, &b}; }
+    [[nodiscard]] std::vector<const Recording*> all() const { return {&a, &b}; }
     [[nodiscard]] DriveOffset offset() const { return measure_drive_offsets(all()).at(0); }
     [[nodiscard]] std::vector<Finding> findings() const { return compare_drives(all()); }
 };
@@ -55,7 +56,7 @@ struct TwoDrives {
 /// The first and the second round in the crowd: other people, the same houses.
 TwoDrives rounds() {
     const auto& data = recording("crowd", "vlp16");
-    const std::size_t half = open_sequence(data).size() / 2;
+    const std::size_t half = open_recording(data).size() / 2;
     return {part(data, 0, half - 5), part(data, half + 5, {})};
 }
 
@@ -64,8 +65,8 @@ TwoDrives alternate(const std::filesystem::path& data) {
     return {part(data, 0, {}, 2), part(data, 1, {}, 2)};
 }
 
-void change_poses(Sequence& drive, const std::function<Pose(const Pose&)>& change) {
-    for (Pose& pose : drive.T_world_sensor) pose = change(pose);
+void change_poses(Recording& drive, const std::function<Pose(const Pose&)>& change) {
+    drive = with_changed_poses(drive, change);
 }
 
 Pose displacement(double x, double y, double z, double yaw_deg) {
@@ -112,7 +113,7 @@ TEST(CompareDrives, NothingIsFoundWithoutAnOffset) {
 
 TEST(CompareDrives, DrivesMayHaveDifferentSensors) {
     const auto drives = [] {
-        return TwoDrives{open_sequence(recording("street", "vlp16")),
+        return TwoDrives{open_recording(recording("street", "vlp16")),
                          part(recording("street", "os64"), 0, 26)};
     };
     EXPECT_EQ(drives().offset().match, FrameMatch::equal);
@@ -122,7 +123,7 @@ TEST(CompareDrives, DrivesMayHaveDifferentSensors) {
 
 TEST(CompareDrives, FramesFarFromTheOriginAreCompared) {
     TwoDrives drives = rounds();
-    for (Sequence* drive : {&drives.a, &drives.b}) {
+    for (Recording* drive : {&drives.a, &drives.b}) {
         change_poses(*drive, [](const Pose& pose) {
             return Pose(Eigen::Translation3d(4.5e5, 5.4e6, 110.0) * pose);
         });
@@ -134,18 +135,19 @@ TEST(CompareDrives, FramesFarFromTheOriginAreCompared) {
 TEST(CompareDrives, DriftIsNoConstantOffset) {
     TwoDrives drives = rounds();
     const double count = static_cast<double>(drives.b.size());
-    for (std::size_t i = 0; i < drives.b.size(); ++i) {
-        const double turn = 6.0 * static_cast<double>(i) / count;
-        drives.b.T_world_sensor[i].translation() +=
-            Eigen::Vector3d(std::sin(turn), std::cos(turn), 0.0);
-    }
+    double i = 0.0;
+    change_poses(drives.b, [&](Pose pose) {
+        const double turn = 6.0 * i++ / count;
+        pose.translation() += Eigen::Vector3d(std::sin(turn), std::cos(turn), 0.0);
+        return pose;
+    });
     EXPECT_EQ(drives.offset().match, FrameMatch::drifting);
     ASSERT_EQ(drives.findings().size(), 1U);
     EXPECT_NE(drives.findings()[0].what.find("no constant offset"), std::string::npos);
 }
 
 TEST(CompareDrives, FramesOfTheirOwnShowOtherSurroundings) {
-    const TwoDrives drives{rounds().a, open_sequence(recording("street", "vlp16"))};
+    const TwoDrives drives{rounds().a, open_recording(recording("street", "vlp16"))};
     EXPECT_EQ(drives.offset().match, FrameMatch::unlike);
     ASSERT_EQ(drives.findings().size(), 1U);
     EXPECT_NE(drives.findings()[0].what.find("different surroundings"), std::string::npos);
@@ -160,7 +162,7 @@ TEST(CompareDrives, DistantFramesAndEqualPosesAreNamed) {
     EXPECT_NE(drives.findings()[0].advice.find("UTM"), std::string::npos);
     drives.b = drives.a;
     EXPECT_EQ(drives.offset().match, FrameMatch::same_poses);
-    drives.b.has_poses = false;
+    drives.b = changed(drives.b, [](Info& info) { info.has_poses = false; });
     EXPECT_TRUE(measure_drive_offsets(drives.all()).empty());
     ASSERT_EQ(drives.findings().size(), 1U);
     EXPECT_NE(drives.findings()[0].what.find("has no poses"), std::string::npos);
@@ -168,10 +170,10 @@ TEST(CompareDrives, DistantFramesAndEqualPosesAreNamed) {
 
 TEST(CompareDrives, ADriveIsComparedWithThreeOthersAtMost) {
     const auto& data = recording("hall", "vlp16");
-    std::vector<Sequence> drives;
+    std::vector<Recording> drives;
     for (std::size_t i = 0; i < 5; ++i) drives.push_back(part(data, i, {}, 5));
-    std::vector<const Sequence*> all;
-    for (const Sequence& drive : drives) all.push_back(&drive);
+    std::vector<const Recording*> all;
+    for (const Recording& drive : drives) all.push_back(&drive);
     std::size_t measured = 0;
     const auto offsets = measure_drive_offsets(all);
     for (const DriveOffset& offset : offsets) {

@@ -10,12 +10,17 @@ class DriveFindings : public testing::Test {
 protected:
     DriveFindings() {
         for (const char* name : {"city/monday", "city/tuesday/", "city/friday", "other/monday"}) {
-            drives_.emplace_back().root = name;
+            drives_.push_back(drive(name));
         }
+    }
+    static Recording drive(const char* root) {
+        Info info;
+        info.root = root;
+        return Recording(info);
     }
     /// Findings about the first `count` drives.
     std::vector<Finding> of(std::size_t count, const std::vector<DriveOffset>& offsets) {
-        std::vector<const Sequence*> all;
+        std::vector<const Recording*> all;
         for (std::size_t i = 0; i < count; ++i) all.push_back(&drives_[i]);
         return findings_of(all, offsets);
     }
@@ -36,7 +41,7 @@ protected:
         offset.pivot = {10.0, 20.0, 0.0};
         return offset;
     }
-    std::vector<Sequence> drives_;
+    std::vector<Recording> drives_;
 };
 
 bool says(const std::string& text, const std::string& part) {
@@ -105,7 +110,7 @@ TEST_F(DriveFindings, WhatFollowsFromOthersIsNotRepeated) {
     EXPECT_TRUE(says(findings[0].advice, "poses of tuesday"));
     EXPECT_TRUE(says(findings[1].advice, "poses of friday"));
     // Both drives of the smaller group are to be moved.
-    drives_.emplace_back().root = "city/sunday";
+    drives_.push_back(drive("city/sunday"));
     const auto groups = of(5, {pair(0, 1, FrameMatch::equal), pair(0, 2, FrameMatch::equal),
                                pair(3, 4, FrameMatch::equal), shifted(0, 3, {1.0, 0.0, 0.0}),
                                shifted(1, 4, {1.0, 0.0, 0.0})});
@@ -150,7 +155,7 @@ TEST_F(DriveFindings, DrivesThatMeetNoneAreReportedIfNoneMeetOrFarAway) {
 }
 
 TEST_F(DriveFindings, DrivesWithoutPosesAreNamed) {
-    drives_[0].has_poses = drives_[3].has_poses = false;
+    for (const std::size_t i : {0, 3}) drives_[i] = without_poses(drives_[i]);
     const auto findings = of(4, {pair(1, 2, FrameMatch::equal)});
     ASSERT_EQ(findings.size(), 1U);
     EXPECT_TRUE(says(findings[0].what, "city/monday, other/monday have no poses"))

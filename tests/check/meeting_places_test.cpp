@@ -97,12 +97,12 @@ TEST(MeetingPlaces, ScansAroundAPlaceAreAStepApart) {
 }
 
 TEST(MeetingPlaces, PositionsOfADriveAreThoseOfItsPoses) {
-    Sequence sequence;
-    sequence.scan_files.resize(2);
-    sequence.T_world_sensor.assign(2, Pose(Eigen::Translation3d(1, 2, 3)));
-    EXPECT_EQ(positions_of(sequence)[1], Eigen::Vector3d(1, 2, 3));
-    sequence.has_poses = false;
-    EXPECT_FALSE(positions_of(sequence)[0].allFinite());
+    Info info;
+    info.scan_files.resize(2);
+    info.T_world_sensor.assign(2, Pose(Eigen::Translation3d(1, 2, 3)));
+    const Recording drive(info);
+    EXPECT_EQ(positions_of(drive)[1], Eigen::Vector3d(1, 2, 3));
+    EXPECT_FALSE(positions_of(without_poses(drive))[0].allFinite());
 }
 
 }  // namespace meeting_places_test

@@ -102,11 +102,11 @@ TEST(PlaceOffset, FlatGroundAndNothingTellNothing) {
 }
 
 TEST(PlaceOffset, ACloudOfScansThatCannotBeReadIsEmpty) {
-    Sequence sequence;
-    sequence.scan_files = {"/nowhere/0.bin", "/nowhere/1.bin"};
-    sequence.T_world_sensor.resize(2, Pose::Identity());
-    sequence.stamps = {0.0, 0.1};
-    EXPECT_TRUE(cloud_around(sequence, {0, 1, 2}, Eigen::Vector3d::Zero()).empty());
+    Info info;
+    info.scan_files = {"/nowhere/0.bin", "/nowhere/1.bin"};
+    info.T_world_sensor.resize(2, Pose::Identity());
+    info.stamps = {0.0, 0.1};
+    EXPECT_TRUE(cloud_around(Recording(info), {0, 1, 2}, Eigen::Vector3d::Zero()).empty());
 }
 
 }  // namespace place_offset_test

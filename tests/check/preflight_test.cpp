@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "commands/write_simulation.hpp"
+#include "support/changed.hpp"
 #include "support/random.hpp"
 #include "support/recording.hpp"
 
@@ -23,28 +24,26 @@ protected:
     }
     static void TearDownTestSuite() { folder.reset(); }
 
-    static Preflight after(const std::function<void(Sequence&)>& mistake,
+    static Preflight after(const std::function<void(Info&)>& mistake,
                            Depth depth = Depth::thorough) {
-        Sequence sequence = open_sequence(folder->path());
-        mistake(sequence);
-        return check_recording(sequence, depth);
+        return check_recording(changed(open_recording(folder->path()), mistake), depth);
     }
     /// The recording with other points.
     static std::unique_ptr<TemporaryFolder> write_copy(
-        const std::function<Points(const Frame&)>& points_of) {
+        const std::function<Points(const FullScan&)>& points_of) {
         auto copy = std::make_unique<TemporaryFolder>();
-        const Sequence sequence = open_sequence(folder->path());
+        const Recording recording = open_recording(folder->path());
         std::filesystem::create_directories(copy->path() / "velodyne");
-        for (std::size_t i = 0; i < sequence.size(); ++i) {
-            const Points points = points_of(read_frame(sequence, i));
-            write_bin(copy->path() / "velodyne" / (stem(sequence, i) + ".bin"), points,
+        for (std::size_t i = 0; i < recording.size(); ++i) {
+            const Points points = points_of(recording.read(i));
+            write_bin(copy->path() / "velodyne" / (stem(recording, i) + ".bin"), points,
                       std::vector<float>(points.size()));
         }
-        write_poses_kitti(copy->path() / "poses.txt", sequence.T_world_sensor);
+        write_poses_kitti(copy->path() / "poses.txt", recording.info().T_world_sensor);
         return copy;
     }
-    static void change_poses(Sequence& sequence, const std::function<Pose(const Pose&)>& change) {
-        for (Pose& pose : sequence.T_world_sensor) pose = change(pose);
+    static void change_poses(Info& info, const std::function<Pose(const Pose&)>& change) {
+        for (Pose& pose : info.T_world_sensor) pose = change(pose);
     }
     static std::unique_ptr<TemporaryFolder> folder;
 };
@@ -57,21 +56,21 @@ void expect_only(const Preflight& result, const std::string& what, const std::st
 }
 
 TEST_F(Check, FindsNothingInTheOriginal) {
-    const Preflight result = after([](Sequence&) {});
+    const Preflight result = after([](Info&) {});
     EXPECT_TRUE(result.findings.empty()) << result.findings[0].what;
     EXPECT_EQ(result.overlays.front().reading, "as given");
     EXPECT_GT(result.overlays.front().share, 0.4);
 }
 
 TEST_F(Check, ReadsScansAtSeveralPlaces) {
-    EXPECT_EQ(after([](Sequence&) {}).scans, 36U);
-    const Preflight quick = after([](Sequence&) {}, Depth::quick);
+    EXPECT_EQ(after([](Info&) {}).scans, 36U);
+    const Preflight quick = after([](Info&) {}, Depth::quick);
     EXPECT_EQ(quick.scans, 12U);
     EXPECT_TRUE(quick.findings.empty());
     EXPECT_GT(quick.overlays.front().share, 0.4);
-    const Preflight without = after([](Sequence& sequence) {
-        sequence.has_poses = false;
-        sequence.T_world_sensor.clear();
+    const Preflight without = after([](Info& info) {
+        info.has_poses = false;
+        info.T_world_sensor.clear();
     });
     EXPECT_TRUE(without.overlays.empty());
     EXPECT_TRUE(without.findings.empty());
@@ -86,13 +85,13 @@ TEST_F(Check, NamesTheReadingOfThePosesThatFits) {
         {PoseFix::wxyz, PoseFix::xyzw},
         {PoseFix::xyzw, PoseFix::wxyz}};
     for (const auto& [mistake, fix] : undone_by) {
-        const Preflight result = after([&, m = mistake](Sequence& sequence) {
-            change_poses(sequence, [m](const Pose& pose) { return fixed(m, pose); });
+        const Preflight result = after([&, m = mistake](Info& info) {
+            change_poses(info, [m](const Pose& pose) { return fixed(m, pose); });
         });
         expect_only(result, "overlay", "--pose-fix " + to_string(fix));
     }
-    const auto thousandfold = [](Sequence& sequence) {
-        change_poses(sequence, [](Pose pose) {
+    const auto thousandfold = [](Info& info) {
+        change_poses(info, [](Pose pose) {
             pose.translation() *= 1000.0;
             return pose;
         });
@@ -101,16 +100,15 @@ TEST_F(Check, NamesTheReadingOfThePosesThatFits) {
 }
 
 TEST_F(Check, NamesPosesThatDoNotMoveAndThoseOfAnotherWay) {
-    expect_only(after([](Sequence& sequence) {
-                    change_poses(sequence, [first = sequence.T_world_sensor[0]](const Pose&) {
-                        return first;
-                    });
+    expect_only(after([](Info& info) {
+                    change_poses(info,
+                                 [first = info.T_world_sensor[0]](const Pose&) { return first; });
                 }),
                 "all poses are equal", "--poses");
-    expect_only(after([](Sequence& sequence) {
-                    for (std::size_t i = 0; i < sequence.size(); ++i) {
+    expect_only(after([](Info& info) {
+                    for (std::size_t i = 0; i < info.scan_files.size(); ++i) {
                         const double angle = 0.3 * static_cast<double>(i);
-                        sequence.T_world_sensor[i] =
+                        info.T_world_sensor[i] =
                             Eigen::Translation3d(30.0 * std::cos(angle), 30.0 * std::sin(angle), 0);
                     }
                 }),
@@ -118,24 +116,24 @@ TEST_F(Check, NamesPosesThatDoNotMoveAndThoseOfAnotherWay) {
 }
 
 TEST_F(Check, EqualPosesOfASensorThatStandsStillAreRight) {
-    const auto still = write_copy([first = read_frame(open_sequence(folder->path()), 0)](
-                                      const Frame&) { return first.points; });
-    Sequence sequence = open_sequence(still->path());
-    change_poses(sequence, [](const Pose&) { return Pose(Pose::Identity()); });
-    const Preflight result = check_recording(sequence, Depth::thorough);
+    const auto still = write_copy(
+        [first = open_recording(folder->path()).read(0)](const FullScan&) { return first.points; });
+    const Recording recording = with_changed_poses(
+        open_recording(still->path()), [](const Pose&) { return Pose(Pose::Identity()); });
+    const Preflight result = check_recording(recording, Depth::thorough);
     EXPECT_TRUE(result.findings.empty()) << result.findings[0].what;
     EXPECT_EQ(result.overlays.front().share, 1.0);
 }
 
 TEST_F(Check, QuicklyFindsWhatIsWrongAsAWholeOnly) {
-    const auto jitter = [](Sequence& sequence) {
+    const auto jitter = [](Info& info) {
         test::Random random(1);
-        change_poses(sequence, [&](const Pose& pose) { return pose * random.pose(0.1, 0.01); });
+        change_poses(info, [&](const Pose& pose) { return pose * random.pose(0.1, 0.01); });
     };
     expect_only(after(jitter), "jitter", "`run` refines such poses of a single recording");
     EXPECT_TRUE(after(jitter, Depth::quick).findings.empty());
-    const auto inverse = [](Sequence& sequence) {
-        change_poses(sequence, [](const Pose& pose) { return pose.inverse(); });
+    const auto inverse = [](Info& info) {
+        change_poses(info, [](const Pose& pose) { return pose.inverse(); });
     };
     expect_only(after(inverse, Depth::quick), "inverse (T_sensor_world)", "--pose-fix inverse");
 }
@@ -149,68 +147,67 @@ TEST_F(Check, NamesMotionThatIsStillInTheScans) {
     options.frames = 45;
     options.sweep = true;
     app::write_simulation(options, swept.path(), true);
-    Sequence sequence = open_sequence(swept.path());
-    expect_only(check_recording(sequence, Depth::thorough), "motion during each scan",
+    const Recording recording = open_recording(swept.path());
+    expect_only(check_recording(recording, Depth::thorough), "motion during each scan",
                 "--deskew on");
-    prepare_deskew(sequence);
-    const Preflight undone = check_recording(sequence, Depth::thorough);
+    const Preflight undone = check_recording(deskewed(recording), Depth::thorough);
     EXPECT_TRUE(undone.findings.empty()) << undone.findings[0].what;
 }
 
 TEST_F(Check, NamesPointsInTheWorldAndMergedSensors) {
-    const auto in_world = write_copy([](const Frame& frame) {
+    const auto in_world = write_copy([](const FullScan& frame) {
         Points points = frame.points;
         for (Point& p : points) p = (frame.T_world_sensor * p.cast<double>()).cast<float>();
         return points;
     });
-    const Sequence world = open_sequence(in_world->path());
+    const Recording world = open_recording(in_world->path());
     expect_only(check_recording(world, Depth::thorough), "world's frame", "--points-in-world");
     OpenOptions as_they_are;
     as_they_are.points_in_world = true;
-    EXPECT_TRUE(check_recording(open_sequence(in_world->path(), as_they_are), Depth::thorough)
+    EXPECT_TRUE(check_recording(open_recording(in_world->path(), as_they_are), Depth::thorough)
                     .findings.empty());
     for (const Depth depth : {Depth::quick, Depth::thorough}) {  // and where they are not
-        expect_only(check_recording(open_sequence(folder->path(), as_they_are), depth),
+        expect_only(check_recording(open_recording(folder->path(), as_they_are), depth),
                     "in the sensor's frame", "leave out --points-in-world");
     }
 
     const TemporaryFolder benchmark;  // whose files have points in the world's frame
-    const Sequence original = open_sequence(folder->path());
+    const Recording original = open_recording(folder->path());
     std::filesystem::create_directories(benchmark / "pcd");
     for (std::size_t i = 0; i < original.size(); ++i) {
-        Cloud cloud = read_frame(original, i).cloud;
-        cloud.viewpoint = original.T_world_sensor[i];
+        Cloud cloud = original.read(i).cloud;
+        cloud.viewpoint = original.info().T_world_sensor[i];
         write_pcd(benchmark / ("pcd/" + stem(original, i) + ".pcd"), cloud);
     }
-    expect_only(check_recording(open_sequence(benchmark.path()), Depth::quick),
+    expect_only(check_recording(open_recording(benchmark.path()), Depth::quick),
                 "but this format has them in the world's", "--format folder");
 
-    const auto merged = write_copy([](const Frame& frame) {
+    const auto merged = write_copy([](const FullScan& frame) {
         Points points = frame.points;
         const Eigen::Isometry3f other =
             Eigen::Translation3f(1.2F, 0.5F, -0.3F) * Eigen::AngleAxisf(0.02F, Point::UnitZ());
         for (const Point& p : frame.points) points.push_back(other * p);
         return points;
     });
-    expect_only(check_recording(open_sequence(merged->path()), Depth::thorough), "merged", "one");
+    expect_only(check_recording(open_recording(merged->path()), Depth::thorough), "merged", "one");
 }
 
 TEST_F(Check, NamesPointsInMillimetres) {
-    const auto copy = write_copy([](const Frame& frame) {
+    const auto copy = write_copy([](const FullScan& frame) {
         Points points = frame.points;
         for (Point& p : points) p *= 1000.0F;
         return points;
     });
     for (const Depth depth : {Depth::quick, Depth::thorough}) {
-        expect_only(check_recording(open_sequence(copy->path()), depth), "in millimetres",
+        expect_only(check_recording(open_recording(copy->path()), depth), "in millimetres",
                     "in metres");
     }
 }
 
 TEST_F(Check, NamesPosesOfAnotherRecordingWhateverTheirReading) {
-    expect_only(after([](Sequence& sequence) {
+    expect_only(after([](Info& info) {
                     double far = 0.0;
-                    change_poses(sequence, [&](const Pose& pose) {
+                    change_poses(info, [&](const Pose& pose) {
                         far += 200.0;
                         Pose apart = pose;
                         apart.translation() += Eigen::Vector3d(far, -2.0 * far, 3e3);
@@ -229,8 +226,8 @@ TEST_F(Check, FindsNothingWhereScansOfAStreetAreFarApart) {
     app::write_simulation(options, street.path(), true);
     OpenOptions sparse;
     sparse.stride = 16;
-    const Sequence sequence = open_sequence(street.path(), sparse);
-    const Preflight result = check_recording(sequence, Depth::quick);
+    const Recording recording = open_recording(street.path(), sparse);
+    const Preflight result = check_recording(recording, Depth::quick);
     EXPECT_TRUE(result.findings.empty()) << result.findings[0].what;
 }
 
@@ -242,18 +239,19 @@ TEST_F(Check, ASensorThatHangsUpsideDownOnAStraightPathIsNoticed) {
     options.sensor = "vlp16";
     options.frames = 30;
     app::write_simulation(options, straight.path(), true);
-    Sequence sequence = open_sequence(straight.path());
-    EXPECT_TRUE(check_recording(sequence, Depth::thorough).findings.empty());
-    change_poses(sequence, [](const Pose& pose) { return fixed(PoseFix::xyzw, pose); });
-    const Preflight result = check_recording(sequence, Depth::thorough);
+    const Recording recording = open_recording(straight.path());
+    EXPECT_TRUE(check_recording(recording, Depth::thorough).findings.empty());
+    const Recording hanging =
+        with_changed_poses(recording, [](const Pose& pose) { return fixed(PoseFix::xyzw, pose); });
+    const Preflight result = check_recording(hanging, Depth::thorough);
     ASSERT_FALSE(result.findings.empty());
     EXPECT_NE(result.findings[0].advice.find("--pose-fix wxyz"), std::string::npos);
 }
 
 TEST_F(Check, NamesTheUnitOfTime) {
     for (const auto& [unit, factor] : {std::pair{"ms", 1e3}, {"us", 1e6}, {"ns", 1e9}}) {
-        const Preflight result = after([&, f = factor](Sequence& sequence) {
-            for (double& stamp : sequence.stamps) stamp *= f;
+        const Preflight result = after([&, f = factor](Info& info) {
+            for (double& stamp : info.stamps) stamp *= f;
         });
         expect_only(result, "not in seconds", std::string("--time-unit ") + unit);
     }
@@ -261,10 +259,10 @@ TEST_F(Check, NamesTheUnitOfTime) {
 
 TEST_F(Check, NamesStampsOfPosesThatAreNotThoseOfTheScans) {
     const auto with = [](double from, double factor, double shift) {
-        return after([=](Sequence& sequence) {
-            for (double& stamp : sequence.stamps) stamp += from;
-            for (const double stamp : sequence.stamps)
-                sequence.pose_stamps.push_back(factor * (stamp + shift));
+        return after([=](Info& info) {
+            for (double& stamp : info.stamps) stamp += from;
+            for (const double stamp : info.stamps)
+                info.pose_stamps.push_back(factor * (stamp + shift));
         });
     };
     EXPECT_TRUE(with(1e9, 1.0, 0.05).findings.empty());
@@ -276,7 +274,7 @@ TEST_F(Check, NamesStampsOfPosesThatAreNotThoseOfTheScans) {
 }
 
 /// A recording of five scans without structures, of which only the stamps matter.
-class Stamps : public Recording {
+class Stamps : public RecordingFiles {
 protected:
     void SetUp() override {
         put_bins("velodyne", 5);
@@ -284,14 +282,15 @@ protected:
     }
     [[nodiscard]] Preflight with(double step, double first = 1e9, double pose_shift = 0.0,
                                  bool measured = true) const {
-        Sequence sequence = open();
-        sequence.measured_stamps = measured;
-        for (std::size_t i = 0; i < 5; ++i) {
-            sequence.stamps[i] = first + step * static_cast<double>(i);
-            if (pose_shift == 0.0) continue;
-            sequence.pose_stamps.push_back(sequence.stamps[i] + pose_shift);
-        }
-        return check_recording(sequence, Depth::quick);
+        const Recording recording = changed(open(), [&](Info& info) {
+            info.measured_stamps = measured;
+            for (std::size_t i = 0; i < 5; ++i) {
+                info.stamps[i] = first + step * static_cast<double>(i);
+                if (pose_shift == 0.0) continue;
+                info.pose_stamps.push_back(info.stamps[i] + pose_shift);
+            }
+        });
+        return check_recording(recording, Depth::quick);
     }
 };
 
@@ -326,12 +325,11 @@ TEST_F(Stamps, OfPosesThatAreNotThoseOfTheScansAreNamed) {
 }
 
 TEST_F(Stamps, OfTwoScansSayNothing) {
-    Sequence sequence = open();
-    sequence.scan_files.resize(2);
-    sequence.T_world_sensor.resize(2);
-    sequence.stamps = {0.0, 1e6};
-    sequence.measured_stamps = true;
-    EXPECT_TRUE(check_recording(sequence, Depth::quick).findings.empty());
+    const Recording two = changed(slice(open(), 0, 1), [](Info& info) {
+        info.stamps = {0.0, 1e6};
+        info.measured_stamps = true;
+    });
+    EXPECT_TRUE(check_recording(two, Depth::quick).findings.empty());
 }
 
 /// Scans with absolute times, one every 0.1 s, under the names that `name_of` gives them.
@@ -363,7 +361,7 @@ TEST_F(Check, NamesScansWhoseNamesAreInNoOrderOfTime) {
         return "scan" + std::to_string(i < 6 ? i + 6 : i - 6);
     };
     const auto findings = [](const TemporaryFolder& recording) {
-        return check_recording(open_sequence(recording.path()), Depth::quick);
+        return check_recording(open_recording(recording.path()), Depth::quick);
     };
     EXPECT_TRUE(findings(*write_timed(in_order, 1.5e9)).findings.empty());
     EXPECT_TRUE(findings(*write_timed(turned_round, 0.0)).findings.empty())
@@ -374,12 +372,12 @@ TEST_F(Check, NamesScansWhoseNamesAreInNoOrderOfTime) {
 }
 
 TEST_F(Check, ListsTheScansThatARunRejects) {
-    const auto copy = write_copy([](const Frame& frame) { return frame.points; });
+    const auto copy = write_copy([](const FullScan& frame) { return frame.points; });
     const auto scan = [&](const char* name) { return copy->path() / "velodyne" / name; };
     std::filesystem::resize_file(scan("000007.bin"), 1001);
     std::filesystem::resize_file(scan("000058.bin"), 0);
     test::spill(scan("000000.bin"), std::string(160, '\0'));  // at the sensor, all of them
-    const Preflight result = check_recording(open_sequence(copy->path()), Depth::thorough);
+    const Preflight result = check_recording(open_recording(copy->path()), Depth::thorough);
     ASSERT_EQ(result.unusable.size(), 3U);
     EXPECT_NE(result.unusable[0].find("000000: "), std::string::npos);
     EXPECT_NE(result.unusable[1].find("000007: "), std::string::npos);

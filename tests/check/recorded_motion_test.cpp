@@ -35,7 +35,7 @@ const test::Drive& street(bool sweep) {
 }
 
 /// Recordings of which some scans may be bad, with any poses.
-class RecordedMotion : public Recording {
+class RecordedMotion : public RecordingFiles {
 protected:
     void put(const test::Drive& drive, const std::vector<Pose>& poses) const {
         std::filesystem::create_directories(data / "velodyne");
@@ -98,9 +98,9 @@ TEST_F(RecordedMotion, ScansThatCannotBeReadArePassedOver) {
     put(street(false), street(false).truth);
     data.put("velodyne/" + number(10) + ".bin", "");
     data.put("velodyne/" + number(14) + ".bin", "1234567");
-    const Sequence sequence = open();
-    EXPECT_FALSE(measure_motion(sequence, {}).has_bad_poses());
-    const auto tracked = track_scans(sequence, {});
+    const Recording recording = open();
+    EXPECT_FALSE(measure_motion(recording, {}).has_bad_poses());
+    const auto tracked = track_scans(recording, {});
     ASSERT_EQ(tracked.size(), kScans);
     for (std::size_t i = 0; i < kScans; ++i) {
         EXPECT_EQ(tracked[i].has_value(), i != 10 && i != 14) << i;

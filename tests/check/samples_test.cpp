@@ -8,7 +8,7 @@
 namespace dynamic_filter::io {
 namespace samples_test {
 
-class SamplesTest : public Recording {
+class SamplesTest : public RecordingFiles {
 protected:
     /// The second of two scans of these points; its pose is 100 m away.
     [[nodiscard]] Sample sample_of(const Points& points) const {

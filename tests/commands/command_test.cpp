@@ -98,11 +98,11 @@ protected:
 
 TEST_F(Command, RunLeavesWhatTheContractSays) {
     ASSERT_EQ(run("run " + recording().string() + " -o out"), 0) << said();
-    const io::Sequence sequence = io::open_sequence(recording());
+    const io::Recording sequence = io::open_recording(recording());
     std::size_t points = 0;
     for (std::size_t i = 0; i < sequence.size(); ++i) {
         const auto label_file = folder_ / ("out/labels/" + io::stem(sequence, i) + ".label");
-        const std::size_t in_scan = io::read_frame(sequence, i).points.size();
+        const std::size_t in_scan = sequence.read(i).points.size();
         ASSERT_EQ(fs::file_size(label_file), 4 * in_scan);
         points += in_scan;
     }
@@ -828,9 +828,9 @@ TEST_F(Command, ReportsOfRunsAndMapsAreSetSideBySide) {
 TEST_F(Command, CheckSaysWhatToTypeAndThatWorks) {
     const std::string data = recording().string();
     EXPECT_EQ(run("check " + data), 0) << said();
-    io::Sequence sequence = io::open_sequence(recording());
-    for (Pose& pose : sequence.T_world_sensor) pose = pose.inverse();
-    io::write_poses_kitti(folder_ / "inverse.txt", sequence.T_world_sensor);
+    std::vector<Pose> poses = io::open_recording(recording()).info().T_world_sensor;
+    for (Pose& pose : poses) pose = pose.inverse();
+    io::write_poses_kitti(folder_ / "inverse.txt", poses);
     EXPECT_EQ(run("check " + data + " --poses inverse.txt"), 4);
     const std::string fixed = data + " --poses inverse.txt --pose-fix inverse";
     expect_said("try       dynamicfilter run " + fixed + "\n");
@@ -844,6 +844,17 @@ TEST_F(Command, CheckSaysWhatToTypeAndThatWorks) {
     expect_said("warning: the poses are inverse");
 }
 
+TEST_F(Command, ALayoutIsNamedAndOnlyThisOneIsRead) {
+    const std::string data = recording().string();
+    EXPECT_EQ(run("info " + data + " --first 2 --stride 2"), 0) << said();
+    expect_said("format  kitti\n");
+    EXPECT_EQ(run("info " + data + "/velodyne/000000.bin --stride 2"), 2);
+    expect_said("are for recordings");
+    EXPECT_EQ(run("check " + data + " --format kitti --stride 2"), 0) << said();
+    EXPECT_EQ(run("check " + data + " --format kitti-360"), 3);
+    expect_said("is not a drive of KITTI-360 (--format kitti-360); looked for data_3d_raw/");
+}
+
 TEST_F(Command, CheckComparesTheFramesOfSeveralRecordings) {
     const std::string data = recording().string();
     ASSERT_EQ(run("convert " + data + " monday --stride 2"), 0) << said();
@@ -854,9 +865,9 @@ TEST_F(Command, CheckComparesTheFramesOfSeveralRecordings) {
     expect_said("frames    monday and tuesday: their scans overlay at ");
     expect_said("next      dynamicfilter run monday tuesday\n");
 
-    io::Sequence moved = io::open_sequence(folder_ / "tuesday");
-    for (Pose& pose : moved.T_world_sensor) pose.pretranslate(Eigen::Vector3d(0.0, 0.5, 0.0));
-    io::write_poses_kitti(folder_ / "tuesday/poses.txt", moved.T_world_sensor);
+    std::vector<Pose> moved = io::open_recording(folder_ / "tuesday").info().T_world_sensor;
+    for (Pose& pose : moved) pose.pretranslate(Eigen::Vector3d(0.0, 0.5, 0.0));
+    io::write_poses_kitti(folder_ / "tuesday/poses.txt", moved);
     EXPECT_EQ(run("check monday tuesday"), 4) << said();
     expect_said("tuesday shows things (0.00, 0.50, 0.00) m from where monday shows them");
     expect_said("advice    add (0.00, -0.50, 0.00) m to the positions of the poses of tuesday");

@@ -160,12 +160,12 @@ TEST(Allocation, ReadingScansSurvivesEveryFailure) {
         poses.push_back(scan.T_world_sensor);
     }
     io::write_poses_kitti(folder / "poses.txt", poses);
-    const io::Sequence sequence = io::open_sequence(folder.path());
-    std::vector<std::size_t> all(sequence.size());
+    const io::Recording recording = io::open_recording(folder.path());
+    std::vector<std::size_t> all(recording.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
     expect_survives([&] {
         std::string bytes;
-        app::for_each_frame(sequence, all, {}, [&](std::size_t, app::MaybeFrame& maybe) {
+        app::for_each_frame(recording, all, {}, [&](std::size_t, app::MaybeFrame& maybe) {
             if (!maybe.frame) throw Error(maybe.error);  // it says that memory is short
             bytes += bytes_of(maybe.frame->cloud);
             return true;

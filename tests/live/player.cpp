@@ -100,18 +100,18 @@ std::size_t differing_labels(const Options& o, const Heard& heard) {
     io::OpenOptions options;
     options.topic = o.topic;
     options.pose_topic = "/tf";
-    const io::Sequence sequence = io::open_sequence(o.bag, options);
+    const io::Recording recording = io::open_recording(o.bag, options);
     DynamicFilter filter{Config{}};
     std::size_t differing = 0;
-    for (std::size_t i = 0; i < sequence.size(); ++i) {
-        io::Frame frame = io::read_frame(sequence, i);
+    for (std::size_t i = 0; i < recording.size(); ++i) {
+        io::FullScan frame = recording.read(i);
         const auto own =
             filter.push({std::move(frame.points), frame.T_world_sensor, frame.stamp, i});
         const auto stamp = io::to_nanoseconds(frame.stamp);
         const auto heard_at =
             std::find_if(heard.verdicts.begin(), heard.verdicts.end(),
                          [&](const auto& v) { return std::abs(v.first - stamp) < 1000; });
-        const Labels& labels = own.at(0).labels;
+        const Labels& labels = own.labels;
         if (heard_at == heard.verdicts.end() || heard_at->second.size() != labels.size()) {
             differing += labels.size();
             continue;

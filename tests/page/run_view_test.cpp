@@ -73,17 +73,18 @@ protected:
         folder_.put("poses.txt", text);
         folder_.put("times.txt", times);
         std::filesystem::create_directories(folder_ / "labels_out");
-        sequence_ = io::open_sequence(folder_.path());
-        for (std::size_t i = 0; i < sequence_.size(); ++i) {
-            io::Frame frame = io::read_frame(sequence_, i);
+        recording_ = io::open_recording(folder_.path());
+        for (std::size_t i = 0; i < recording_.size(); ++i) {
+            io::FullScan frame = recording_.read(i);
             filter_.push({frame.points, frame.T_world_sensor, frame.stamp, i});
         }
         filter_.finish();
-        for (std::size_t i = 0; i < sequence_.size(); ++i) {
-            const io::Frame frame = io::read_frame(sequence_, i);
+        for (std::size_t i = 0; i < recording_.size(); ++i) {
+            const io::FullScan frame = recording_.read(i);
             const Labels labels =
                 filter_.verdict({frame.points, frame.T_world_sensor, frame.stamp, i}).labels;
-            io::write_labels(folder_ / ("labels_out/" + io::stem(sequence_, i) + ".label"), labels);
+            io::write_labels(folder_ / ("labels_out/" + io::stem(recording_, i) + ".label"),
+                             labels);
             ScanNote note = note_of(labels, instant_.get(i), {});
             note.index = i;
             note.position = frame.T_world_sensor.translation();
@@ -91,7 +92,7 @@ protected:
         }
     }
     [[nodiscard]] ViewInput input() const {
-        return {.sequence = sequence_,
+        return {.recording = recording_,
                 .scans = notes_,
                 .labels = folder_ / "labels_out",
                 .instant = [this](std::size_t scan) { return instant_.get(scan); },
@@ -103,7 +104,7 @@ protected:
     test::TemporaryFolder folder_;
     std::vector<test::RoomScan> scans_ = test::drive(12, true);
     LabelStore instant_{folder_.path()};
-    io::Sequence sequence_;
+    io::Recording recording_;
     OnlineFilter filter_{Config{},
                          {.overload = Overload::wait, .horizon = 0.0, .max_bytes = 0},
                          {.instant = [this](const Verdict& v) { instant_.put(v.index, v.labels); },
@@ -127,7 +128,7 @@ TEST_F(RunView, HoldsEveryPointWhereThereIsRoom) {
     for (std::size_t s = 0; s < scans_.size(); ++s) {
         const Scan& scan = scans_[s].scan;
         const Labels labels =
-            io::read_labels(folder_ / ("labels_out/" + io::stem(sequence_, s) + ".label"));
+            io::read_labels(folder_ / ("labels_out/" + io::stem(recording_, s) + ".label"));
         for (std::size_t i = 0; i < scan.points.size(); ++i) {
             const Eigen::Vector3d world = scan.T_world_sensor * scan.points[i].cast<double>();
             for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -61,6 +61,17 @@ class Programs(unittest.TestCase):
         self.assertRaises(IndexError, lambda: opened[len(opened)])
         self.assertRaises(IndexError, lambda: opened[-len(opened) - 1])
 
+    def test_a_slice_is_a_recording(self):
+        opened = df.open_recording(recording())
+        part = opened[3:9:2]
+        self.assertEqual(len(part), 3)
+        self.assertIsInstance(part, df.Recording)
+        np.testing.assert_array_equal(part[1].points, frames()[5].points)
+        np.testing.assert_array_equal(opened[-2:][1].pose, opened[-1].pose)
+        self.assertEqual(len(part[1:]), 2)
+        self.assertRaises(ValueError, lambda: opened[5:5])
+        self.assertRaises(ValueError, lambda: opened[::-1])
+
     def test_clouds(self):
         cloud = df.read_cloud(os.path.join(recording(), "velodyne", "000000.bin"))
         self.assertEqual(cloud.dtype.names, ("x", "y", "z", "intensity"))

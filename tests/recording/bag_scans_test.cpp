@@ -16,7 +16,7 @@ namespace bag_scans_test {
 Pose moved(double x, double y = 0.0, double z = 0.0) { return Pose(Eigen::Translation3d(x, y, z)); }
 
 /// A bag that a test fills; scans of two points, (5 + i, 0, 0) and (0, 5, 0).
-class BagScansTest : public Recording {
+class BagScansTest : public RecordingFiles {
 protected:
     static constexpr double kStart = 1000.0;  // [s]
     static double stamp(std::size_t i) { return kStart + 0.1 * static_cast<double>(i); }
@@ -54,10 +54,10 @@ protected:
                const std::vector<std::byte>& message) {
         writer_->write({topic, type, MessageEncoding::cdr}, to_nanoseconds(at), message);
     }
-    Sequence opened(const OpenOptions& options = {}) {
+    Recording opened(const OpenOptions& options = {}) {
         if (writer_) writer_->commit();
         writer_.reset();
-        return open_sequence(data / "a.mcap", options);
+        return open_recording(data / "a.mcap", options);
     }
     template <class E = InputError>
     std::string failure(const OpenOptions& options = {}) {
@@ -74,17 +74,17 @@ TEST_F(BagScansTest, PosesComeThroughTheFramesAtTheStampOfTheScan) {
     transform("map", "odom", moved(100, 0, 0), kStart + 0.5);
     for (double t = -0.93; t < 2.0; t += 0.07) transform("odom", "base", moved(t), kStart + t);
     transform("map", "odom", moved(100, 0, 0), kStart - 0.2);
-    const Sequence sequence = opened();
-    EXPECT_EQ(sequence.format, Format::bag);
-    ASSERT_EQ(sequence.size(), 5U);
-    EXPECT_TRUE(has_note(sequence, "'lidar' in 'map'"));
+    const Recording recording = opened();
+    EXPECT_EQ(recording.info().layout, "bag");
+    ASSERT_EQ(recording.size(), 5U);
+    EXPECT_TRUE(has_note(recording, "'lidar' in 'map'"));
     for (std::size_t i = 0; i < 5; ++i) {
-        const Frame frame = read_frame(sequence, i);
+        const FullScan frame = recording.read(i);
         EXPECT_NEAR(frame.stamp, stamp(i), 1e-6);
         const Eigen::Vector3d expected(100.0 + 0.1 * static_cast<double>(i), 0, 1.5);
         EXPECT_TRUE(frame.T_world_sensor.translation().isApprox(expected, 1e-6));
         EXPECT_FLOAT_EQ(frame.points[0].x(), 5.0F + static_cast<float>(i));
-        EXPECT_EQ(stem(sequence, i), "00000" + std::to_string(i));
+        EXPECT_EQ(stem(recording, i), "00000" + std::to_string(i));
     }
 }
 
@@ -92,26 +92,26 @@ TEST_F(BagScansTest, OdometryReachesTheSensorByTheFrames) {
     scans(3, "lidar");
     transform("base", "lidar", moved(0, 0.5, 0), kStart, "/tf_static");
     drive("odom", "base");
-    const Sequence sequence = opened();
-    EXPECT_TRUE(has_note(sequence, "'base' to 'lidar' by /tf"));
+    const Recording recording = opened();
+    EXPECT_TRUE(has_note(recording, "'base' to 'lidar' by /tf"));
     const Eigen::Vector3d expected(0.2, 0.5, 0);
-    EXPECT_TRUE(read_frame(sequence, 2).T_world_sensor.translation().isApprox(expected, 1e-6));
+    EXPECT_TRUE(recording.read(2).T_world_sensor.translation().isApprox(expected, 1e-6));
 }
 
 TEST_F(BagScansTest, FramesThatNothingLinksAreTakenForTheSameAndThatIsSaid) {
     scans(3, "lidar");
     drive("odom", "base");
-    const Sequence sequence = opened();
-    EXPECT_TRUE(has_note(sequence, "no transform links"));
-    EXPECT_NEAR(read_frame(sequence, 2).T_world_sensor.translation().x(), 0.2, 1e-6);
+    const Recording recording = opened();
+    EXPECT_TRUE(has_note(recording, "no transform links"));
+    EXPECT_NEAR(recording.read(2).T_world_sensor.translation().x(), 0.2, 1e-6);
 }
 
 TEST_F(BagScansTest, PointsInTheFrameOfTheOdometryAreTakenBack) {
     scans(3, "camera_init");
     drive("camera_init", "body");
-    const Sequence sequence = opened();
-    EXPECT_TRUE(sequence.points_in_world);
-    const Frame frame = read_frame(sequence, 2);
+    const Recording recording = opened();
+    EXPECT_TRUE(recording.info().points_in_world);
+    const FullScan frame = recording.read(2);
     EXPECT_NEAR(frame.T_world_sensor.translation().x(), 0.2, 1e-6);
     EXPECT_NEAR(frame.points[0].x(), 7.0 - 0.2, 1e-5);
 }
@@ -143,40 +143,40 @@ TEST_F(BagScansTest, PosesMayComeFromAFile) {
     scans(5, "lidar");
     OpenOptions options;
     options.poses = data.put("poses.tum", tum_rows(30, kStart - 1.0));  // 1 m in 0.2 s
-    const Sequence sequence = opened(options);
-    EXPECT_NEAR(read_frame(sequence, 3).T_world_sensor.translation().x(), 5.0 + 1.5, 1e-6);
+    const Recording recording = opened(options);
+    EXPECT_NEAR(recording.read(3).T_world_sensor.translation().x(), 5.0 + 1.5, 1e-6);
     options.poses = data.put("five.txt", kitti_rows(5));
-    EXPECT_EQ(read_frame(opened(options), 3).T_world_sensor.translation().x(), 3.0);
+    EXPECT_EQ(opened(options).read(3).T_world_sensor.translation().x(), 3.0);
     options.poses = data.put("four.txt", kitti_rows(4));
     EXPECT_HAS(failure(options), "4 poses without stamps for 5 scans");
     options.poses = data.put("other.tum", tum_rows(30, 5e5));
     EXPECT_HAS(failure(options), "another clock");
     options.poses.reset();
-    EXPECT_FALSE(opened(options).has_poses);
+    EXPECT_FALSE(opened(options).info().has_poses);
     EXPECT_TRUE(has_note(opened(options), "no poses of the frame 'lidar'"));
 }
 
 TEST_F(BagScansTest, ScansBeyondThePosesAreRejectedOneByOne) {
     scans(5, "lidar");
     drive("odom", "lidar", -1.0, 0.05);
-    const Sequence sequence = opened();
-    EXPECT_EQ(sequence.size(), 5U);
-    EXPECT_FLOAT_EQ(read_frame(sequence, 0).points.at(0).x(), 5.0F);
-    EXPECT_HAS(error_of([&] { (void)read_frame(sequence, 4); }), "no pose is known at its time");
+    const Recording recording = opened();
+    EXPECT_EQ(recording.size(), 5U);
+    EXPECT_FLOAT_EQ(recording.read(0).points.at(0).x(), 5.0F);
+    EXPECT_HAS(error_of([&] { (void)recording.read(4); }), "no pose is known at its time");
 }
 
 TEST_F(BagScansTest, ScansThatCannotBeReadAreLossesAndOtherMessagesAreNot) {
     scans(2, "lidar");
     drive("odom", "lidar");
     write("/odom", "nav_msgs/Odometry", stamp(0), std::vector<std::byte>(3));
-    EXPECT_TRUE(opened().losses.empty());
+    EXPECT_TRUE(opened().info().losses.empty());
     EXPECT_TRUE(has_note(opened(), "1 messages cannot be read"));
     writer_ = BagWriter::create(data / "a.mcap");
     scans(2, "lidar");
     drive("odom", "lidar");
     write("/points", "sensor_msgs/PointCloud2", stamp(2), std::vector<std::byte>(3));
-    ASSERT_EQ(opened().losses.size(), 1U);
-    EXPECT_HAS(opened().losses[0], "the first is of /points");
+    ASSERT_EQ(opened().info().losses.size(), 1U);
+    EXPECT_HAS(opened().info().losses[0], "the first is of /points");
 }
 
 TEST_F(BagScansTest, ScansAreInTheOrderOfTheirStamps) {
@@ -185,11 +185,11 @@ TEST_F(BagScansTest, ScansAreInTheOrderOfTheirStamps) {
     OpenOptions options;
     options.first = 1;
     options.stride = 2;
-    const Sequence sequence = opened(options);
-    ASSERT_EQ(sequence.size(), 2U);
-    EXPECT_FLOAT_EQ(read_frame(sequence, 0).points[0].x(), 6.0F);
-    EXPECT_FLOAT_EQ(read_frame(sequence, 1).points[0].x(), 8.0F);
-    EXPECT_EQ(stem(sequence, 1), "000003");
+    const Recording recording = opened(options);
+    ASSERT_EQ(recording.size(), 2U);
+    EXPECT_FLOAT_EQ(recording.read(0).points[0].x(), 6.0F);
+    EXPECT_FLOAT_EQ(recording.read(1).points[0].x(), 8.0F);
+    EXPECT_EQ(stem(recording, 1), "000003");
 }
 
 TEST_F(BagScansTest, MessagesThatAreNoneAreCountedAndTheOthersGoOn) {
@@ -203,13 +203,13 @@ TEST_F(BagScansTest, MessagesThatAreNoneAreCountedAndTheOthersGoOn) {
     cut.resize(cut.size() - 20);
     write("/points", "sensor_msgs/PointCloud2", stamp(3), cut);
     drive("odom", "lidar");
-    const Sequence sequence = opened();
-    ASSERT_EQ(sequence.losses.size(), 1U);
-    EXPECT_HAS(sequence.losses[0],
+    const Recording recording = opened();
+    ASSERT_EQ(recording.info().losses.size(), 1U);
+    EXPECT_HAS(recording.info().losses[0],
                "2 messages cannot be read and are left out; the first is of /p");
-    ASSERT_EQ(sequence.size(), 4U);
-    EXPECT_FLOAT_EQ(read_frame(sequence, 2).points.at(0).x(), 7.0F);
-    EXPECT_HAS(error_of([&] { (void)read_frame(sequence, 3); }), "a.mcap (scan 3 of /points)");
+    ASSERT_EQ(recording.size(), 4U);
+    EXPECT_FLOAT_EQ(recording.read(2).points.at(0).x(), 7.0F);
+    EXPECT_HAS(error_of([&] { (void)recording.read(3); }), "a.mcap (scan 3 of /points)");
 }
 
 TEST_F(BagScansTest, HeadersWithoutStampsHaveTheTimeOfRecording) {
@@ -221,9 +221,9 @@ TEST_F(BagScansTest, HeadersWithoutStampsHaveTheTimeOfRecording) {
               cloud_message(cloud, 0.0, "lidar", MessageEncoding::cdr));
     }
     drive("odom", "lidar");
-    const Sequence sequence = opened();
-    EXPECT_TRUE(has_note(sequence, "times of recording"));
-    EXPECT_NEAR(sequence.stamps[2], stamp(2), 1e-6);
+    const Recording recording = opened();
+    EXPECT_TRUE(has_note(recording, "times of recording"));
+    EXPECT_NEAR(recording.info().stamps[2], stamp(2), 1e-6);
 }
 
 TEST_F(BagScansTest, OfSeveralPosesTheFirstIsTakenAndThatIsSaid) {
@@ -238,11 +238,11 @@ TEST_F(BagScansTest, MotionIsUndoneWhenAsked) {
     drive("odom", "lidar");
     OpenOptions options;
     options.deskew = true;
-    const Sequence sequence = opened(options);
-    EXPECT_TRUE(sequence.deskew);
+    const Recording recording = opened(options);
+    EXPECT_TRUE(recording.info().deskewed);
     // The second point was measured 50 ms later, 5 cm farther along x.
-    EXPECT_NEAR(read_frame(sequence, 1).points[1].x(), 0.05, 1e-4);
-    EXPECT_NEAR(read_frame(sequence, 1).points[0].x(), 6.0, 1e-4);
+    EXPECT_NEAR(recording.read(1).points[1].x(), 0.05, 1e-4);
+    EXPECT_NEAR(recording.read(1).points[0].x(), 6.0, 1e-4);
 }
 
 TEST_F(BagScansTest, ABagWithoutScansSaysWhatWasLookedFor) {

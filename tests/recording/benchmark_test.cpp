@@ -6,39 +6,39 @@
 namespace dynamic_filter::io {
 namespace benchmark_test {
 
-using BenchmarkTest = Recording;
+using BenchmarkTest = RecordingFiles;
 
 TEST_F(BenchmarkTest, PosesAndTruthAreInTheFiles) {
     put_pcd("pcd/000000.pcd", 0.0, 1.0F);
     put_pcd("pcd/000001.pcd", 2.0, 0.0F);
-    const Sequence sequence = open();
-    EXPECT_EQ(sequence.format, Format::benchmark);
-    EXPECT_TRUE(sequence.T_world_sensor.empty());
-    EXPECT_TRUE(sequence.intensity_is_truth);
-    const Frame frame = read_frame(sequence, 1);
+    const Recording recording = open();
+    EXPECT_EQ(recording.info().layout, "benchmark");
+    EXPECT_TRUE(recording.info().T_world_sensor.empty());
+    EXPECT_TRUE(recording.info().intensity_is_truth);
+    const FullScan frame = recording.read(1);
     EXPECT_EQ(frame.T_world_sensor.translation().x(), 2.0);
     EXPECT_EQ(frame.points, (Points{{8, 0, 0}, {-2, 5, 0}}));
     EXPECT_EQ(positions(frame.cloud)[0].x(), 10.0F);
-    EXPECT_EQ(read_frame(sequence, 0).truth, (Labels{Label::dynamic, Label::static_}));
+    EXPECT_EQ(recording.read(0).truth, (Labels{Label::dynamic, Label::static_}));
 }
 
 TEST_F(BenchmarkTest, IntensityThatIsAMeasurement) {
     put_pcd("pcd/000000.pcd", 1.0, 0.0F);
-    EXPECT_FALSE(open().has_truth());  // all 0: nothing says that it is truth
+    EXPECT_FALSE(open().info().has_truth());  // all 0: nothing says that it is truth
     put_pcd("pcd/000000.pcd", 1.0, 0.5F);
-    EXPECT_FALSE(open().has_truth());
+    EXPECT_FALSE(open().info().has_truth());
     put_pcd("gt_cloud.pcd", 0.0, 1.0F);
-    EXPECT_TRUE(open().has_truth());
-    EXPECT_EQ(read_frame(open(), 0).truth[0], Label::unknown);
+    EXPECT_TRUE(open().info().has_truth());
+    EXPECT_EQ(open().read(0).truth[0], Label::unknown);
 }
 
 TEST_F(BenchmarkTest, AScanThatCannotBeReadDecidesNothing) {
     data.put("pcd/000000.pcd", "no PCD");
     put_pcd("pcd/000001.pcd", 2.0, 1.0F);
-    const Sequence sequence = open();
-    EXPECT_TRUE(sequence.intensity_is_truth);
-    EXPECT_HAS(error_of([&] { (void)read_frame(sequence, 0); }), "'no'");
-    EXPECT_EQ(read_frame(sequence, 1).T_world_sensor.translation().x(), 2.0);
+    const Recording recording = open();
+    EXPECT_TRUE(recording.info().intensity_is_truth);
+    EXPECT_HAS(error_of([&] { (void)recording.read(0); }), "'no'");
+    EXPECT_EQ(recording.read(1).T_world_sensor.translation().x(), 2.0);
 }
 
 TEST_F(BenchmarkTest, NoPoses) {
@@ -48,8 +48,8 @@ TEST_F(BenchmarkTest, NoPoses) {
     EXPECT_HAS(open_error(), "VIEWPOINT of every scan is the identity");
     OpenOptions options;
     options.poses = data.put("p.txt", kitti_rows(2));
-    const Sequence sequence = open(options);
-    EXPECT_EQ(read_frame(sequence, 1).points[0].x(), 9.0F);
+    const Recording recording = open(options);
+    EXPECT_EQ(recording.read(1).points[0].x(), 9.0F);
 }
 
 }  // namespace benchmark_test

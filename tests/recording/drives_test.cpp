@@ -62,7 +62,7 @@ TEST(Drives, OnePoseFileIsNotForSeveralRecordings) {
         return std::string();
     };
     DataOptions how;
-    how.open.poses = "poses.txt";
+    how.poses = "poses.txt";
     EXPECT_NE(said({{.recording = a}, {.recording = b}}, {}).find("-o names"), std::string::npos);
     fs::create_directories(b);
     EXPECT_NE(said({{.recording = a}, {.recording = b}}, how).find("--poses"), std::string::npos);
@@ -77,13 +77,13 @@ TEST(Drives, AGivenPoseFileGoesBeforeThatOfAList) {
     DataOptions how;
     const std::vector<DriveSource> listed{{.recording = "a", .poses = "listed.txt"}};
     EXPECT_EQ(options_of(listed, how)[0].data, "a");
-    EXPECT_EQ(options_of(listed, how)[0].open.poses, "listed.txt");
-    how.open.poses = "given.txt";
-    EXPECT_EQ(options_of(listed, how)[0].open.poses, "given.txt");
-    how.open.poses = "none";
+    EXPECT_EQ(options_of(listed, how)[0].poses, "listed.txt");
+    how.poses = "given.txt";
+    EXPECT_EQ(options_of(listed, how)[0].poses, "given.txt");
+    how.poses = "none";
     const auto each = options_of({listed[0], {.recording = "b"}}, how);
     ASSERT_EQ(each.size(), 2U);
-    for (const DataOptions& one : each) EXPECT_EQ(one.open.poses, "none");
+    for (const DataOptions& one : each) EXPECT_EQ(one.poses, "none");
 }
 
 }  // namespace drives_test

@@ -6,11 +6,11 @@
 namespace dynamic_filter::io {
 namespace io_layout_test {
 
-using LayoutTest = Recording;
+using LayoutTest = RecordingFiles;
 
 TEST_F(LayoutTest, NothingThere) {
-    EXPECT_HAS(error_of([&] { (void)open_sequence(data / "none"); }), "does not exist");
-    EXPECT_HAS(error_of([&] { (void)open_sequence(data.put("a.txt", "")); }), "is a file");
+    EXPECT_HAS(error_of([&] { (void)open_recording(data / "none"); }), "does not exist");
+    EXPECT_HAS(error_of([&] { (void)open_recording(data.put("a.txt", "")); }), "is a file");
     EXPECT_HAS(open_error(), "holds no scans");
     std::filesystem::create_directories(data / "velodyne");
     EXPECT_HAS(open_error(), "no *.bin");
@@ -19,22 +19,22 @@ TEST_F(LayoutTest, NothingThere) {
 TEST_F(LayoutTest, AnArchiveIsToBeUnpacked) {
     for (const char* head : {"PK\x03\x04", "\x1F\x8B"}) {
         const auto file = data.put("recording.zip", std::string(head) + std::string(50, '\0'));
-        EXPECT_HAS(error_of([&] { (void)open_sequence(file); }), "archive; unpack it");
+        EXPECT_HAS(error_of([&] { (void)open_recording(file); }), "archive; unpack it");
     }
 }
 
 TEST_F(LayoutTest, TheScanFolderByMistake) {
     put_bins("velodyne", 2);
     data.put("poses.txt", kitti_rows(2));
-    EXPECT_HAS(error_of([&] { (void)open_sequence(data / "velodyne/"); }), "folder above");
+    EXPECT_HAS(error_of([&] { (void)open_recording(data / "velodyne/"); }), "folder above");
     OpenOptions options;
-    options.format = Format::folder;
-    EXPECT_EQ(open_sequence(data / "velodyne", options).size(), 2U);
+    options.layout = "folder";
+    EXPECT_EQ(open_recording(data / "velodyne", options).size(), 2U);
 }
 
 TEST_F(LayoutTest, PosesAreLookedForAndNamed) {
     put_bins("scans", 2);
-    EXPECT_FALSE(open().has_poses);
+    EXPECT_FALSE(open().info().has_poses);
     EXPECT_TRUE(has_note(open(), "no pose file found; looked for poses.txt, optimized_poses.txt"));
     OpenOptions options;
     options.poses = data.put("elsewhere/p.txt", kitti_rows(2));
@@ -43,7 +43,7 @@ TEST_F(LayoutTest, PosesAreLookedForAndNamed) {
     EXPECT_HAS(open_error(options), "none.txt");
     data.put("optimized_poses.txt", kitti_rows(2));
     EXPECT_TRUE(has_note(open(), "optimized_poses.txt"));
-    EXPECT_EQ(open_sequence(data / "scans").size(), 2U);
+    EXPECT_EQ(open_recording(data / "scans").size(), 2U);
 }
 
 TEST_F(LayoutTest, PosesAboveTheFolderThatWeAreIn) {
@@ -51,7 +51,7 @@ TEST_F(LayoutTest, PosesAboveTheFolderThatWeAreIn) {
     data.put("traj.txt", tum_rows(2));
     const auto before = std::filesystem::current_path();
     std::filesystem::current_path(data / "scans");
-    EXPECT_EQ(open_sequence(".").size(), 2U);
+    EXPECT_EQ(open_recording(".").size(), 2U);
     std::filesystem::current_path(before);
 }
 
@@ -75,14 +75,14 @@ TEST_F(LayoutTest, LabelsMayBeOfSomeScansOnly) {
     put_bins("velodyne", 3);
     data.put("poses.txt", kitti_rows(3));
     std::filesystem::create_directories(data / "labels");
-    EXPECT_FALSE(open().has_truth());
+    EXPECT_FALSE(open().info().has_truth());
     EXPECT_TRUE(has_note(open(), "labels of 0 of 3 scans"));
     put_labels(2);
-    EXPECT_TRUE(open().has_truth());
-    EXPECT_TRUE(open().label_files[2].empty());
+    EXPECT_TRUE(open().info().has_truth());
+    EXPECT_TRUE(open().info().label_files[2].empty());
     EXPECT_TRUE(has_note(open(), "labels of 2 of 3 scans"));
     put_labels(3);
-    EXPECT_TRUE(open().has_truth());
+    EXPECT_TRUE(open().info().has_truth());
     EXPECT_FALSE(has_note(open(), "labels of"));
     put_labels(4);
     EXPECT_TRUE(has_note(open(), "labels of 3 of 3 scans, and 1 of no scan"));
@@ -92,9 +92,10 @@ TEST_F(LayoutTest, ScansAndOptimizedPoses) {
     for (std::size_t i = 0; i < 3; ++i) put_pcd("Scans/" + number(i) + ".pcd", 0, 0);
     data.put("optimized_poses.txt", kitti_rows(3));
     data.put("times.txt", "10.0\n10.5\n11.5\n");
-    const Sequence sequence = open();
-    EXPECT_EQ(sequence.T_world_sensor[2].translation().x(), 2.0);  // the LiDAR's: no calibration
-    EXPECT_EQ(sequence.stamps[2], 11.5);
+    const Recording recording = open();
+    EXPECT_EQ(recording.info().T_world_sensor[2].translation().x(),
+              2.0);  // the LiDAR's: no calibration
+    EXPECT_EQ(recording.info().stamps[2], 11.5);
 }
 
 }  // namespace io_layout_test

@@ -13,8 +13,8 @@ namespace map_files_test {
 
 /// x y z in the given type and a ring per point; points (i, 0, 0).
 template <class T>
-io::Frame frame_of(io::FieldType type, std::size_t points) {
-    io::Frame frame;
+io::FullScan frame_of(io::FieldType type, std::size_t points) {
+    io::FullScan frame;
     for (const char* axis : {"x", "y", "z"}) io::add_field(frame.cloud, axis, type);
     io::add_field(frame.cloud, "ring", io::FieldType::u16);
     for (std::size_t i = 0; i < points; ++i) {
@@ -58,7 +58,7 @@ TEST(MapFiles, KeepOriginalPointsWithAllFieldsInTheWorldFrame) {
 TEST(MapFiles, LeaveOutUnknownIfAskedAndPointsThatAreNotFinite) {
     const test::TemporaryFolder folder;
     MapFiles maps(folder.path(), false, false);
-    io::Frame frame = frame_of<float>(io::FieldType::f32, 3);
+    io::FullScan frame = frame_of<float>(io::FieldType::f32, 3);
     frame.points[0].x() = std::numeric_limits<float>::quiet_NaN();
     maps.append(frame, with({Label::static_, Label::unknown, Label::static_}));
     frame.points[2].setZero();
@@ -83,7 +83,7 @@ TEST(MapFiles, WhatStaysBelongsToTheStaticMap) {
 TEST(MapFiles, FarFromTheOriginCoordinatesAreDoubles) {
     const test::TemporaryFolder folder;
     MapFiles maps(folder.path(), true, false);
-    io::Frame frame = frame_of<float>(io::FieldType::f32, 2);
+    io::FullScan frame = frame_of<float>(io::FieldType::f32, 2);
     frame.T_world_sensor.translation() = Eigen::Vector3d(5e5, 5e6 + 0.125, 30);
     maps.append(frame, with({Label::static_, Label::static_}));
     maps.commit();
@@ -95,7 +95,7 @@ TEST(MapFiles, FarFromTheOriginCoordinatesAreDoubles) {
 TEST(MapFiles, RecordsInTheWorldFrameArePassedOnUnchanged) {
     const test::TemporaryFolder folder;
     MapFiles maps(folder.path(), true, true);
-    const io::Frame frame = frame_of<float>(io::FieldType::f32, 3);
+    const io::FullScan frame = frame_of<float>(io::FieldType::f32, 3);
     maps.append(frame, with(Labels(3, Label::static_)));
     maps.commit();
     EXPECT_EQ(io::read_cloud(folder / "static_map.pcd").data, frame.cloud.data);

@@ -24,9 +24,9 @@ TEST(PartFile, GivesBackHowTheRecordingsAreRead) {
               .run = {}};
     part.run.data.format = "folder";
     part.run.data.deskew = "off";
-    part.run.data.open.first = 5;
-    part.run.data.open.last = 90;
-    part.run.data.open.topic = "/points";
+    part.run.data.first = 5;
+    part.run.data.last = 90;
+    part.run.data.topic = "/points";
     part.run.tile_voxels = 12345;
     part.run.maps = false;
     write_part(folder.path(), part);
@@ -39,9 +39,9 @@ TEST(PartFile, GivesBackHowTheRecordingsAreRead) {
     EXPECT_FALSE(read.sources[0].poses);
     EXPECT_EQ(read.run.data.format, "folder");
     EXPECT_EQ(read.run.data.deskew, "off");
-    EXPECT_EQ(read.run.data.open.first, 5U);
-    EXPECT_EQ(read.run.data.open.last, 90U);
-    EXPECT_EQ(read.run.data.open.topic, "/points");
+    EXPECT_EQ(read.run.data.first, 5U);
+    EXPECT_EQ(read.run.data.last, 90U);
+    EXPECT_EQ(read.run.data.topic, "/points");
     EXPECT_EQ(read.run.tile_voxels, 12345U);
     EXPECT_FALSE(read.run.maps);
     EXPECT_TRUE(read.run.report);

@@ -12,9 +12,9 @@ namespace piece_test {
 
 constexpr double kEdge = 12.8;
 
-io::Frame some_frame() {
+io::FullScan some_frame() {
     test::Random random(5);
-    io::Frame frame;
+    io::FullScan frame;
     frame.T_world_sensor = Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitZ());
     frame.T_world_sensor.translation() = Eigen::Vector3d(30.0, -20.0, 1.0);
     for (int i = 0; i < 20000; ++i) {
@@ -29,7 +29,7 @@ io::Frame some_frame() {
 }
 
 TEST(Piece, HoldsThePointsInAndAroundTheTileInOrder) {
-    const io::Frame frame = some_frame();
+    const io::FullScan frame = some_frame();
     const Tile tile{.level = 1, .x = 0, .y = -1};
     const Piece piece = cut(frame, tile, kEdge);
     std::size_t next = 0;
@@ -49,14 +49,14 @@ TEST(Piece, HoldsThePointsInAndAroundTheTileInOrder) {
 }
 
 TEST(Piece, OfTheOnlyTileIsAllThatWasMeasured) {
-    const io::Frame frame = some_frame();
+    const io::FullScan frame = some_frame();
     const Piece piece = cut(frame, {.is_whole = true}, kEdge);
     EXPECT_EQ(piece.points.size(), frame.points.size() - 3);
     EXPECT_EQ(labels_of(piece, frame.truth), piece.truth);
 }
 
 TEST(Piece, OutsideOfTheTileNothingIsScored) {
-    const io::Frame frame = some_frame();
+    const io::FullScan frame = some_frame();
     const Piece piece = cut(frame, {.level = 0, .x = 1, .y = -1}, kEdge);
     const auto scan = labelled_inside(piece, frame.T_world_sensor, {10.0, 0.0, 0.0});
     for (std::size_t i = 0; i < scan.points.size(); ++i) {

@@ -12,6 +12,7 @@ COVERED = {  # test -> the units that it covers
         "commands/serve commands/shared_options commands/simulate draw/animation draw/canvas export/convert_map export/sinks recording/frames recording/world_records run/run "
         "run/run_reports run/run_sequence run/run_state run/scored_scans run/write_scans",
     "export/tileset_test.cpp": "export/glb",
+    "formats/clouds/cloud_test.cpp": "formats/clouds/bin",
     "formats/clouds/las_test.cpp": "formats/clouds/las_header formats/clouds/las_writer",
     "live/dds_bus_test.cpp": "live/dds_log live/dds_type",
     "live/dds_peer_test.cpp": "live/dds_configuration",
@@ -19,6 +20,8 @@ COVERED = {  # test -> the units that it covers
     "live/session_test.cpp": "live/recorder",
     "page/page_test.cpp": "page/viewer_page",
     "recording/bag_scans_test.cpp": "recording/bag_contents recording/pose_source",
+    "recording/layout_test.cpp": "recording/layouts/beside recording/layouts/folder recording/layouts/kitti",
+    "recording/benchmark_test.cpp": "recording/layouts/benchmark",
     "run/city_test.sh": "commands/merge commands/plan run/city run/filter_tile run/filter_tiles run/merge run/run_city "
         "run/write_city",
     "run/edits_test.cpp": "run/apply_edits run/edit_lookup run/map_gaps run/run_edits",

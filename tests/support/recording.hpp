@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Small recordings on disk for the tests of sequences.
+/// Small recordings on disk for tests.
 #pragma once
 
 #include "dynamic_filter/recording.hpp"
@@ -8,7 +8,7 @@
 
 namespace dynamic_filter::io {
 
-class Recording : public testing::Test {
+class RecordingFiles : public testing::Test {
 protected:
     static std::string number(std::size_t i) {
         const std::string digits = std::to_string(i);
@@ -56,14 +56,14 @@ protected:
         std::filesystem::create_directories((data / name).parent_path());
         write_pcd(data / name, cloud);
     }
-    [[nodiscard]] Sequence open(const OpenOptions& options = {}) const {
-        return open_sequence(data.path(), options);
+    [[nodiscard]] Recording open(const OpenOptions& options = {}) const {
+        return open_recording(data.path(), options);
     }
     [[nodiscard]] std::string open_error(const OpenOptions& options = {}) const {
         return error_of([&] { (void)open(options); });
     }
-    static bool has_note(const Sequence& sequence, const std::string& part) {
-        for (const std::string& note : sequence.notes) {
+    static bool has_note(const Recording& recording, const std::string& part) {
+        for (const std::string& note : recording.info().notes) {
             if (note.find(part) != std::string::npos) return true;
         }
         return false;

@@ -8,6 +8,7 @@
 #include "base/text.hpp"
 #include "dynamic_filter/error.hpp"
 #include "formats/clouds/cloud_size.hpp"
+#include "formats/clouds/registry.hpp"
 
 namespace dynamic_filter::io {
 namespace {
@@ -25,62 +26,6 @@ const Field& coordinate(const Cloud& cloud, const char* name) {
     const Field* field = cloud.find(name);
     if (field == nullptr) throw Error(std::string("the cloud has no field '") + name + "'");
     return *field;
-}
-
-/// Likely reason for the size of a .bin file that is not a multiple of 16.
-std::string explain_bin_size(std::size_t bytes) {
-    if (bytes % 20 == 0) return "it looks like 5 floats a point (nuScenes); name it .pcd.bin";
-    if (bytes % 12 == 0) return "it looks like 3 floats a point (x y z); add an intensity";
-    return "it is truncated after point " + std::to_string(bytes / 16);
-}
-
-Cloud empty_bin(const std::filesystem::path& file) {
-    // NuScenes files end in .pcd.bin.
-    const bool has_ring = to_lower(file.stem().extension().string()) == ".pcd";
-    Cloud cloud;
-    for (const char* name : {"x", "y", "z", "intensity"}) add_field(cloud, name, FieldType::f32);
-    if (has_ring) add_field(cloud, "ring", FieldType::f32);
-    return cloud;
-}
-
-void refuse_bad_bin_size(const std::filesystem::path& file, std::size_t bytes) {
-    const std::size_t stride = empty_bin(file).point_bytes;
-    if (bytes == 0) {
-        throw InputError(file, "byte 0",
-                         "is empty; expected " + std::to_string(stride) + " bytes a point");
-    }
-    if (bytes % stride == 0) return;
-    throw InputError(
-        file, "byte " + std::to_string(bytes - bytes % stride),
-        "its size of " + std::to_string(bytes) + " bytes is no multiple of " +
-            std::to_string(stride) + " (float32 x y z intensity" +
-            (stride > 16 ? " ring); it is truncated" : "); " + explain_bin_size(bytes)));
-}
-
-using Reader = Cloud (*)(const std::filesystem::path&);
-
-const std::vector<std::pair<std::string, Reader>>& readers() {
-    static const std::vector<std::pair<std::string, Reader>> all = {
-        {".pcd", read_pcd},        {".ply", read_ply},        {".bin", read_bin},
-        {".las", read_las},        {".laz", read_las},        {".npy", read_npy},
-        {".xyz", read_text_cloud}, {".txt", read_text_cloud}, {".csv", read_text_cloud}};
-    return all;
-}
-
-Reader reader_of(const std::filesystem::path& file) {
-    const std::string extension = to_lower(file.extension().string());
-    for (const auto& [known, reader] : readers()) {
-        if (extension == known) return reader;
-    }
-    return nullptr;
-}
-
-std::string cloud_kinds() {
-    std::string kinds;
-    for (const auto& [extension, reader] : readers()) {
-        if (extension != ".laz") kinds += (kinds.empty() ? "" : ", ") + extension;
-    }
-    return kinds;
 }
 
 }  // namespace
@@ -177,31 +122,24 @@ Points positions(const Cloud& cloud) {
     return points;
 }
 
-Cloud read_bin(const std::filesystem::path& file) {
-    Cloud cloud = empty_bin(file);
-    cloud.data = read_bytes(file);
-    refuse_bad_bin_size(file, cloud.data.size());
-    return cloud;
-}
-
 void refuse_bad_size(const std::filesystem::path& file) {
     std::error_code unknown;  // the reader reports the error
     const auto bytes = std::filesystem::file_size(file, unknown);
     if (unknown) return;
-    if (reader_of(file) == read_bin) refuse_bad_bin_size(file, static_cast<std::size_t>(bytes));
+    const CloudFormat* format = cloud_format_of(file);
+    if (format != nullptr && format->refuse_bad_size != nullptr) {
+        format->refuse_bad_size(file, static_cast<std::size_t>(bytes));
+    }
     if (bytes == 0) throw InputError(file, "byte 0", "is empty; expected a point cloud");
 }
 
 Cloud read_cloud(const std::filesystem::path& file) {
-    const Reader reader = reader_of(file);
-    if (reader == nullptr) {
-        throw InputError(file, "",
-                         "unknown kind of cloud; expected " + cloud_kinds() +
-                             (to_lower(file.extension().string()) == ".feather"
-                                  ? "; docs/formats.md has the lines that convert Argoverse 2"
-                                  : ""));
-    }
-    return reader(file);
+    if (const CloudFormat* format = cloud_format_of(file)) return format->read(file);
+    const bool is_arrow = to_lower(file.extension().string()) == ".feather";
+    throw InputError(
+        file, "",
+        "unknown kind of cloud; expected " + cloud_extensions(Purpose::read) +
+            (is_arrow ? "; docs/formats.md has the lines that convert Argoverse 2" : ""));
 }
 
 }  // namespace dynamic_filter::io

@@ -6,10 +6,10 @@
 #include <iterator>
 #include <optional>
 
-#include "base/text.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/writers.hpp"
 #include "formats/clouds/field_types.hpp"
+#include "formats/clouds/registry.hpp"
 
 namespace dynamic_filter::io {
 namespace {
@@ -175,56 +175,15 @@ std::string write_bin(const std::filesystem::path& path, const Cloud& cloud) {
     return note;
 }
 
-namespace {
-
-using Writer = Written (*)(const std::filesystem::path&, const Cloud&);
-
-template <std::string (*write)(const std::filesystem::path&, const Cloud&)>
-Written write_all(const std::filesystem::path& path, const Cloud& cloud) {
-    return {cloud.size(), write(path, cloud)};
+bool can_write_cloud(const std::filesystem::path& path) {
+    const CloudFormat* format = cloud_format_of(path);
+    return format != nullptr && format->write != nullptr;
 }
 
-std::string write_binary_pcd(const std::filesystem::path& path, const Cloud& cloud) {
-    write_pcd(path, cloud);
-    return "";
-}
-
-const std::vector<std::pair<std::string, Writer>>& writers() {
-    static const std::vector<std::pair<std::string, Writer>> all = {
-        {".pcd", write_all<write_binary_pcd>},
-        {".ply", write_all<write_ply>},
-        {".las", write_las},
-        {".npy", write_all<write_npy>},
-        {".bin", write_all<write_bin>},
-        {".xyz", write_all<write_text_cloud>},
-        {".txt", write_all<write_text_cloud>},
-        {".csv", write_all<write_text_cloud>}};
-    return all;
-}
-
-/// Returns nullptr if the extension is not that of a cloud.
-Writer writer_for(const std::filesystem::path& path) {
-    const std::string extension = to_lower(path.extension().string());
-    for (const auto& [known, writer] : writers()) {
-        if (extension == known) return writer;
-    }
-    return nullptr;
-}
-
-}  // namespace
-
-bool can_write_cloud(const std::filesystem::path& path) { return writer_for(path) != nullptr; }
-
-std::string cloud_kinds_written() {
-    std::string kinds;
-    for (const auto& [extension, writer] : writers()) {
-        kinds += (kinds.empty() ? "" : ", ") + extension;
-    }
-    return kinds;
-}
+std::string cloud_kinds_written() { return cloud_extensions(Purpose::write); }
 
 Written write_cloud(const std::filesystem::path& path, const Cloud& cloud) {
-    if (const Writer write = writer_for(path)) return write(path, cloud);
+    if (can_write_cloud(path)) return cloud_format_of(path)->write(path, cloud);
     throw OutputError(path, "unknown kind of cloud; expected " + cloud_kinds_written());
 }
 

@@ -95,16 +95,16 @@ void add_stamps(Layout& layout, const Rows& rows) {
 
 }  // namespace
 
-std::optional<Layout> find_apollo(const fs::path& data, const OpenOptions& options) {
-    const auto folder = apollo_scan_folder(data);
-    const auto file = folder ? pose_file_of(data, options) : std::nullopt;
+std::optional<Layout> find_apollo(const Place& place) {
+    const auto folder = apollo_scan_folder(place.data);
+    const auto file = folder ? pose_file_of(place.data, place.options) : std::nullopt;
     if (!file) return std::nullopt;
     Layout layout;
     layout.scan_folder = *folder;
     layout.scans = list_files(*folder, {".pcd"});
     const Rows rows = read_rows(*file);
     add_stamps(layout, rows);
-    if (options.without_poses) return layout;
+    if (place.options.without_poses) return layout;
     std::size_t found = 0;
     for (const fs::path& scan : layout.scans) {
         const auto index = index_of(scan);

@@ -6,7 +6,7 @@
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
 #include "recording/folders.hpp"
-#include "recording/layouts/layouts.hpp"
+#include "recording/layouts/beside.hpp"
 #include "recording/layouts/matrix.hpp"
 
 namespace dynamic_filter::io {
@@ -50,10 +50,12 @@ bool is_submap(const fs::path& folder) {
 
 }  // namespace
 
-std::optional<Layout> find_glim(const fs::path& data) {
+std::optional<Layout> find_glim(const Place& place) {
+    if (prefers_other_poses(place)) return std::nullopt;
     Layout layout;
-    layout.scan_folder = data;
-    for (const fs::path& folder : list_folders(data)) {
+    layout.scan_folder = place.data;
+    layout.read = read_submap;
+    for (const fs::path& folder : list_folders(place.data)) {
         if (!is_submap(folder)) continue;
         const Submap submap = read_data(folder / "data.txt");
         layout.scans.push_back(folder);
@@ -67,6 +69,7 @@ std::optional<Layout> find_glim(const fs::path& data) {
     layout.notes.emplace_back(
         "GLIM's submaps are taken as scans seen from their origins; they were merged from scans "
         "of several places, so prefer the scans themselves if you have them");
+    if (has_given_poses(layout, place)) layout.T_world_sensor.clear();
     return layout;
 }
 

@@ -115,11 +115,11 @@ std::string what_is_missing(const fs::path& poses, const fs::path& calibration) 
 
 }  // namespace
 
-std::optional<Layout> find_kitti_360(const fs::path& data, const OpenOptions& options) {
-    const auto drive = find_drive(data);
+std::optional<Layout> find_kitti_360(const Place& place) {
+    const auto drive = find_drive(place.data);
     if (!drive) return std::nullopt;
     Layout layout = scans_of_drive(*drive);
-    if (needs_no_poses(layout, options)) return layout;
+    if (needs_no_poses(layout, place.options)) return layout;
     const fs::path root = drive->parent_path().parent_path();
     const fs::path poses = root / "data_poses" / drive->filename() / "poses.txt";
     if (const std::string missing = what_is_missing(poses, root / "calibration");

@@ -127,11 +127,11 @@ std::vector<Pose> poses_of(const Layout& layout, const fs::path& folder, const P
 
 }  // namespace
 
-std::optional<Layout> find_kitti_raw(const fs::path& data, const OpenOptions& options) {
-    const auto drive = drive_of(data);
+std::optional<Layout> find_kitti_raw(const Place& place) {
+    const auto drive = drive_of(place.data);
     if (!drive) return std::nullopt;
     Layout layout = scans_of_drive(*drive);
-    if (needs_no_poses(layout, options)) return layout;
+    if (needs_no_poses(layout, place.options)) return layout;
     const fs::path oxts = *drive / "oxts" / "data";
     if (!is_folder(oxts)) {
         layout.notes.push_back("no poses found; looked for the files of " + oxts.string() +

@@ -9,7 +9,7 @@
 #include "dynamic_filter/poses.hpp"
 #include "formats/poses/rigid.hpp"
 #include "recording/folders.hpp"
-#include "recording/layouts/layouts.hpp"
+#include "recording/layouts/beside.hpp"
 
 namespace dynamic_filter::io {
 namespace {
@@ -52,24 +52,27 @@ double stamp_of(const fs::path& scan) {
 
 }  // namespace
 
-std::optional<Layout> find_mulran(const fs::path& data, const OpenOptions& options) {
-    const fs::path root = mulran_root(data), poses = root / "global_pose.csv";
+std::optional<Layout> find_mulran(const Place& place) {
+    const fs::path root = mulran_root(place.data), poses = root / "global_pose.csv";
     const auto folder = mulran_scan_folder(root);
     if (!folder || !present(poses)) return std::nullopt;
     std::error_code ignored;
-    if (options.poses && !fs::equivalent(*options.poses, poses, ignored)) return std::nullopt;
+    const auto& given = place.options.poses;
+    const bool is_own = !given || fs::equivalent(*given, poses, ignored);
+    if (!is_own && prefers_other_poses(place)) return std::nullopt;
     Layout layout;
     layout.scan_folder = *folder;
     layout.scans = list_files(*folder, {".bin"});
     if (layout.scans.empty()) throw InputError(*folder, "", "no *.bin found");
+    for (const fs::path& scan : layout.scans) layout.stamps.push_back(stamp_of(scan));
+    if (!is_own && has_given_poses(layout, place)) return layout;
     PoseFile file = read_poses(poses);
     if (file.stamps.empty()) throw InputError(poses, "", "has no stamps; expected MulRan's file");
     Trajectory trajectory{std::move(file.stamps), std::move(file.poses)};
     put_in_order(trajectory);
     std::size_t lost = 0;
-    for (const fs::path& scan : layout.scans) {
-        layout.stamps.push_back(stamp_of(scan));
-        const auto pose = pose_at(trajectory, layout.stamps.back());
+    for (const double stamp : layout.stamps) {
+        const auto pose = pose_at(trajectory, stamp);
         if (!pose) ++lost;
         layout.T_world_sensor.push_back(pose ? *pose * T_vehicle_sensor() : lost_pose());
     }

@@ -10,7 +10,7 @@
 #include "dynamic_filter/file.hpp"
 #include "formats/poses/rigid.hpp"
 #include "recording/folders.hpp"
-#include "recording/layouts/layouts.hpp"
+#include "recording/layouts/beside.hpp"
 
 namespace dynamic_filter::io {
 namespace {
@@ -135,7 +135,9 @@ std::map<std::string, Pose> poses_of(const fs::path& file, const std::vector<Swe
 
 }  // namespace
 
-std::optional<Layout> find_nuscenes(const fs::path& data) {
+std::optional<Layout> find_nuscenes(const Place& place) {
+    if (prefers_other_poses(place)) return std::nullopt;
+    const fs::path data = without_slash(place.data);
     const bool names_scene = !present(data);
     const fs::path root = names_scene ? data.parent_path() : nuscenes_root(data);
     const auto tables = tables_of(root);
@@ -144,16 +146,19 @@ std::optional<Layout> find_nuscenes(const fs::path& data) {
         scene_token(*tables, names_scene ? data.filename().string() : std::string());
     const std::vector<SweepEntry> sweeps = sweeps_of(root, *tables, scene);
     if (sweeps.empty()) throw InputError(*tables, "", "the scene has no scan of LIDAR_TOP");
-    const auto ego = poses_of(*tables / "ego_pose.json", sweeps, &SweepEntry::ego);
-    const auto sensor = poses_of(*tables / "calibrated_sensor.json", sweeps, &SweepEntry::sensor);
     Layout layout;
     layout.scan_folder = root;
     for (const SweepEntry& sweep : sweeps) {
         layout.scans.push_back(sweep.file);
         layout.stamps.push_back(sweep.stamp);
-        layout.T_world_sensor.push_back(ego.at(sweep.ego) * sensor.at(sweep.sensor));
     }
     layout.notes.push_back("scans and poses of LIDAR_TOP from " + tables->string());
+    if (has_given_poses(layout, place)) return layout;
+    const auto ego = poses_of(*tables / "ego_pose.json", sweeps, &SweepEntry::ego);
+    const auto sensor = poses_of(*tables / "calibrated_sensor.json", sweeps, &SweepEntry::sensor);
+    for (const SweepEntry& sweep : sweeps) {
+        layout.T_world_sensor.push_back(ego.at(sweep.ego) * sensor.at(sweep.sensor));
+    }
     return layout;
 }
 

@@ -3,7 +3,7 @@
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
 #include "recording/folders.hpp"
-#include "recording/layouts/layouts.hpp"
+#include "recording/layouts/beside.hpp"
 #include "recording/layouts/matrix.hpp"
 
 namespace dynamic_filter::io {
@@ -42,19 +42,23 @@ fs::path other_half(const fs::path& file, const char* extension) {
 
 }  // namespace
 
-std::optional<Layout> find_pairs(const fs::path& data) {
+std::optional<Layout> find_pairs(const Place& place) {
+    if (prefers_other_poses(place)) return std::nullopt;
     std::error_code ignored;
-    const Paths odometry = list_files(data, {".odom"}, ignored);
+    const Paths odometry = list_files(place.data, {".odom"}, ignored);
     if (odometry.empty()) return std::nullopt;
     Layout layout;
-    layout.scan_folder = data;
-    layout.scans = list_files(data, {".pcd"});
+    layout.scan_folder = place.data;
+    layout.scans = list_files(place.data, {".pcd"});
     for (const fs::path& file : odometry) (void)other_half(file, ".pcd");
     for (const fs::path& scan : layout.scans) {
-        layout.T_world_sensor.push_back(read_odom(other_half(scan, ".odom")));
         if (const auto stamp = stamp_of(scan.stem().string())) layout.stamps.push_back(*stamp);
     }
     if (layout.stamps.size() != layout.scans.size()) layout.stamps.clear();
+    if (has_given_poses(layout, place)) return layout;
+    for (const fs::path& scan : layout.scans) {
+        layout.T_world_sensor.push_back(read_odom(other_half(scan, ".odom")));
+    }
     layout.notes.emplace_back("poses from the .odom file beside each scan");
     return layout;
 }

@@ -24,7 +24,7 @@ TEST(Packets, AreNamedWithTheirDriver) {
     const std::string messages =
         mcap::message(1, 5, std::string(99, 'x')) + mcap::message(2, 6, std::string(99, 'x'));
     const auto file = data.put("raw.mcap", mcap::file(packets + messages));
-    const std::string error = error_of([&] { (void)open_sequence(file); });
+    const std::string error = error_of([&] { (void)open_recording(file); });
     EXPECT_HAS(error, "holds no point clouds");
     EXPECT_HAS(error, "/velodyne_packets holds raw packets (velodyne_msgs/");
     EXPECT_HAS(error, "velodyne_pointcloud");
@@ -32,7 +32,7 @@ TEST(Packets, AreNamedWithTheirDriver) {
     EXPECT_HAS(error, "ouster_ros");
     OpenOptions options;
     options.topic = "/velodyne_packets";
-    EXPECT_HAS(error_of<ConfigError>([&] { (void)open_sequence(file, options); }), "raw packets");
+    EXPECT_HAS(error_of<ConfigError>([&] { (void)open_recording(file, options); }), "raw packets");
 }
 
 }  // namespace packets_test

@@ -6,7 +6,7 @@ namespace dynamic_filter::io {
 namespace apollo_test {
 
 /// Scans 1 to 11, in the order 1, 10, 11, 2... of the alphabet; a row for each, in another order.
-class Apollo : public Recording {
+class Apollo : public RecordingFiles {
 protected:
     void SetUp() override {
         for (std::size_t i = 1; i <= 11; ++i) put_pcd("pcds/" + std::to_string(i) + ".pcd", 0, 0);
@@ -23,38 +23,38 @@ protected:
 };
 
 TEST_F(Apollo, PosesAndStampsAreThoseOfTheScansNumber) {
-    const Sequence sequence = open();
-    ASSERT_EQ(sequence.size(), 11U);
-    EXPECT_EQ(stem(sequence, 9), "10");
-    const Pose& pose = sequence.T_world_sensor[9];
+    const Recording recording = open();
+    ASSERT_EQ(recording.size(), 11U);
+    EXPECT_EQ(stem(recording, 9), "10");
+    const Pose& pose = recording.info().T_world_sensor[9];
     EXPECT_EQ(pose.translation(), Eigen::Vector3d(5, 20, 7));
     EXPECT_TRUE(
         pose.linear().isApprox(Eigen::Vector3d(-1, -1, 1).asDiagonal().toDenseMatrix(), 1e-12));
-    EXPECT_NEAR(sequence.stamps[9], 1500000001.0, 1e-6);
-    EXPECT_TRUE(sequence.measured_stamps);
-    EXPECT_TRUE(has_note(sequence, "by the scans' numbers"));
-    EXPECT_EQ(read_frame(sequence, 0).points.size(), 2U);
+    EXPECT_NEAR(recording.info().stamps[9], 1500000001.0, 1e-6);
+    EXPECT_TRUE(recording.info().measured_stamps);
+    EXPECT_TRUE(has_note(recording, "by the scans' numbers"));
+    EXPECT_EQ(recording.read(0).points.size(), 2U);
     OpenOptions options;
     options.without_poses = true;
-    EXPECT_FALSE(open(options).has_poses);
-    EXPECT_TRUE(open(options).measured_stamps);
+    EXPECT_FALSE(open(options).info().has_poses);
+    EXPECT_TRUE(open(options).info().measured_stamps);
     options.without_poses = false;
     options.poses = data.put("other.txt", kitti_rows(11));
-    options.format = Format::folder;
-    EXPECT_EQ(open(options).T_world_sensor[1].translation().x(), 1.0);
+    options.layout = "folder";
+    EXPECT_EQ(open(options).info().T_world_sensor[1].translation().x(), 1.0);
 }
 
 TEST_F(Apollo, RowsThatAreMissingAreLostPoses) {
     data.put("poses.txt", row(2) + row(1));
-    const Sequence sequence = open();
-    EXPECT_TRUE(has_note(sequence, "9 of 11 scans have no pose"));
-    EXPECT_TRUE(has_note(sequence, "3.pcd has no row there"));
-    EXPECT_FALSE(sequence.measured_stamps);
-    EXPECT_EQ(sequence.T_world_sensor[1].translation().y(), 4.0);
+    const Recording recording = open();
+    EXPECT_TRUE(has_note(recording, "9 of 11 scans have no pose"));
+    EXPECT_TRUE(has_note(recording, "3.pcd has no row there"));
+    EXPECT_FALSE(recording.info().measured_stamps);
+    EXPECT_EQ(recording.info().T_world_sensor[1].translation().y(), 4.0);
     std::filesystem::rename(data / "poses.txt", data / "elsewhere.txt");
     OpenOptions options;
     options.poses = data / "elsewhere.txt";
-    EXPECT_EQ(open(options).T_world_sensor[1].translation().y(), 4.0);
+    EXPECT_EQ(open(options).info().T_world_sensor[1].translation().y(), 4.0);
 }
 
 TEST_F(Apollo, FaultsAreNamedWithFileAndLine) {

@@ -5,13 +5,13 @@
 namespace dynamic_filter::io {
 namespace argoverse_test {
 
-using Argoverse = Recording;
+using Argoverse = RecordingFiles;
 
 TEST_F(Argoverse, LogsAreRefusedWithWhatToDo) {
     data.put("sensors/lidar/315966265259836000.feather", "ARROW1");
     data.put("city_SE3_egovehicle.feather", "ARROW1");
     for (const char* given : {"", "sensors", "sensors/lidar"}) {
-        const std::string error = error_of([&] { (void)open_sequence(data / given); });
+        const std::string error = error_of([&] { (void)open_recording(data / given); });
         EXPECT_HAS(error, "Argoverse 2");
         EXPECT_HAS(error, "docs/formats.md");
     }
@@ -19,7 +19,7 @@ TEST_F(Argoverse, LogsAreRefusedWithWhatToDo) {
     std::filesystem::rename(data / "sensors", data / "av2/val/LOG/sensors");
     std::filesystem::remove(data / "city_SE3_egovehicle.feather");
     for (const char* given : {"av2", "av2/val", "av2/val/LOG"}) {
-        EXPECT_HAS(error_of([&] { (void)open_sequence(data / given); }), "Argoverse 2");
+        EXPECT_HAS(error_of([&] { (void)open_recording(data / given); }), "Argoverse 2");
     }
     const auto file = data / "av2/val/LOG/sensors/lidar/315966265259836000.feather";
     EXPECT_HAS(error_of([&] { (void)read_cloud(file); }), "Argoverse 2");

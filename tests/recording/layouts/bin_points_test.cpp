@@ -6,7 +6,7 @@ namespace dynamic_filter::io {
 namespace bin_points_test {
 
 /// Files with 5, 6, 7... points of so many floats each.
-class BinPoints : public Recording {
+class BinPoints : public RecordingFiles {
 protected:
     void put_points(const std::string& folder, std::size_t floats_per_point, int files) const {
         for (int i = 0; i < files; ++i) {
@@ -38,9 +38,9 @@ TEST_F(BinPoints, OtherThanFourFloatsAreNamedBeforeAnythingIsRead) {
 TEST_F(BinPoints, ATruncatedFileAmongOthersIsLeftToTheReader) {
     put_points("velodyne", 4, 8);
     data.put("velodyne/103.bin", std::string(5 * 16 + 5, '\0'));
-    const Sequence sequence = open();
-    EXPECT_EQ(sequence.size(), 8U);
-    EXPECT_HAS(error_of([&] { (void)read_frame(sequence, 3); }), "truncated after point 5");
+    const Recording recording = open();
+    EXPECT_EQ(recording.size(), 8U);
+    EXPECT_HAS(error_of([&] { (void)recording.read(3); }), "truncated after point 5");
 }
 
 TEST_F(BinPoints, SizesOfVeryFewFilesProveNothing) {

@@ -7,7 +7,7 @@
 namespace dynamic_filter::io {
 namespace drive_test {
 
-class Drive : public Recording {
+class Drive : public RecordingFiles {
 protected:
     void SetUp() override { put_bins("d/velodyne_points/data", 3); }
 };

@@ -5,7 +5,7 @@
 namespace dynamic_filter::io {
 namespace glim_test {
 
-using Glim = Recording;
+using Glim = RecordingFiles;
 
 TEST_F(Glim, SubmapsAreScans) {
     const auto submap = [](const std::string& x) {
@@ -19,17 +19,17 @@ TEST_F(Glim, SubmapsAreScans) {
     data.put("000001/data.txt", submap("2"));
     data.put("000001/points_compact.bin", floats({1, 2, 3}));
     data.put("000001/intensities_compact.bin", floats({0.5F}));
-    const Sequence sequence = open();
-    ASSERT_EQ(sequence.size(), 2U);
-    EXPECT_EQ(stem(sequence, 1), "000001");
-    EXPECT_EQ(sequence.T_world_sensor[1].translation().x(), 2.0);
-    EXPECT_EQ(sequence.stamps, (std::vector<double>{1.5, 2.5}));
-    EXPECT_EQ(read_frame(sequence, 0).points, (Points{{1, 2, 3}, {4, 5, 6}}));
-    EXPECT_EQ(column(read_frame(sequence, 1).cloud, "intensity"), std::vector<double>{0.5});
+    const Recording recording = open();
+    ASSERT_EQ(recording.size(), 2U);
+    EXPECT_EQ(stem(recording, 1), "000001");
+    EXPECT_EQ(recording.info().T_world_sensor[1].translation().x(), 2.0);
+    EXPECT_EQ(recording.info().stamps, (std::vector<double>{1.5, 2.5}));
+    EXPECT_EQ(recording.read(0).points, (Points{{1, 2, 3}, {4, 5, 6}}));
+    EXPECT_EQ(column(recording.read(1).cloud, "intensity"), std::vector<double>{0.5});
     data.put("000001/intensities_compact.bin", floats({0.5F, 1}));
-    EXPECT_HAS(error_of([&] { (void)read_frame(sequence, 1); }), "8 bytes");
+    EXPECT_HAS(error_of([&] { (void)recording.read(1); }), "8 bytes");
     data.put("000000/points_compact.bin", "truncated");
-    EXPECT_HAS(error_of([&] { (void)read_frame(sequence, 0); }), "multiple of 12");
+    EXPECT_HAS(error_of([&] { (void)recording.read(0); }), "multiple of 12");
     data.put("000000/data.txt", "id: 0\nT_world_origin: \n1 0 0 0\n");
     EXPECT_HAS(open_error(), "1 rows");
     data.put("000000/data.txt", "id: 0\nstamp: 1\n");

@@ -11,7 +11,7 @@ namespace kitti_raw_test {
 constexpr double degree = std::numbers::pi / 180.0;
 
 /// A drive of three scans, heading north-east, 1e-5 degrees of latitude and longitude a scan.
-class KittiRaw : public Recording {
+class KittiRaw : public RecordingFiles {
 protected:
     static std::string scan_name(std::size_t i) { return "000000000" + std::to_string(i); }
     void SetUp() override {
@@ -38,8 +38,8 @@ protected:
         data.put("day/calib_imu_to_velo.txt",
                  "calib_time: 25-May-2012 16:47:16\nR: 0 -1 0 1 0 0 0 0 1\nT: 0.5 0.25 -1\n");
     }
-    [[nodiscard]] Sequence drive(const OpenOptions& options = {}) const {
-        return open_sequence(data / "day/drive", options);
+    [[nodiscard]] Recording drive(const OpenOptions& options = {}) const {
+        return open_recording(data / "day/drive", options);
     }
     [[nodiscard]] std::string drive_error() const {
         return error_of([&] { (void)drive(); });
@@ -68,71 +68,72 @@ Eigen::Vector3d way_to(int i) {
 
 TEST_F(KittiRaw, PosesAreThoseOfTheDevelopmentKit) {
     put_calibration();
-    const Sequence sequence = drive();
-    ASSERT_EQ(sequence.size(), 3U);
-    EXPECT_TRUE(sequence.has_poses);
-    EXPECT_EQ(stem(sequence, 2), scan_name(2));
+    const Recording recording = drive();
+    ASSERT_EQ(recording.size(), 3U);
+    EXPECT_TRUE(recording.info().has_poses);
+    EXPECT_EQ(stem(recording, 2), scan_name(2));
     // T_velo_imu = [R | T], so T_imu_velo = [R^T | -R^T T].
     Eigen::Matrix3d R_imu_velo;
     R_imu_velo << 0, 1, 0, -1, 0, 0, 0, 0, 1;
     for (int i = 0; i < 3; ++i) {
-        const Pose& pose = sequence.T_world_sensor[static_cast<std::size_t>(i)];
+        const Pose& pose = recording.info().T_world_sensor[static_cast<std::size_t>(i)];
         EXPECT_TRUE(pose.linear().isApprox(turned() * R_imu_velo, 1e-12));
         EXPECT_LT((pose.translation() - way_to(i)).norm(), 1e-6) << i;
     }
-    EXPECT_NEAR(sequence.stamps[0], 1317042145.951199337, 1e-6);
-    EXPECT_NEAR(sequence.stamps[2] - sequence.stamps[0], 0.2, 1e-6);
-    EXPECT_TRUE(has_note(sequence, "calib_imu_to_velo.txt"));
-    EXPECT_TRUE(has_note(sequence, "oxts"));
-    EXPECT_EQ(sequence.pose_source, data / "day/drive/oxts/data");
-    EXPECT_EQ(read_frame(sequence, 1).points, (Points{{1, 2, 3}}));
+    EXPECT_NEAR(recording.info().stamps[0], 1317042145.951199337, 1e-6);
+    EXPECT_NEAR(recording.info().stamps[2] - recording.info().stamps[0], 0.2, 1e-6);
+    EXPECT_TRUE(has_note(recording, "calib_imu_to_velo.txt"));
+    EXPECT_TRUE(has_note(recording, "oxts"));
+    EXPECT_EQ(recording.info().pose_source, data / "day/drive/oxts/data");
+    EXPECT_EQ(recording.read(1).points, (Points{{1, 2, 3}}));
 }
 
 TEST_F(KittiRaw, WithoutCalibrationTheUsualPlaceIsTakenAndSaid) {
     // The vehicle turns on the spot by a quarter, so what differs is the lever arm.
     put_oxts(0, "49 8 110 0 0 0\n");
     put_oxts(1, "49 8 110 0 0 1.5707963267948966\n");
-    const Sequence sequence = drive();
-    EXPECT_TRUE(has_note(sequence, "0.81 m in front of"));
+    const Recording recording = drive();
+    EXPECT_TRUE(has_note(recording, "0.81 m in front of"));
     const Eigen::Vector3d expected(0.32 - 0.81, 0.81 + 0.32, 0.0);
-    EXPECT_LT((sequence.T_world_sensor[1].translation() - expected).norm(), 1e-9);
+    EXPECT_LT((recording.info().T_world_sensor[1].translation() - expected).norm(), 1e-9);
 }
 
 TEST_F(KittiRaw, TheFolderOfTheScansMayBeGivenAndOtherPoses) {
-    EXPECT_EQ(open_sequence(data / "day/drive/velodyne_points").T_world_sensor.size(), 3U);
-    EXPECT_EQ(open_sequence(data / "day/drive/velodyne_points/data/").T_world_sensor.size(), 3U);
-    EXPECT_EQ(open_sequence(data / "day").T_world_sensor.size(), 3U);  // the only drive
+    EXPECT_EQ(open_recording(data / "day/drive/velodyne_points").info().T_world_sensor.size(), 3U);
+    EXPECT_EQ(open_recording(data / "day/drive/velodyne_points/data/").info().T_world_sensor.size(),
+              3U);
+    EXPECT_EQ(open_recording(data / "day").info().T_world_sensor.size(), 3U);  // the only drive
     OpenOptions options;
     options.poses = data.put("other.txt", kitti_rows(3));
-    EXPECT_EQ(drive(options).T_world_sensor[2].translation().x(), 2.0);
-    EXPECT_NEAR(drive(options).stamps[1] - drive(options).stamps[0], 0.1, 1e-6);
+    EXPECT_EQ(drive(options).info().T_world_sensor[2].translation().x(), 2.0);
+    EXPECT_NEAR(drive(options).info().stamps[1] - drive(options).info().stamps[0], 0.1, 1e-6);
     options.poses.reset();
     options.without_poses = true;
-    EXPECT_FALSE(drive(options).has_poses);
-    EXPECT_TRUE(drive(options).measured_stamps);
+    EXPECT_FALSE(drive(options).info().has_poses);
+    EXPECT_TRUE(drive(options).info().measured_stamps);
 }
 
 TEST_F(KittiRaw, WithoutOxtsThereAreNoPosesAndTheNoteOffersWhatMayBeSome) {
     std::filesystem::remove_all(data / "day/drive/oxts");
     data.put("day/drive/mine.txt", tum_rows(3));
     data.put("day/drive/longer.txt", tum_rows(4));
-    const Sequence sequence = drive();
-    EXPECT_FALSE(sequence.has_poses);
-    EXPECT_TRUE(has_note(sequence, "no poses found"));
-    EXPECT_TRUE(has_note(sequence, "--poses " + (data / "day/drive/mine.txt").string()));
-    EXPECT_FALSE(has_note(sequence, "longer.txt"));
-    EXPECT_TRUE(sequence.measured_stamps);
+    const Recording recording = drive();
+    EXPECT_FALSE(recording.info().has_poses);
+    EXPECT_TRUE(has_note(recording, "no poses found"));
+    EXPECT_TRUE(has_note(recording, "--poses " + (data / "day/drive/mine.txt").string()));
+    EXPECT_FALSE(has_note(recording, "longer.txt"));
+    EXPECT_TRUE(recording.info().measured_stamps);
 }
 
 TEST_F(KittiRaw, WhatIsMissingInBetweenIsMatchedByItsNumber) {
     std::filesystem::remove(data / "day/drive/velodyne_points/data/0000000001.bin");
-    const Sequence sequence = drive();
-    ASSERT_EQ(sequence.size(), 2U);
-    EXPECT_LT((sequence.T_world_sensor[1].translation() - way_to(2)).norm(), 1e-6);
-    EXPECT_NEAR(sequence.stamps[1] - sequence.stamps[0], 0.2, 1e-6);
+    const Recording recording = drive();
+    ASSERT_EQ(recording.size(), 2U);
+    EXPECT_LT((recording.info().T_world_sensor[1].translation() - way_to(2)).norm(), 1e-6);
+    EXPECT_NEAR(recording.info().stamps[1] - recording.info().stamps[0], 0.2, 1e-6);
     std::filesystem::remove(data / "day/drive/oxts/data/0000000002.txt");
     EXPECT_TRUE(has_note(drive(), "1 of 2 scans have no pose"));
-    EXPECT_FALSE(drive().T_world_sensor[1].matrix().allFinite());
+    EXPECT_FALSE(drive().info().T_world_sensor[1].matrix().allFinite());
     std::filesystem::remove(data / "day/drive/oxts/data/0000000000.txt");
     EXPECT_HAS(drive_error(), "no file of the name of any scan");
 }
@@ -166,7 +167,7 @@ TEST_F(KittiRaw, FaultsAreNamedWithFileAndLine) {
 
 TEST_F(KittiRaw, SeveralDrivesAreNamed) {
     data.put("day/later/velodyne_points/data/0000000000.bin", floats({1, 2, 3, 4}));
-    const std::string error = error_of([&] { (void)open_sequence(data / "day"); });
+    const std::string error = error_of([&] { (void)open_recording(data / "day"); });
     EXPECT_HAS(error, "drive (3 files), later (1 files)");
 }
 

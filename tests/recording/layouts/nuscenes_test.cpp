@@ -20,7 +20,7 @@ std::string sweep(const std::string& file, const std::string& time, const std::s
                            R"(", "calibrated_sensor_token": "top")");
 }
 
-class Nuscenes : public Recording {
+class Nuscenes : public RecordingFiles {
 protected:
     void SetUp() override {
         table("scene", entry("s1", R"("name": "scene-0001")") + "," +
@@ -42,28 +42,29 @@ protected:
         data.put("v1.0-mini/" + name + ".json", "[" + entries + "]");
     }
     [[nodiscard]] std::string scene_error() const {
-        return error_of([&] { (void)open_sequence(data / "scene-0001"); });
+        return error_of([&] { (void)open_recording(data / "scene-0001"); });
     }
 };
 
 TEST_F(Nuscenes, OneScene) {
-    const Sequence sequence = open_sequence(data / "scene-0001");
-    ASSERT_EQ(sequence.size(), 2U);
-    EXPECT_EQ(sequence.stamps, (std::vector<double>{1.0, 1.5}));
-    EXPECT_DOUBLE_EQ(sequence.T_world_sensor[0].translation().x(), 1.5);
-    EXPECT_DOUBLE_EQ(sequence.T_world_sensor[1].translation().x(), 1.5);  // half a turn about z
-    const Frame frame = read_frame(sequence, 0);
+    const Recording recording = open_recording(data / "scene-0001");
+    ASSERT_EQ(recording.size(), 2U);
+    EXPECT_EQ(recording.info().stamps, (std::vector<double>{1.0, 1.5}));
+    EXPECT_DOUBLE_EQ(recording.info().T_world_sensor[0].translation().x(), 1.5);
+    EXPECT_DOUBLE_EQ(recording.info().T_world_sensor[1].translation().x(),
+                     1.5);  // half a turn about z
+    const FullScan frame = recording.read(0);
     EXPECT_EQ(frame.points, (Points{{1, 2, 3}}));
     EXPECT_EQ(column(frame.cloud, "ring"), std::vector<double>{5});
-    EXPECT_HAS(error_of([&] { (void)read_frame(sequence, 1); }), "multiple of 20");
+    EXPECT_HAS(error_of([&] { (void)recording.read(1); }), "multiple of 20");
 }
 
 TEST_F(Nuscenes, Faults) {
     EXPECT_HAS(open_error(), "scene-0001, scene-0002");
-    EXPECT_HAS(error_of([&] { (void)open_sequence(data / "scene-9"); }),
+    EXPECT_HAS(error_of([&] { (void)open_recording(data / "scene-9"); }),
                "has no scene-9; choose a scene");
     for (const char* given : {"v1.0-mini", "samples", "samples/LIDAR_TOP", "sweeps/LIDAR_TOP/"}) {
-        EXPECT_HAS(error_of([&] { (void)open_sequence(data / given); }),
+        EXPECT_HAS(error_of([&] { (void)open_recording(data / given); }),
                    (data / "scene-0061").string() + "; there are: scene-0001, scene-0002");
     }
     table("ego_pose", pose_entry("e1", "1", "1, 0, 0, 0"));

@@ -5,7 +5,7 @@
 namespace dynamic_filter::io {
 namespace pairs_test {
 
-using Pairs = Recording;
+using Pairs = RecordingFiles;
 
 std::string odom(double x) {
     return "1 0 0 " + std::to_string(x) + "\n0 1 0 0\n0 0 1 0\n0 0 0 1\n";
@@ -16,16 +16,16 @@ TEST_F(Pairs, PosesAreInTheFilesBesideTheScans) {
     put_pcd("1500000001_000000000.pcd", 0, 0);
     data.put("1500000000_900000000.odom", odom(3));
     data.put("1500000001_000000000.odom", odom(4));
-    const Sequence sequence = open();
-    ASSERT_EQ(sequence.size(), 2U);
-    EXPECT_TRUE(has_note(sequence, ".odom"));
-    EXPECT_EQ(sequence.T_world_sensor[1].translation().x(), 4.0);
-    EXPECT_NEAR(sequence.stamps[1] - sequence.stamps[0], 0.1, 1e-6);
-    EXPECT_TRUE(sequence.measured_stamps);
-    EXPECT_EQ(read_frame(sequence, 0).points.size(), 2U);
+    const Recording recording = open();
+    ASSERT_EQ(recording.size(), 2U);
+    EXPECT_TRUE(has_note(recording, ".odom"));
+    EXPECT_EQ(recording.info().T_world_sensor[1].translation().x(), 4.0);
+    EXPECT_NEAR(recording.info().stamps[1] - recording.info().stamps[0], 0.1, 1e-6);
+    EXPECT_TRUE(recording.info().measured_stamps);
+    EXPECT_EQ(recording.read(0).points.size(), 2U);
     OpenOptions options;
     options.poses = data.put("p.txt", kitti_rows(2));
-    EXPECT_EQ(open(options).T_world_sensor[1].translation().x(), 1.0);
+    EXPECT_EQ(open(options).info().T_world_sensor[1].translation().x(), 1.0);
 }
 
 TEST_F(Pairs, FaultsAreNamed) {
@@ -49,7 +49,7 @@ TEST_F(Pairs, FaultsAreNamed) {
     EXPECT_HAS(open_error(), "no c.pcd");
     std::filesystem::remove(data / "c.odom");
     put_pcd("a.PCD", 0, 0);  // two scans, one pose
-    EXPECT_EQ(open().T_world_sensor.size(), 2U);
+    EXPECT_EQ(open().info().T_world_sensor.size(), 2U);
 }
 
 }  // namespace pairs_test

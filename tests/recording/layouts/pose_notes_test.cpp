@@ -7,7 +7,7 @@
 namespace dynamic_filter::io {
 namespace pose_notes_test {
 
-using PoseNotes = Recording;
+using PoseNotes = RecordingFiles;
 
 TEST_F(PoseNotes, FilesWithAsManyRowsAsScansAreOffered) {
     const auto fits = data.put("gt.txt", "# x y\n" + kitti_rows(3));

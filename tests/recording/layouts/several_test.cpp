@@ -5,7 +5,7 @@
 namespace dynamic_filter::io {
 namespace several_test {
 
-using Several = Recording;
+using Several = RecordingFiles;
 
 TEST_F(Several, HelimosAsksForTheSensor) {
     for (const char* sensor : {"Velodyne", "Avia"}) {
@@ -14,8 +14,9 @@ TEST_F(Several, HelimosAsksForTheSensor) {
         data.put(std::string(sensor) + "/calib.txt", "Tr: 1 0 0 0 0 1 0 0 0 0 1 0\n");
     }
     EXPECT_HAS(open_error(), "Avia, Velodyne");
-    const Sequence sequence = open_sequence(data / "Avia");
-    EXPECT_TRUE(sequence.T_world_sensor[1].isApprox(Pose(Eigen::Translation3d(1, 0, 0)), 1e-12));
+    const Recording recording = open_recording(data / "Avia");
+    EXPECT_TRUE(
+        recording.info().T_world_sensor[1].isApprox(Pose(Eigen::Translation3d(1, 0, 0)), 1e-12));
 }
 
 }  // namespace several_test

@@ -4,57 +4,58 @@
 #include "support/recording.hpp"
 
 namespace dynamic_filter::io {
-namespace sequence_test {
+namespace open_recording_test {
 
-using SequenceTest = Recording;
+using OpenRecording = RecordingFiles;
 
-TEST_F(SequenceTest, KittiWithoutCalibration) {
+TEST_F(OpenRecording, KittiWithoutCalibration) {
     put_bins("velodyne", 12);
     data.put("poses.txt", kitti_rows(12));
-    const Sequence sequence = open();
-    EXPECT_EQ(to_string(sequence.format), "kitti");
-    ASSERT_EQ(sequence.size(), 12U);
-    EXPECT_EQ(stem(sequence, 10), "000010");
-    EXPECT_EQ(sequence.T_world_sensor[10].translation().x(), 10.0);
-    EXPECT_FALSE(sequence.measured_stamps);
-    EXPECT_TRUE(has_note(sequence, "10 Hz"));
-    EXPECT_DOUBLE_EQ(sequence.stamps[3], 0.3);
-    EXPECT_FALSE(sequence.has_truth());
+    const Recording recording = open();
+    EXPECT_EQ(recording.info().layout, "kitti");
+    ASSERT_EQ(recording.size(), 12U);
+    EXPECT_EQ(stem(recording, 10), "000010");
+    EXPECT_EQ(recording.info().T_world_sensor[10].translation().x(), 10.0);
+    EXPECT_FALSE(recording.info().measured_stamps);
+    EXPECT_TRUE(has_note(recording, "10 Hz"));
+    EXPECT_DOUBLE_EQ(recording.info().stamps[3], 0.3);
+    EXPECT_FALSE(recording.info().has_truth());
 }
 
-TEST_F(SequenceTest, KittiCameraPoses) {
+TEST_F(OpenRecording, KittiCameraPoses) {
     put_bins("velodyne", 2);
     data.put("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 1 5\n");
     data.put("calib.txt", "Tr: 0 -1 0 1 0 0 -1 2 1 0 0 3\n");
-    const Sequence sequence = open();
-    EXPECT_TRUE(has_note(sequence, "camera"));
+    const Recording recording = open();
+    EXPECT_TRUE(has_note(recording, "camera"));
     // The camera looks along z, the LiDAR along x.
-    EXPECT_TRUE(sequence.T_world_sensor[1].translation().isApprox(Eigen::Vector3d(5, 0, 0), 1e-12));
-    EXPECT_TRUE(sequence.T_world_sensor[1].linear().isIdentity(1e-12));
+    EXPECT_TRUE(
+        recording.info().T_world_sensor[1].translation().isApprox(Eigen::Vector3d(5, 0, 0), 1e-12));
+    EXPECT_TRUE(recording.info().T_world_sensor[1].linear().isIdentity(1e-12));
     OpenOptions options;
     options.pose_fix = PoseFix::lidar;  // they are the LiDAR's, whatever lies beside them
-    EXPECT_EQ(open(options).T_world_sensor[1].translation(), Eigen::Vector3d(0, 0, 5));
+    EXPECT_EQ(open(options).info().T_world_sensor[1].translation(), Eigen::Vector3d(0, 0, 5));
     data.put("calib.txt", "P0: 1\n");
     EXPECT_HAS(open_error(), "Tr:");
 }
 
-TEST_F(SequenceTest, Stamps) {
+TEST_F(OpenRecording, Stamps) {
     put_bins("velodyne", 3);
     data.put("poses.txt", kitti_rows(3));
     data.put("times.txt", "1\n1.1\n1.3\n");
-    EXPECT_TRUE(open().measured_stamps);
-    EXPECT_EQ(open().stamps[2], 1.3);
+    EXPECT_TRUE(open().info().measured_stamps);
+    EXPECT_EQ(open().info().stamps[2], 1.3);
     data.put("times.txt", "1\n1\n1\n");
-    EXPECT_FALSE(open().measured_stamps);
+    EXPECT_FALSE(open().info().measured_stamps);
     EXPECT_TRUE(has_note(open(), "equal"));
-    EXPECT_DOUBLE_EQ(open().stamps[2], 0.2);
+    EXPECT_DOUBLE_EQ(open().info().stamps[2], 0.2);
     data.put("times.txt", "1\n2\n");
     EXPECT_HAS(open_error(), "2 times but 3 scans");
     data.put("times.txt", "1\n3\n2\n");
     EXPECT_HAS(open_error(), "must not go back");
 }
 
-TEST_F(SequenceTest, ScansMustNotGoBackInTime) {
+TEST_F(OpenRecording, ScansMustNotGoBackInTime) {
     for (const char* stamp : {"5", "3"}) {
         const std::string submap = stamp == std::string("5") ? "000000/" : "000001/";
         data.put(submap + "data.txt",
@@ -65,7 +66,7 @@ TEST_F(SequenceTest, ScansMustNotGoBackInTime) {
     EXPECT_HAS(open_error(), "000001: its time is before");
 }
 
-TEST_F(SequenceTest, WhyMotionIsNotUndone) {
+TEST_F(OpenRecording, WhyMotionIsNotUndone) {
     OpenOptions options;
     options.deskew = true;
     put_bins("velodyne", 3);
@@ -73,10 +74,10 @@ TEST_F(SequenceTest, WhyMotionIsNotUndone) {
     EXPECT_TRUE(has_note(open(options), "no poses over time"));
     data.put("times.txt", "1\n1.1\n1.2\n");
     EXPECT_TRUE(has_note(open(options), "no times of their own"));
-    EXPECT_FALSE(open(options).deskew);
+    EXPECT_FALSE(open(options).info().deskewed);
 }
 
-TEST_F(SequenceTest, TopicsAreForBags) {
+TEST_F(OpenRecording, TopicsAreForBags) {
     put_bins("velodyne", 1);
     data.put("poses.txt", kitti_rows(1));
     OpenOptions options;
@@ -84,14 +85,7 @@ TEST_F(SequenceTest, TopicsAreForBags) {
     EXPECT_HAS(error_of<ConfigError>([&] { (void)open(options); }), "for bags");
 }
 
-TEST_F(SequenceTest, FormatsHaveNames) {
-    EXPECT_EQ(to_string(Format::kitti), "kitti");
-    EXPECT_EQ(to_string(Format::benchmark), "benchmark");
-    EXPECT_EQ(to_string(Format::folder), "folder");
-    EXPECT_EQ(to_string(Format::bag), "bag");
-}
-
-TEST_F(SequenceTest, SelectionKeepsThingsParallel) {
+TEST_F(OpenRecording, SelectionKeepsThingsParallel) {
     put_bins("velodyne", 10);
     put_labels(10);
     data.put("poses.txt", kitti_rows(10));
@@ -99,18 +93,18 @@ TEST_F(SequenceTest, SelectionKeepsThingsParallel) {
     options.first = 2;
     options.last = 8;
     options.stride = 3;
-    const Sequence sequence = open(options);
-    ASSERT_EQ(sequence.size(), 3U);
-    EXPECT_EQ(stem(sequence, 1), "000005");
-    EXPECT_EQ(sequence.label_files[1].stem(), "000005");
-    EXPECT_EQ(sequence.T_world_sensor[1].translation().x(), 5.0);
-    EXPECT_DOUBLE_EQ(sequence.stamps[1], 0.5);
+    const Recording recording = open(options);
+    ASSERT_EQ(recording.size(), 3U);
+    EXPECT_EQ(stem(recording, 1), "000005");
+    EXPECT_EQ(recording.info().label_files[1].stem(), "000005");
+    EXPECT_EQ(recording.info().T_world_sensor[1].translation().x(), 5.0);
+    EXPECT_DOUBLE_EQ(recording.info().stamps[1], 0.5);
     options.last = 1000;
     options.stride = std::numeric_limits<std::size_t>::max();
     EXPECT_EQ(open(options).size(), 1U);
 }
 
-TEST_F(SequenceTest, SelectionErrors) {
+TEST_F(OpenRecording, SelectionErrors) {
     put_bins("velodyne", 3);
     data.put("poses.txt", kitti_rows(3));
     const auto error = [&](const OpenOptions& options) {
@@ -126,19 +120,19 @@ TEST_F(SequenceTest, SelectionErrors) {
     EXPECT_HAS(error(options), "--stride");
 }
 
-TEST_F(SequenceTest, FolderWithTum) {
+TEST_F(OpenRecording, FolderWithTum) {
     put_bins("Scans", 3);
     data.put("GlobalMap.pcd", "not a scan");
     data.put("track.tum", tum_rows(3));
-    const Sequence sequence = open();
-    EXPECT_EQ(sequence.format, Format::folder);
-    ASSERT_EQ(sequence.size(), 3U);
-    EXPECT_TRUE(sequence.measured_stamps);
-    EXPECT_DOUBLE_EQ(sequence.stamps[2], 0.4);
-    EXPECT_TRUE(has_note(sequence, "by order"));
-    EXPECT_EQ(read_frame(sequence, 2).points, (Points{{1, 2, 3}, {4, 5, 6}}));
-    EXPECT_THROW(read_frame(sequence, sequence.size()), InputError);
+    const Recording recording = open();
+    EXPECT_EQ(recording.info().layout, "folder");
+    ASSERT_EQ(recording.size(), 3U);
+    EXPECT_TRUE(recording.info().measured_stamps);
+    EXPECT_DOUBLE_EQ(recording.info().stamps[2], 0.4);
+    EXPECT_TRUE(has_note(recording, "by order"));
+    EXPECT_EQ(recording.read(2).points, (Points{{1, 2, 3}, {4, 5, 6}}));
+    EXPECT_THROW(recording.read(recording.size()), InputError);
 }
 
-}  // namespace sequence_test
+}  // namespace open_recording_test
 }  // namespace dynamic_filter::io

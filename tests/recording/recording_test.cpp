@@ -2,15 +2,15 @@
 #include "support/recording.hpp"
 
 namespace dynamic_filter::io {
-namespace frame_test {
+namespace recording_test {
 
-using FrameTest = Recording;
+using RecordingTest = RecordingFiles;
 
-TEST_F(FrameTest, ScanPoseStampAndTruth) {
+TEST_F(RecordingTest, ScanPoseStampAndTruth) {
     put_bins("velodyne", 2);
     put_labels(2);
     data.put("poses.txt", kitti_rows(2));
-    const Frame frame = read_frame(open(), 1);
+    const FullScan frame = open().read(1);
     EXPECT_EQ(frame.points, (Points{{1, 2, 3}, {4, 5, 6}}));
     EXPECT_EQ(frame.T_world_sensor.translation().x(), 1.0);
     EXPECT_DOUBLE_EQ(frame.stamp, 0.1);
@@ -18,65 +18,63 @@ TEST_F(FrameTest, ScanPoseStampAndTruth) {
     EXPECT_EQ(column(frame.cloud, "intensity"), (std::vector<double>{0.5, 0.5}));
 }
 
-TEST_F(FrameTest, UnusableScansAreRejectedOneByOne) {
+TEST_F(RecordingTest, UnusableScansAreRejectedOneByOne) {
     put_bins("velodyne", 4);
     put_labels(4);
     data.put("poses.txt", kitti_rows(3) + "nan nan nan nan 0 0 0 0 0 0 0 0\n");
     data.put("velodyne/000000.bin", "");
     data.put("velodyne/000001.bin", floats({1, 2, 3}));
     data.put("labels/000002.label", std::string(12, '\0'));
-    const Sequence sequence = open();
-    const auto error = [&](std::size_t i) {
-        return error_of([&] { (void)read_frame(sequence, i); });
-    };
+    const Recording recording = open();
+    const auto error = [&](std::size_t i) { return error_of([&] { (void)recording.read(i); }); };
     EXPECT_HAS(error(0), "empty");
     EXPECT_HAS(error(1), "12 bytes");
     // Truth decides nothing.
-    EXPECT_EQ(read_frame(sequence, 2).points, (Points{{1, 2, 3}, {4, 5, 6}}));
+    EXPECT_EQ(recording.read(2).points, (Points{{1, 2, 3}, {4, 5, 6}}));
     EXPECT_HAS(error(3), "not finite");
 }
 
-TEST_F(FrameTest, TruthThatDoesNotFitTakesNothingFromItsScan) {
+TEST_F(RecordingTest, TruthThatDoesNotFitTakesNothingFromItsScan) {
     put_bins("velodyne", 3);
     put_labels(3);
     data.put("poses.txt", kitti_rows(3));
     data.put("labels/000001.label", std::string(12, '\0'));
     data.put("labels/000002.label", "123");
-    const Sequence sequence = open();
-    EXPECT_EQ(read_frame(sequence, 0).truth_fault, "");
+    const Recording recording = open();
+    EXPECT_EQ(recording.read(0).truth_fault, "");
     for (const std::size_t i : {1U, 2U}) {
-        const Frame frame = read_frame(sequence, i);
+        const FullScan frame = recording.read(i);
         EXPECT_EQ(frame.points, (Points{{1, 2, 3}, {4, 5, 6}}));
         EXPECT_TRUE(frame.truth.empty());
     }
-    EXPECT_HAS(read_frame(sequence, 1).truth_fault, "3 labels but 2 points");
-    EXPECT_HAS(read_frame(sequence, 1).truth_fault, "000001.label");
-    EXPECT_HAS(read_frame(sequence, 2).truth_fault, "no multiple of 4");
+    EXPECT_HAS(recording.read(1).truth_fault, "3 labels but 2 points");
+    EXPECT_HAS(recording.read(1).truth_fault, "000001.label");
+    EXPECT_HAS(recording.read(2).truth_fault, "no multiple of 4");
 }
 
-TEST_F(FrameTest, WhatShowsWithoutReadingIsWhatReadingSays) {
+TEST_F(RecordingTest, WhatShowsWithoutReadingIsWhatReadingSays) {
     put_bins("scans", 4);
     data.put("poses.txt", kitti_rows(3) + "nan nan nan nan 0 0 0 0 0 0 0 0\n");
     data.put("scans/000000.bin", "");
     data.put("scans/000001.bin", floats({1, 2, 3}));
-    const Sequence sequence = open();
+    const Recording recording = open();
     for (const std::size_t i : {0U, 1U, 3U}) {
-        const std::string quick = error_of([&] { refuse_unusable(sequence, i); });
+        const std::string quick = error_of([&] { recording.check(i); });
         EXPECT_NE(quick, "") << i;
-        EXPECT_EQ(quick, error_of([&] { (void)read_frame(sequence, i); }));
+        EXPECT_EQ(quick, error_of([&] { (void)recording.read(i); }));
     }
-    EXPECT_NO_THROW(refuse_unusable(sequence, 2));
+    EXPECT_NO_THROW(recording.check(2));
 }
 
-TEST_F(FrameTest, NoPoints) {
+TEST_F(RecordingTest, NoPoints) {
     Cloud cloud;
     for (const char* axis : {"x", "y", "z"}) add_field(cloud, axis, FieldType::f32);
     write_pcd(data / "a.pcd", cloud);
     data.put("poses.txt", kitti_rows(1));
-    EXPECT_HAS(error_of([&] { (void)read_frame(open(), 0); }), "no points");
+    EXPECT_HAS(error_of([&] { (void)open().read(0); }), "no points");
 }
 
-TEST_F(FrameTest, LabelsAreSemanticKitti) {
+TEST_F(RecordingTest, LabelsAreSemanticKitti) {
     std::string bytes;
     for (const std::uint32_t raw : {0U, 1U, 9U, 40U, 250U, 251U, 259U, 260U, 252U | 3U << 16U}) {
         bytes += bytes_of(raw);
@@ -87,15 +85,15 @@ TEST_F(FrameTest, LabelsAreSemanticKitti) {
     EXPECT_HAS(error_of([&] { read_labels(data.put("a.label", "12345")); }), "byte 4");
 }
 
-TEST_F(FrameTest, AScanWithoutAMeasurementOrWithAnAbsurdPoseIsRefused) {
+TEST_F(RecordingTest, AScanWithoutAMeasurementOrWithAnAbsurdPoseIsRefused) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     put_bins("velodyne", 2);
     data.put("velodyne/000000.bin", floats({nan, 1, 1, 0, 0, 0, 0, 1}));
     data.put("poses.txt", kitti_rows(1) + "1 0 0 1e20 0 1 0 0 0 0 1 0\n");
-    const Sequence sequence = open();
-    EXPECT_HAS(error_of([&] { (void)read_frame(sequence, 0); }), "no finite point");
-    EXPECT_HAS(error_of([&] { (void)read_frame(sequence, 1); }), "metres");
+    const Recording recording = open();
+    EXPECT_HAS(error_of([&] { (void)recording.read(0); }), "no finite point");
+    EXPECT_HAS(error_of([&] { (void)recording.read(1); }), "metres");
 }
 
-}  // namespace frame_test
+}  // namespace recording_test
 }  // namespace dynamic_filter::io

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include "dynamic_filter/recording.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/poses.hpp"
+#include "formats/poses/rigid.hpp"
+#include "recording/bag_scans.hpp"
+#include "recording/benchmark.hpp"
+#include "recording/layout.hpp"
+#include "recording/layouts/registry.hpp"
+#include "recording/matching.hpp"
+#include "recording/recording_parts.hpp"
+
+namespace dynamic_filter::io {
+namespace {
+
+constexpr double assumed_period = 0.1;  // [s] the usual setting of LiDARs
+
+std::vector<double> times_of(const Layout& layout) {
+    if (!layout.times) return {};
+    std::vector<double> times = read_times(*layout.times);
+    if (times.size() != layout.scans.size()) {
+        throw InputError(*layout.times, "",
+                         fmt::format("{} times but {} scans in {}", times.size(),
+                                     layout.scans.size(), layout.scan_folder.string()));
+    }
+    const auto back = std::is_sorted_until(times.begin(), times.end());
+    if (back != times.end()) {
+        const auto i = static_cast<std::size_t>(back - times.begin());
+        throw InputError(
+            *layout.times, "",
+            fmt::format("time {} of scan {} is before {} of the scan before it; stamps "
+                        "must not go back",
+                        times[i], i, times[i - 1]));
+    }
+    return times;
+}
+
+/// Converts KITTI rows, which are poses of the left camera if there is a calibration. Files with
+/// stamps (TUM, CSV) come from other sources, and contain poses of the LiDAR.
+void from_camera_poses(Info& info, const std::filesystem::path& calib) {
+    const Pose Tr = read_calib_tr(calib);
+    for (Pose& pose : info.T_world_sensor) pose = Tr.inverse() * pose * Tr;
+    info.notes.push_back("poses taken as camera poses and converted with Tr of " + calib.string());
+}
+
+/// Assigns the poses. Returns the stamps, if the recording has any.
+std::vector<double> assign_poses(Info& info, const Layout& layout) {
+    info.pose_source = layout.poses.value_or(layout.pose_source);
+    if (!layout.T_world_sensor.empty()) {
+        info.T_world_sensor = layout.T_world_sensor;
+        return layout.stamps;
+    }
+    std::vector<double> times = layout.stamps.empty() ? times_of(layout) : layout.stamps;
+    if (!layout.poses) return times.empty() ? growing_times_in_names(layout.scans) : times;
+    const PoseFile file = read_poses(*layout.poses);
+    Match match = match_poses(layout, file, times);
+    info.T_world_sensor = std::move(match.poses);
+    info.notes.push_back(match.note);
+    info.pose_stamps = std::move(match.pose_stamps);
+    if (layout.calib && file.stamps.empty()) {
+        if (info.pose_fix == PoseFix::lidar) {
+            info.pose_fix = PoseFix::none;
+        } else {
+            from_camera_poses(info, *layout.calib);
+        }
+    }
+    return match.stamps;
+}
+
+void assign_stamps(Info& info, std::vector<double> stamps) {
+    const bool constant =
+        stamps.size() > 1 &&
+        std::adjacent_find(stamps.begin(), stamps.end(), std::not_equal_to<>()) == stamps.end();
+    info.measured_stamps = !stamps.empty() && !constant;
+    info.stamps = std::move(stamps);
+    if (info.measured_stamps) {
+        const auto back = std::is_sorted_until(info.stamps.begin(), info.stamps.end());
+        if (back == info.stamps.end()) return;
+        const auto i = static_cast<std::size_t>(back - info.stamps.begin());
+        throw InputError(info.scan_files[i], "", "its time is before that of the scan before");
+    }
+    info.notes.push_back(constant ? "all stamps are equal; 10 Hz assumed"
+                                  : "no stamps found; 10 Hz assumed");
+    info.stamps.resize(info.scan_files.size());
+    for (std::size_t i = 0; i < info.scan_files.size(); ++i) {
+        info.stamps[i] = static_cast<double>(i) * assumed_period;
+    }
+}
+
+RecordingParts open_folder(const std::filesystem::path& data, const OpenOptions& options) {
+    if (!options.topic.empty() || !options.pose_topic.empty()) {
+        throw ConfigError("--topic and --pose-topic are for bags; " + data.string() + " is none");
+    }
+    const Layout layout = find_layout(data, options);
+    Info info;
+    info.layout = layout.name;
+    info.pose_fix = options.pose_fix;
+    info.root = data;
+    info.scan_files = layout.scans;
+    info.notes = layout.notes;
+    info.points_in_world = layout.points_in_world;
+    info.label_files = find_labels(layout, info.notes);
+    assign_stamps(info, assign_poses(info, layout));
+    if (options.without_poses) info.T_world_sensor.clear();
+    info.has_poses =
+        !options.without_poses && (layout.poses_in_scans || !info.T_world_sensor.empty());
+    if (layout.poses_in_scans && info.has_poses) require_viewpoints(info);
+    RecordingParts parts{.info = std::move(info),
+                         .read_cloud = [files = layout.scans, read = layout.read](std::size_t i) {
+                             return read(files.at(i));
+                         }};
+    select(parts, options.first, options.last, options.stride);
+    if (layout.truth_in_intensity) find_intensity_truth(parts.info, layout);
+    return parts;
+}
+
+RecordingParts open_selected_bag(const std::filesystem::path& data, const OpenOptions& options) {
+    RecordingParts parts = open_bag(data, options);
+    parts.info.pose_fix = options.pose_fix;
+    select(parts, options.first, options.last, options.stride);
+    return parts;
+}
+
+void apply_fixes(Info& info, const OpenOptions& options) {
+    for (auto* poses : {&info.T_world_sensor, &info.trajectory.poses}) {
+        for (Pose& pose : *poses) pose = fixed(info.pose_fix, pose);
+    }
+    if (!info.measured_stamps) return;
+    std::vector<double>& of_poses = info.pose_stamps;
+    const auto span = [](const std::vector<double>& s) { return s.back() - s.front(); };
+    const double unit = options.time_unit;
+    // Stamps of poses matched by order may be in seconds although those of the scans are not.
+    if (!of_poses.empty() && std::abs(span(of_poses) - span(info.stamps)) <
+                                 std::abs(span(of_poses) - unit * span(info.stamps))) {
+        for (double& stamp : of_poses) stamp *= unit;
+    }
+    for (auto* stamps : {&info.stamps, &info.trajectory.stamps}) {
+        for (double& stamp : *stamps) stamp *= unit;
+    }
+}
+
+/// Throws if points are in the world frame but there are no poses, because the position of the
+/// sensor is then not known.
+void refuse_world_frame(const Info& info, const std::filesystem::path& data) {
+    if (!info.points_in_world) return;
+    throw InputError(data, "",
+                     "its points are in the world's frame, so poses are needed to tell what each "
+                     "scan saw; give them with --poses");
+}
+
+bool is_bag(const std::filesystem::path& data, const OpenOptions& options) {
+    if (!options.layout.empty()) return layout_row(options.layout).turn == Turn::bag;
+    return Bag::recognises(data) && !has_scans(data);
+}
+
+}  // namespace
+
+Recording open_recording(const std::filesystem::path& data, const OpenOptions& options) {
+    check_selection(options.first, options.last, options.stride);
+    RecordingParts parts =
+        is_bag(data, options) ? open_selected_bag(data, options) : open_folder(data, options);
+    Info& info = parts.info;
+    if (options.points_in_world) info.points_in_world = true;
+    if (!info.has_poses) refuse_world_frame(info, data);
+    apply_fixes(info, options);
+    const Recording recording(std::move(parts));
+    const bool deskew = options.deskew && recording.info().has_poses;
+    return deskew ? deskewed(recording) : recording;
+}
+
+}  // namespace dynamic_filter::io

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#include "dynamic_filter/recording.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include "base/input.hpp"
+#include "dynamic_filter/error.hpp"
+#include "formats/clouds/cloud_size.hpp"
+#include "recording/folders.hpp"
+#include "recording/recording_parts.hpp"
+
+namespace dynamic_filter::io {
+namespace {
+
+/// Label of a SemanticKITTI value: the low 16 bits hold the class, the high bits the instance.
+Label label_of(std::uint32_t raw) {
+    const std::uint32_t kind = raw & 0xFFFFU;
+    if (kind <= 1) return Label::unknown;
+    return kind >= 251 && kind <= 259 ? Label::dynamic : Label::static_;
+}
+
+Labels intensity_truth(const Cloud& cloud, const std::filesystem::path& file) {
+    const Field* intensity = cloud.find("intensity");
+    if (intensity == nullptr)
+        throw InputError(file, "", "has no intensity, which must hold the ground truth");
+    Labels truth;
+    truth.reserve(cloud.size());
+    for (const double value : values(cloud, *intensity)) {
+        truth.push_back(value == 1.0   ? Label::dynamic
+                        : value == 0.0 ? Label::static_
+                                       : Label::unknown);
+    }
+    return truth;
+}
+
+Labels truth_of(const Info& info, std::size_t i, const Cloud& cloud) {
+    if (info.intensity_is_truth) return intensity_truth(cloud, info.scan_files[i]);
+    if (info.label_files.empty() || info.label_files[i].empty()) return {};
+    Labels truth = read_labels(info.label_files[i]);
+    if (truth.size() != cloud.size()) {
+        throw InputError(info.label_files[i], "",
+                         fmt::format("{} labels but {} points in {}", truth.size(), cloud.size(),
+                                     info.scan_files[i].string()));
+    }
+    return truth;
+}
+
+/// Adds the ground truth. A fault in it does not reject the scan.
+void add_truth(FullScan& scan, const Info& info, std::size_t i) {
+    try {
+        scan.truth = truth_of(info, i, scan.cloud);
+    } catch (const InputError& error) {
+        scan.truth_fault = error.what();
+    }
+}
+
+/// Times of the points: from the scan if it has them, otherwise computed from the azimuths.
+std::vector<float> times_of(const Info& info, const FullScan& scan) {
+    std::vector<float> times = point_times(scan.cloud, scan.stamp);
+    if (times.empty() && info.sweep) times = sweep_times(scan.points, *info.sweep);
+    return times;
+}
+
+void refuse_absurd(const Pose& T_world_sensor, const std::filesystem::path& file) {
+    if (!is_absurdly_far(T_world_sensor)) return;
+    throw InputError(file, "", "its pose is more than 40,000 km away; expected metres");
+}
+
+bool is_of_bag(const Info& info) { return info.layout == "bag"; }
+
+/// Poses and points: those of the file in the sensor frame.
+void place(FullScan& scan, const Info& info, std::size_t i) {
+    scan.has_pose = info.has_poses;
+    if (info.has_poses && info.T_world_sensor.empty()) {
+        scan.T_world_sensor = fixed(info.pose_fix, scan.cloud.viewpoint.value_or(Pose::Identity()));
+        refuse_absurd(scan.T_world_sensor, info.scan_files[i]);
+    } else if (info.has_poses) {
+        scan.T_world_sensor = info.T_world_sensor[i];
+    }
+    scan.points =
+        info.points_in_world ? into_sensor(scan.cloud, scan.T_world_sensor) : positions(scan.cloud);
+    if (std::none_of(scan.points.begin(), scan.points.end(), is_measured)) {
+        throw InputError(info.scan_files[i], "", "has no finite point away from the sensor");
+    }
+}
+
+void treat_motion(FullScan& scan, const RecordingParts& parts, std::size_t i) {
+    const Info& info = parts.info;
+    if (info.deskewed) {
+        undo_motion(scan.points, times_of(info, scan), scan.stamp, info.trajectory);
+    }
+    if (parts.with_times) scan.times = times_of(info, scan);
+    if (parts.velocities.empty() || scan.times.empty()) return;
+    scan.points = dynamic_filter::undo_motion(scan.points, scan.times, parts.velocities[i]);
+    scan.times.clear();
+}
+
+}  // namespace
+
+bool is_absurdly_far(const Pose& T_world_sensor) {
+    constexpr double kEarth = 4e7;  // [m]
+    // Not "greater": a coordinate that is no number is absurd, too.
+    return !(T_world_sensor.translation().cwiseAbs().maxCoeff() <= kEarth);
+}
+
+Points into_sensor(const Cloud& cloud, const Pose& T_world_sensor) {
+    const Pose T_sensor_world = T_world_sensor.inverse();
+    const std::array<std::vector<double>, 3> world = {values(cloud, *cloud.find("x")),
+                                                      values(cloud, *cloud.find("y")),
+                                                      values(cloud, *cloud.find("z"))};
+    Points points(cloud.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Eigen::Vector3d p(world[0][i], world[1][i], world[2][i]);
+        points[i] = (T_sensor_world * p).cast<float>();
+    }
+    return points;
+}
+
+Labels read_labels(const std::filesystem::path& file) {
+    const std::vector<std::byte> bytes = read_bytes(file);
+    if (bytes.size() % sizeof(std::uint32_t) != 0) {
+        throw InputError(
+            file, fmt::format("byte {}", bytes.size() - bytes.size() % 4),
+            fmt::format("its size of {} bytes is no multiple of 4 (uint32 labels)", bytes.size()));
+    }
+    Labels labels(bytes.size() / sizeof(std::uint32_t));
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        std::uint32_t raw = 0;
+        std::memcpy(&raw, bytes.data() + i * sizeof raw, sizeof raw);
+        labels[i] = label_of(raw);
+    }
+    return labels;
+}
+
+Recording::Recording() : Recording(Info{}) {}
+
+Recording::Recording(Info info) {
+    const auto files = info.scan_files;
+    const auto read = [files](std::size_t i) { return io::read_cloud(files.at(i)); };
+    parts_ = std::make_shared<const RecordingParts>(
+        RecordingParts{.info = std::move(info), .read_cloud = read});
+}
+
+Recording::Recording(RecordingParts parts)
+    : parts_(std::make_shared<const RecordingParts>(std::move(parts))) {}
+
+std::size_t Recording::size() const { return info().scan_files.size(); }
+
+const Info& Recording::info() const { return parts_->info; }
+
+void Recording::check(std::size_t i) const {
+    const std::filesystem::path& file = info().scan_files.at(i);
+    if (!info().T_world_sensor.empty()) {
+        const Pose& T_world_sensor = info().T_world_sensor[i];
+        if (!T_world_sensor.matrix().allFinite()) {
+            throw InputError(file, "",
+                             is_of_bag(info())
+                                 ? "no pose is known at its time"
+                                 : "it has no pose, or one that is not finite (lost tracking?)");
+        }
+        refuse_absurd(T_world_sensor, file);
+    }
+    if (!is_of_bag(info()) && !is_folder(file)) refuse_bad_size(file);
+}
+
+FullScan Recording::read(std::size_t i) const {
+    if (i >= size()) {
+        throw InputError(
+            info().root, "",
+            "has " + std::to_string(size()) + " scans; there is no scan " + std::to_string(i));
+    }
+    check(i);
+    FullScan scan;
+    scan.cloud = parts_->read_cloud(i);
+    if (scan.cloud.size() == 0) throw InputError(info().scan_files[i], "", "has no points");
+    scan.stamp = info().stamps[i];
+    place(scan, info(), i);
+    treat_motion(scan, *parts_, i);
+    add_truth(scan, info(), i);
+    return scan;
+}
+
+std::string stem(const Recording& recording, std::size_t i) {
+    return recording.info().scan_files.at(i).stem().string();
+}
+
+}  // namespace dynamic_filter::io

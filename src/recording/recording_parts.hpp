@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+/// What a recording is made of.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "dynamic_filter/recording.hpp"
+
+namespace dynamic_filter::io {
+
+struct RecordingParts {
+    Info info;
+    /// Reads the cloud of scan i. Throws InputError.
+    std::function<Cloud(std::size_t)> read_cloud;
+    bool with_times = false;  ///< scans have the times of their points
+    /// Of the sensor, parallel to the scans, or empty: the motion within scans that have times is
+    /// undone with them.
+    std::vector<Twist> velocities{};
+};
+
+/// Throws ConfigError if the selection can have no scan, whatever the recording.
+void check_selection(std::size_t first, std::optional<std::size_t> last, std::size_t stride);
+
+/// Keeps the selected scans. Throws ConfigError if there are none.
+void select(RecordingParts& parts, std::size_t first, std::optional<std::size_t> last,
+            std::size_t stride);
+
+/// Transforms the points of a cloud in world coordinates into the sensor frame; in double, because
+/// the world may be far from its origin.
+Points into_sensor(const Cloud& cloud, const Pose& T_world_sensor);
+
+/// True if the pose is farther away than the circumference of the Earth; such a value is a wrong
+/// number or has a wrong unit.
+bool is_absurdly_far(const Pose& T_world_sensor);
+
+}  // namespace dynamic_filter::io

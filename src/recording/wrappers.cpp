@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// Recordings that are made of others.
+#include <fmt/format.h>
+
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/recording.hpp"
+#include "formats/poses/rigid.hpp"
+#include "recording/recording_parts.hpp"
+
+namespace dynamic_filter::io {
+namespace {
+
+template <typename T>
+void keep(std::vector<T>& values, const std::vector<std::size_t>& chosen) {
+    if (values.empty()) return;
+    std::vector<T> kept;
+    for (const std::size_t i : chosen) kept.push_back(std::move(values[i]));
+    values = std::move(kept);
+}
+
+std::vector<std::size_t> chosen_of(std::size_t size, std::size_t first, std::size_t last,
+                                   std::size_t stride) {
+    std::vector<std::size_t> chosen;
+    for (std::size_t i = first; i < size && i <= last; i += stride) {
+        chosen.push_back(i);
+        if (stride > size) break;  // because i + stride may overflow
+    }
+    return chosen;
+}
+
+/// Why the motion within scans cannot be undone; empty if it can.
+std::string obstacle_to_deskew(const RecordingParts& parts) {
+    const Info& info = parts.info;
+    if (info.trajectory.stamps.size() < 2) {
+        return "no poses over time: the sensor's motion during each scan is not undone; give poses "
+               "with stamps";
+    }
+    if (info.sweep || !point_times(parts.read_cloud(0), info.stamps.front()).empty()) return "";
+    return "the points have no times of their own (no field t, time, timestamp or offset_time "
+           "that varies): the sensor's motion during each scan is not undone";
+}
+
+}  // namespace
+
+void check_selection(std::size_t first, std::optional<std::size_t> last, std::size_t stride) {
+    if (stride == 0) throw ConfigError("--stride is 0; expected 1 or more");
+    if (last && *last < first) {
+        throw ConfigError(fmt::format("--last {} is before --first {}", *last, first));
+    }
+}
+
+void select(RecordingParts& parts, std::size_t first, std::optional<std::size_t> last,
+            std::size_t stride) {
+    check_selection(first, last, stride);
+    Info& info = parts.info;
+    const std::size_t size = info.scan_files.size();
+    if (first >= size) {
+        throw ConfigError(fmt::format("--first {} is beyond the last of {} scans (index {})", first,
+                                      size, size - 1));
+    }
+    const auto chosen = chosen_of(size, first, last.value_or(size - 1), stride);
+    if (chosen.size() == size) return;
+    keep(info.scan_files, chosen);
+    keep(info.label_files, chosen);
+    keep(info.T_world_sensor, chosen);
+    keep(info.stamps, chosen);
+    keep(info.pose_stamps, chosen);
+    keep(parts.velocities, chosen);
+    parts.read_cloud = [read = std::move(parts.read_cloud), chosen](std::size_t i) {
+        return read(chosen.at(i));
+    };
+}
+
+Recording slice(const Recording& recording, std::size_t first, std::optional<std::size_t> last,
+                std::size_t stride) {
+    RecordingParts parts = recording.parts();
+    select(parts, first, last, stride);
+    return Recording(std::move(parts));
+}
+
+Recording with_times(const Recording& recording, std::optional<Sweep> sweep) {
+    RecordingParts parts = recording.parts();
+    parts.with_times = true;
+    if (sweep) parts.info.sweep = sweep;
+    return Recording(std::move(parts));
+}
+
+// Poses between the scans are needed only if the scans have times of points.
+Recording deskewed(const Recording& recording, std::optional<Sweep> sweep) {
+    RecordingParts parts = recording.parts();
+    Info& info = parts.info;
+    if (sweep) info.sweep = sweep;
+    if (info.trajectory.stamps.empty() && info.measured_stamps) {
+        info.trajectory = {info.stamps, info.T_world_sensor};
+        put_in_order(info.trajectory);
+    }
+    const std::string obstacle = obstacle_to_deskew(parts);
+    if (obstacle.empty()) {
+        info.deskewed = true;
+        parts.with_times = false;
+    } else {
+        info.notes.push_back(obstacle);
+    }
+    return Recording(std::move(parts));
+}
+
+Recording with_poses(const Recording& recording,
+                     const std::vector<std::optional<Tracked>>& tracked) {
+    RecordingParts parts = recording.parts();
+    Info& info = parts.info;
+    info.has_poses = info.tracked = true;
+    info.T_world_sensor.assign(recording.size(), lost_pose());
+    parts.velocities.assign(recording.size(), Twist::Zero());
+    for (std::size_t i = 0; i < recording.size(); ++i) {
+        if (!tracked[i]) continue;
+        info.T_world_sensor[i] = tracked[i]->T_world_sensor;
+        parts.velocities[i] = tracked[i]->velocity;
+    }
+    return Recording(std::move(parts));
+}
+
+Recording without_poses(const Recording& recording) {
+    RecordingParts parts = recording.parts();
+    Info& info = parts.info;
+    info.T_world_sensor.clear();
+    info.trajectory = {};
+    info.has_poses = info.tracked = info.points_in_world = info.deskewed = false;
+    parts.velocities.clear();
+    return Recording(std::move(parts));
+}
+
+Recording with_notes(const Recording& recording, const std::vector<std::string>& notes) {
+    RecordingParts parts = recording.parts();
+    parts.info.notes.insert(parts.info.notes.end(), notes.begin(), notes.end());
+    return Recording(std::move(parts));
+}
+
+}  // namespace dynamic_filter::io
