@@ -15,6 +15,7 @@
 #include "commands/write_simulation.hpp"
 #include "dynamic_filter/check.hpp"
 #include "dynamic_filter/file.hpp"
+#include "export/outputs.hpp"
 #include "python/src/module.hpp"
 #include "recording/frames.hpp"
 #include "run/run.hpp"
@@ -148,7 +149,7 @@ std::size_t simulate(const sim::SimulationOptions& options, const fs::path& fold
         const py::gil_scoped_release others_go_on;
         const Interruptible guard;
         for (const auto& recording : app::simulated_recordings(options, folder)) {
-            app::OutputFolder output(recording.folder, app::Contents::recording,
+            app::OutputFolder output(recording.folder, app::recording_files(),
                                      app::replaced_if(overwrite));
             points += app::write_simulation(recording.options, output.path(), quiet);
             stopped = app::interrupted();

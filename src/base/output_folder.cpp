@@ -25,46 +25,6 @@ namespace {
 
 constexpr const char *kLock = ".lock", *kBeside = ".new";
 
-struct Names {
-    std::vector<const char*> files;
-    std::vector<std::pair<const char*, const char*>> folders;  ///< name, suffix of the files in it
-};
-
-Names written_by(Contents contents) {
-    switch (contents) {
-        case Contents::result:
-            return {
-                {"static_map.pcd", "dynamic_points.pcd", "metrics.json", "timing.json",
-                 "config.toml", "run.log", "report.html", "map_gaps.bin", "part.json", kRunState},
-                {{"labels", ".label"},
-                 {"unedited", ".label"},
-                 {"unedited", ".pcd"},
-                 {"unedited", ".json"},
-                 {"map", ".pcd"},
-                 {"map", ".html"},
-                 {"map", ".json"},
-                 {"tiles", ".pcd"},
-                 {"tiles", ".tile"},
-                 {"tiles", ""},
-                 {"report", ".html"},
-                 {"report", ".js"},
-                 {"report", ".css"}}};
-        case Contents::recording:
-            return {{"poses.txt", "times.txt"}, {{"labels", ".label"}, {"velodyne", ".bin"}}};
-        case Contents::benchmark:
-            return {{"gt_cloud.pcd"}, {{"pcd", ".pcd"}}};
-        case Contents::tiles:
-            return {{"pointcloud_map_metadata.yaml"}, {{"pointcloud_map", ".pcd"}}};
-        case Contents::tiles_3d:
-            return {{"tileset.json"}, {{"tiles", ".glb"}}};
-        case Contents::las_tiles:
-            return {{"index.json"}, {{"las", ".las"}}};
-        case Contents::demo:
-            break;  // its recording and its result are folders with contents of their own
-    }
-    return {{"before.png", "after.png"}, {}};
-}
-
 /// Left by a process that was killed while it wrote.
 bool is_stale(const fs::path& file) {
     const std::string name = file.filename();
@@ -79,20 +39,19 @@ void remove_files(const fs::path& folder, const std::function<bool(const fs::pat
     for (const fs::path& file : doomed) fs::remove(file);
 }
 
-void remove_earlier_output(const fs::path& path, Contents contents) {
-    const Names names = written_by(contents);
-    for (const char* name : names.files) fs::remove(path / name);
-    for (const auto& [name, suffix] : names.folders) {
+void remove_earlier_output(const fs::path& path, const FolderFiles& written) {
+    for (const char* name : written.files) fs::remove(path / name);
+    for (const auto& [name, suffix] : written.folders) {
         if (!fs::is_directory(path / name)) continue;
         remove_files(path / name,
                      [&, s = suffix](const fs::path& file) { return file.extension() == s; });
         if (fs::is_empty(path / name)) fs::remove(path / name);
     }
     const fs::path drives = path / "drives";  // each with what a run leaves
-    if (contents != Contents::result || !fs::is_directory(drives)) return;
+    if (!written.is_result || !fs::is_directory(drives)) return;
     for (const auto& drive : fs::directory_iterator(drives)) {
         if (!drive.is_directory()) continue;
-        remove_earlier_output(drive.path(), contents);
+        remove_earlier_output(drive.path(), written);
         if (fs::is_empty(drive.path())) fs::remove(drive.path());
     }
     if (fs::is_empty(drives)) fs::remove(drives);
@@ -111,15 +70,15 @@ void move_into(const fs::path& from, const fs::path& to) {
 }
 
 /// Removes files that a killed process left half-written.
-void remove_stale(const fs::path& path, Contents contents) {
+void remove_stale(const fs::path& path, const FolderFiles& written) {
     remove_files(path, is_stale);
-    for (const auto& [name, suffix] : written_by(contents).folders) {
+    for (const auto& [name, suffix] : written.folders) {
         if (fs::is_directory(path / name)) remove_files(path / name, is_stale);
     }
     const fs::path drives = path / "drives";
-    if (contents != Contents::result || !fs::is_directory(drives)) return;
+    if (!written.is_result || !fs::is_directory(drives)) return;
     for (const auto& drive : fs::directory_iterator(drives)) {
-        if (drive.is_directory()) remove_stale(drive.path(), contents);
+        if (drive.is_directory()) remove_stale(drive.path(), written);
     }
 }
 
@@ -139,15 +98,10 @@ bool holds_something(const fs::path& path) {
     return false;
 }
 
-/// A run's labels stand for themselves, but half a recording or map misleads whoever reads it.
-bool is_of_use_in_part(Contents contents) {
-    return contents == Contents::result || contents == Contents::demo;
-}
-
 /// Refuses to replace the result of a run by the output of another command. Some of its files would
 /// stay and mislead.
-void refuse_result_of_a_run(const fs::path& folder, Contents contents) {
-    if (contents == Contents::result || !fs::exists(folder / kRunState)) return;
+void refuse_result_of_a_run(const fs::path& folder, const FolderFiles& written) {
+    if (written.is_result || !fs::exists(folder / kRunState)) return;
     throw ConfigError(folder.string() +
                       ": holds the result of a run, which only a run may overwrite; choose "
                       "another folder");
@@ -173,8 +127,8 @@ OutputFolder::Lock::~Lock() {
     close(descriptor);
 }
 
-OutputFolder::OutputFolder(fs::path path, Contents contents, Existing existing)
-    : path_(std::move(path)), contents_(contents) {
+OutputFolder::OutputFolder(fs::path path, const FolderFiles& files, Existing existing)
+    : path_(std::move(path)), files_(files) {
     if (path_.empty()) throw ConfigError("the output folder has no name; give one with -o");
     try {
         if (fs::exists(path_) && !fs::is_directory(path_)) {
@@ -182,11 +136,11 @@ OutputFolder::OutputFolder(fs::path path, Contents contents, Existing existing)
         }
         made_ = fs::create_directories(path_);
         lock_.emplace(path_);
-        remove_stale(path_, contents_);
+        remove_stale(path_, files_);
         if (existing == Existing::resume) {
             if (!fs::exists(path_ / kBeside)) return;
             beside_ = path_ / kBeside;
-            remove_stale(beside_, contents_);
+            remove_stale(beside_, files_);
             return;
         }
         fs::remove_all(path_ / kBeside);  // of a process that was killed
@@ -195,8 +149,8 @@ OutputFolder::OutputFolder(fs::path path, Contents contents, Existing existing)
             throw ConfigError(path_.string() +
                               ": the folder is not empty; choose another -o, or --overwrite");
         }
-        refuse_result_of_a_run(path_, contents_);
-        if (empty && is_of_use_in_part(contents_)) return;
+        refuse_result_of_a_run(path_, files_);
+        if (empty && files_.is_of_use_in_part) return;
         beside_ = path_ / kBeside;
         fs::create_directory(beside_);
     } catch (const fs::filesystem_error& error) {
@@ -207,7 +161,7 @@ OutputFolder::OutputFolder(fs::path path, Contents contents, Existing existing)
 void OutputFolder::commit() {
     if (beside_.empty()) return;
     try {
-        remove_earlier_output(path_, contents_);
+        remove_earlier_output(path_, files_);
         move_into(beside_, path_);
         fs::remove_all(beside_);
         beside_.clear();

@@ -3,11 +3,24 @@
 
 #include <filesystem>
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace dynamic_filter::app {
 
 /// What a command writes into its folder: all that --overwrite may remove.
-enum class Contents { result, recording, benchmark, tiles, tiles_3d, las_tiles, demo };
+struct FolderFiles {
+    std::vector<const char*> files;
+    /// Names of folders, and the suffix of the files in them; a folder may stand here several
+    /// times.
+    std::vector<std::pair<const char*, const char*>> folders{};
+    /// True: what is there is of use before all is there. Half a recording or map would mislead
+    /// whoever reads it.
+    bool is_of_use_in_part = false;
+    /// True: a run leaves these files, also in each folder of `drives`. No other command replaces
+    /// them, because some of them would stay and mislead.
+    bool is_result = false;
+};
 
 /// What becomes of an earlier result in the folder.
 enum class Existing {
@@ -30,7 +43,8 @@ void refuse_existing(const std::filesystem::path& output, bool overwrite);
 /// Throws OutputError if it cannot be made.
 class OutputFolder {
 public:
-    OutputFolder(std::filesystem::path path, Contents contents, Existing existing);
+    /// `files` must outlive the object.
+    OutputFolder(std::filesystem::path path, const FolderFiles& files, Existing existing);
     OutputFolder(const OutputFolder&) = delete;
     OutputFolder& operator=(const OutputFolder&) = delete;
     ~OutputFolder();
@@ -58,7 +72,7 @@ private:
     };
     std::filesystem::path path_, beside_;
     bool made_ = false;  ///< by us, so that it goes if nothing comes of it
-    Contents contents_;
+    const FolderFiles& files_;
     std::optional<Lock> lock_;
 };
 

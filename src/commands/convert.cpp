@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <cmath>
-#include <map>
 #include <numeric>
 
 #include "base/exit_code.hpp"
@@ -14,10 +12,9 @@
 #include "dynamic_filter/bag.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/writers.hpp"
-#include "export/autoware_tiles.hpp"
 #include "export/convert_map.hpp"
 #include "export/convert_options.hpp"
-#include "export/sinks.hpp"
+#include "export/outputs.hpp"
 #include "formats/label_files.hpp"
 #include "formats/voxel_map/map_index.hpp"
 #include "recording/frames.hpp"
@@ -69,7 +66,9 @@ Config settings_of(const ConvertOptions& o) {
 
 /// Refuses options that are for the map of several drives only.
 void refuse_map_options(const ConvertOptions& o) {
-    if (o.to != "3dtiles" && o.to != "las" && o.origin.empty()) return;
+    const bool is_for_maps = !o.to.empty() && output_of(o.to).of_recording == nullptr &&
+                             output_of(o.to).of_cloud == nullptr;
+    if (!is_for_maps && o.origin.empty()) return;
     throw ConfigError(fmt::format(
         "{}: {} is for the map of several drives, which `dynamicfilter run A B ... -o OUT` makes; "
         "give OUT as IN",
@@ -77,8 +76,9 @@ void refuse_map_options(const ConvertOptions& o) {
 }
 
 int convert_recording(const ConvertOptions& o) {
-    if (o.to == "autoware")
-        throw ConfigError("--to autoware is for a map: give a cloud file as IN");
+    if (!o.to.empty() && output_of(o.to).of_recording == nullptr) {
+        throw ConfigError("--to " + o.to + " is for a map: give a cloud file as IN");
+    }
     io::Recording recording = open(o.data);
     ensure_poses(recording, preset("default"), o.data.deskew, false);
     for (const std::string& note : recording.info().notes) fmt::print(stderr, "note: {}\n", note);
@@ -119,36 +119,16 @@ int convert_recording(const ConvertOptions& o) {
     return rejected.empty() && recording.info().losses.empty() ? kDone : kRejected;
 }
 
-int write_tiles(const io::Cloud& cloud, const ConvertOptions& o) {
-    OutputFolder output(o.output, Contents::tiles, replaced_if(o.overwrite));
-    const auto x = io::values(cloud, *cloud.find("x")), y = io::values(cloud, *cloud.find("y"));
-    std::map<Corner, io::Cloud> tiles;
-    std::size_t nowhere = 0;
-    for (std::size_t i = 0; i < cloud.size(); ++i) {
-        if (!std::isfinite(x[i]) || !std::isfinite(y[i])) {
-            ++nowhere;
-            continue;
-        }
-        io::Cloud& tile = tiles[{autoware_corner(x[i]), autoware_corner(y[i])}];
-        tile.fields = cloud.fields;
-        tile.point_bytes = cloud.point_bytes;
-        append_record(tile.data, cloud.data, i, cloud.point_bytes);
-    }
-    const fs::path folder = output.subfolder("pointcloud_map");
-    std::vector<Corner> corners;
-    for (const auto& [corner, tile] : tiles) {
-        io::write_pcd(folder / autoware_name(corner), tile);
-        corners.push_back(corner);
-    }
-    io::write_file(output.path() / "pointcloud_map_metadata.yaml", autoware_metadata(corners));
-    output.commit();
-    if (nowhere > 0) say(fmt::format("left out: {} points that are not finite", nowhere));
-    fmt::print("written  {} ({} tiles)\n", output.name().string(), tiles.size());
-    return kDone;
-}
-
 int convert_cloud(const ConvertOptions& o) {
-    if (o.to == "autoware") return write_tiles(io::read_cloud(o.data.data), o);
+    const Output* const kind = o.to.empty() ? nullptr : &output_of(o.to);
+    if (kind != nullptr && kind->of_cloud != nullptr) {
+        OutputFolder output(o.output, kind->files, replaced_if(o.overwrite));
+        const WrittenMap tiles = kind->of_cloud(io::read_cloud(o.data.data), output.path());
+        output.commit();
+        say(tiles.note);
+        fmt::print("written  {} ({} tiles)\n", output.name().string(), tiles.files);
+        return kDone;
+    }
     check_cloud_output(o);
     const io::Cloud cloud = io::read_cloud(o.data.data);
     const io::Written written = io::write_cloud(o.output, cloud);
@@ -186,7 +166,7 @@ void add_convert(Program& program) {
            "recording, all its points "
            "in the world's frame")
         .required();
-    c.choice("--to", o->to, {"kitti", "benchmark", "autoware", "3dtiles", "las"},
+    c.choice("--to", o->to, output_names(),
              "layout of the output folder: kitti (default), benchmark, or autoware (map tiles); of "
              "the map of several "
              "drives: 3dtiles, las or autoware");

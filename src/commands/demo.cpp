@@ -8,6 +8,7 @@
 #include "commands/render.hpp"
 #include "commands/shared_options.hpp"
 #include "commands/write_simulation.hpp"
+#include "export/outputs.hpp"
 #include "run/run.hpp"
 #include "score/report.hpp"
 
@@ -20,6 +21,9 @@ struct DemoOptions {
 };
 
 constexpr int kPedestrians = 100;
+
+/// Its recording and its result are folders with files of their own.
+const FolderFiles kDemoFiles{.files = {"before.png", "after.png"}, .is_of_use_in_part = true};
 
 void print_row(const char* method, double pr, double rr, double f1) {
     fmt::print("  {:<34} {:>7.2f} {:>7.2f} {:>6.3f}\n", method, pr, rr, f1);
@@ -43,8 +47,8 @@ int demo(const DemoOptions& o) {
     const auto recording = o.output / "recording";
     const bool again = std::filesystem::exists(o.output / "before.png") &&
                        std::filesystem::exists(recording / "poses.txt");
-    OutputFolder output(o.output, Contents::demo, replaced_if(again));
-    OutputFolder recorded(recording, Contents::recording, replaced_if(again));
+    OutputFolder output(o.output, kDemoFiles, replaced_if(again));
+    OutputFolder recorded(recording, recording_files(), replaced_if(again));
     RunOptions run_options;
     run_options.data.data = recording;
     run_options.data.format = "kitti";

@@ -10,6 +10,7 @@
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
 #include "run/apply_edits.hpp"
+#include "run/run_state.hpp"
 #include "settings/config_file.hpp"
 
 namespace dynamic_filter::app {
@@ -57,7 +58,7 @@ Applied apply_locked(const fs::path& run) {
                           ": a run is replacing this result, or was killed while it did; finish "
                           "that with `dynamicfilter run ... --resume` first");
     }
-    const OutputFolder lock(run, Contents::result, Existing::resume);
+    const OutputFolder lock(run, result_files(), Existing::resume);
     return apply_edits(run, edits_of(run), false);
 }
 

@@ -13,6 +13,7 @@
 #include "commands/shared_options.hpp"
 #include "commands/write_simulation.hpp"
 #include "dynamic_filter/writers.hpp"
+#include "export/outputs.hpp"
 #include "formats/label_files.hpp"
 
 namespace dynamic_filter::app {
@@ -119,7 +120,7 @@ int simulate(const SimulateOptions& o) {
     catch_interrupts();
     for (const auto& [options, folder] : simulated_recordings(o.simulation, o.output)) {
         if (interrupted()) break;
-        OutputFolder output(folder, Contents::recording, replaced_if(o.overwrite));
+        OutputFolder output(folder, recording_files(), replaced_if(o.overwrite));
         const std::size_t points = write_simulation(options, output.path(), o.quiet);
         output.commit();
         if (!o.quiet) fmt::print("written  {} ({} points)\n", output.name().string(), points);

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "dynamic_filter/writers.hpp"
+#include "export/outputs.hpp"
 #include "export/tile_tree.hpp"
 #include "formats/voxel_map/tile_points.hpp"
 
@@ -123,6 +124,63 @@ std::size_t write_autoware_tiles(const MapIndex& index, const fs::path& folder,
     add_tiles(tree, index, folder, squares);
     io::write_file(output / "pointcloud_map_metadata.yaml", autoware_metadata(squares.written()));
     return squares.written().size();
+}
+
+namespace {
+
+/// A float has 24 bits: beyond this its steps are coarser than a centimetre.
+constexpr double kFarForFloats = 131072.0;  // [m]
+
+std::string note_on_floats(const MapIndex& index) {
+    for (const MapTile& tile : index.tiles) {
+        if (tile.min.cwiseAbs().maxCoeff() < kFarForFloats &&
+            tile.max.cwiseAbs().maxCoeff() < kFarForFloats)
+            continue;
+        return "coordinates are rounded to float32, which is coarser than 1 cm there; Autoware "
+               "expects a frame whose origin is near";
+    }
+    return "";
+}
+
+}  // namespace
+
+const FolderFiles& autoware_files() {
+    static const FolderFiles files{.files = {"pointcloud_map_metadata.yaml"},
+                                   .folders = {{"pointcloud_map", ".pcd"}}};
+    return files;
+}
+
+WrittenMap autoware_of_map(const MapIndex& index, const fs::path& map, const ConvertOptions&,
+                           const fs::path& output) {
+    const std::size_t files = write_autoware_tiles(index, map, output);
+    return {.files = files, .note = note_on_floats(index)};
+}
+
+WrittenMap autoware_of_cloud(const io::Cloud& cloud, const fs::path& output) {
+    const auto x = io::values(cloud, *cloud.find("x")), y = io::values(cloud, *cloud.find("y"));
+    std::map<Corner, io::Cloud> tiles;
+    std::size_t nowhere = 0;
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+        if (!std::isfinite(x[i]) || !std::isfinite(y[i])) {
+            ++nowhere;
+            continue;
+        }
+        io::Cloud& tile = tiles[{autoware_corner(x[i]), autoware_corner(y[i])}];
+        tile.fields = cloud.fields;
+        tile.point_bytes = cloud.point_bytes;
+        append_record(tile.data, cloud.data, i, cloud.point_bytes);
+    }
+    const fs::path folder = output / "pointcloud_map";
+    fs::create_directories(folder);
+    std::vector<Corner> corners;
+    for (const auto& [corner, tile] : tiles) {
+        io::write_pcd(folder / autoware_name(corner), tile);
+        corners.push_back(corner);
+    }
+    io::write_file(output / "pointcloud_map_metadata.yaml", autoware_metadata(corners));
+    std::string note;
+    if (nowhere > 0) note = fmt::format("left out: {} points that are not finite", nowhere);
+    return {.files = corners.size(), .note = std::move(note)};
 }
 
 }  // namespace dynamic_filter::app

@@ -3,6 +3,7 @@
 
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/writers.hpp"
+#include "export/outputs.hpp"
 #include "formats/voxel_map/tile_points.hpp"
 
 namespace fs = std::filesystem;
@@ -23,6 +24,17 @@ std::string write_las_tiles(const MapIndex& index, const fs::path& folder, const
     }
     io::write_file(output / "index.json", to_json(written));
     return loss;
+}
+
+const FolderFiles& las_files() {
+    static const FolderFiles files{.files = {"index.json"}, .folders = {{"las", ".las"}}};
+    return files;
+}
+
+WrittenMap las_of_map(const MapIndex& index, const fs::path& map, const ConvertOptions&,
+                      const fs::path& output) {
+    std::string loss = write_las_tiles(index, map, output);
+    return {.files = index.tiles.size(), .note = std::move(loss)};
 }
 
 }  // namespace dynamic_filter::app

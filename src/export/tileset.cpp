@@ -14,6 +14,7 @@
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
 #include "export/glb.hpp"
+#include "export/outputs.hpp"
 #include "export/tile_tree.hpp"
 
 namespace fs = std::filesystem;
@@ -239,6 +240,39 @@ std::size_t write_tileset(const MapIndex& index, const fs::path& folder,
         {"root", std::move(root.json)}};
     io::write_file(output / "tileset.json", tileset.dump() + "\n");
     return writer.written;
+}
+
+namespace {
+
+/// The origin is where the world's frame begins, so coordinates of a map projection lie far off.
+std::string note_on_origin(const MapIndex& index) {
+    constexpr double kFar = 100'000.0;  // [m] there the tangent plane is 800 m above the ground
+    double least = std::numeric_limits<double>::infinity();
+    for (const MapTile& tile : index.tiles) {
+        const TileSquare square = square_of(index, tile);
+        least = std::min(least, std::hypot(square.west, square.south));
+    }
+    if (least < kFar || index.tiles.empty()) return "";
+    return fmt::format(
+        "the map lies {:.0f} km from the origin of its frame, for which --origin gives latitude "
+        "and longitude; coordinates such as UTM have to be made relative to a place nearby "
+        "first, in the poses of the recordings",
+        1e-3 * least);
+}
+
+}  // namespace
+
+const FolderFiles& tileset_files() {
+    static const FolderFiles files{.files = {"tileset.json"}, .folders = {{"tiles", ".glb"}}};
+    return files;
+}
+
+WrittenMap tileset_of_map(const MapIndex& index, const fs::path& map, const ConvertOptions& o,
+                          const fs::path& output) {
+    std::optional<GeoOrigin> origin;
+    if (!o.origin.empty()) origin = geo_origin(o.origin);
+    const std::size_t files = write_tileset(index, map, origin, output);
+    return {.files = files, .note = origin ? note_on_origin(index) : ""};
 }
 
 }  // namespace dynamic_filter::app

@@ -87,7 +87,7 @@ int merge(const MergeOptions& o) {
         return kDone;
     }
     // Goes on in the folder of an interrupted merge of the same parts, also without --overwrite.
-    OutputFolder output(o.output, Contents::result,
+    OutputFolder output(o.output, result_files(),
                         is_begun(o.output, mark) ? Existing::resume : replaced_if(o.overwrite));
     write_state(output, mark);
     clock.finish("prepare");

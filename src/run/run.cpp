@@ -41,7 +41,7 @@ fs::path choose_folder(const Job& job, const RunOptions& o) {
 /// Opens the folder of the result. From here on, Ctrl-C keeps what is done.
 std::unique_ptr<OutputFolder> open_folder(const RunOptions& o, const fs::path& folder) {
     if (o.catches) catch_interrupts();
-    return std::make_unique<OutputFolder>(folder, Contents::result,
+    return std::make_unique<OutputFolder>(folder, result_files(),
                                           o.resume ? Existing::resume : replaced_if(o.overwrite));
 }
 

@@ -16,6 +16,28 @@ constexpr std::string_view kComplete = "complete\n";
 
 }  // namespace
 
+const FolderFiles& result_files() {
+    static const FolderFiles files{
+        .files = {"static_map.pcd", "dynamic_points.pcd", "metrics.json", "timing.json",
+                  "config.toml", "run.log", "report.html", "map_gaps.bin", "part.json", kRunState},
+        .folders = {{"labels", ".label"},
+                    {"unedited", ".label"},
+                    {"unedited", ".pcd"},
+                    {"unedited", ".json"},
+                    {"map", ".pcd"},
+                    {"map", ".html"},
+                    {"map", ".json"},
+                    {"tiles", ".pcd"},
+                    {"tiles", ".tile"},
+                    {"tiles", ""},
+                    {"report", ".html"},
+                    {"report", ".js"},
+                    {"report", ".css"}},
+        .is_of_use_in_part = true,
+        .is_result = true};
+    return files;
+}
+
 std::string state_of(const io::Recording& recording) {
     std::error_code ignored;
     std::uintmax_t bytes =

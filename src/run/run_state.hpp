@@ -11,6 +11,9 @@
 
 namespace dynamic_filter::app {
 
+/// What a run leaves.
+const FolderFiles& result_files();
+
 /// The recording: where it is, its scans and their size.
 std::string state_of(const io::Recording& recording);
 

@@ -15,16 +15,26 @@ using test::slurp;
 using test::spill;
 using test::TemporaryFolder;
 
+const FolderFiles kResult{
+    .files = {"static_map.pcd", "metrics.json", "run.log", kRunState},
+    .folders = {{"labels", ".label"}, {"map", ".pcd"}, {"tiles", ".tile"}, {"report", ".html"}},
+    .is_of_use_in_part = true,
+    .is_result = true};
+const FolderFiles kRecording{.files = {"poses.txt", "times.txt"},
+                             .folders = {{"labels", ".label"}, {"velodyne", ".bin"}}};
+const FolderFiles kTiles{.files = {"pointcloud_map_metadata.yaml"},
+                         .folders = {{"pointcloud_map", ".pcd"}}};
+
 TEST(OutputFolder, IsCreatedAndLeavesNoLockBehind) {
     const TemporaryFolder temporary;
-    { const OutputFolder folder(temporary / "a/b", Contents::result, Existing::refuse); }
+    { const OutputFolder folder(temporary / "a/b", kResult, Existing::refuse); }
     EXPECT_TRUE(fs::is_empty(temporary / "a/b"));
 }
 
 TEST(OutputFolder, ASecondUserIsRefused) {
     const TemporaryFolder temporary;
-    const OutputFolder first(temporary / "out", Contents::result, Existing::refuse);
-    EXPECT_THROW(OutputFolder(temporary / "out", Contents::result, Existing::replace), ConfigError);
+    const OutputFolder first(temporary / "out", kResult, Existing::refuse);
+    EXPECT_THROW(OutputFolder(temporary / "out", kResult, Existing::replace), ConfigError);
 }
 
 TEST(OutputFolder, WhatIsThereIsKeptUnlessOverwritten) {
@@ -36,16 +46,16 @@ TEST(OutputFolder, WhatIsThereIsKeptUnlessOverwritten) {
     spill(temporary / "thesis.tex", "keep");
     spill(temporary / "poses.txt", "a recording's");
     spill(temporary / ".run.log.tmp.1.0", "left by a process that was killed");
-    EXPECT_THROW(OutputFolder(temporary.path(), Contents::result, Existing::refuse), ConfigError);
-    EXPECT_THROW(OutputFolder(temporary.path(), Contents::result, Existing::refuse), ConfigError)
+    EXPECT_THROW(OutputFolder(temporary.path(), kResult, Existing::refuse), ConfigError);
+    EXPECT_THROW(OutputFolder(temporary.path(), kResult, Existing::refuse), ConfigError)
         << "the lock was not given back";
     EXPECT_TRUE(fs::exists(temporary / "static_map.pcd"));
     {
-        const OutputFolder given_up(temporary.path(), Contents::result, Existing::replace);
+        const OutputFolder given_up(temporary.path(), kResult, Existing::replace);
         spill(given_up.path() / "static_map.pcd", "half of it");
     }
     EXPECT_EQ(slurp(temporary / "static_map.pcd"), "old");
-    OutputFolder folder(temporary.path(), Contents::result, Existing::replace);
+    OutputFolder folder(temporary.path(), kResult, Existing::replace);
     EXPECT_EQ(folder.name(), temporary.path());
     spill(folder.path() / "run.log", "new");
     spill(folder.subfolder("labels") / "000001.label", "5678");
@@ -66,15 +76,15 @@ TEST(OutputFolder, WhatIsThereIsKeptUnlessOverwritten) {
 TEST(OutputFolder, HalfARecordingIsNothing) {
     const TemporaryFolder temporary;
     {
-        const OutputFolder given_up(temporary / "new", Contents::recording, Existing::refuse);
+        const OutputFolder given_up(temporary / "new", kRecording, Existing::refuse);
         spill(given_up.subfolder("velodyne") / "000000.bin", "half of it");
         EXPECT_FALSE(fs::exists(temporary / "new/velodyne"));
     }
     EXPECT_FALSE(fs::exists(temporary / "new"));
     fs::create_directory(temporary / "mine");
-    { const OutputFolder given_up(temporary / "mine", Contents::tiles, Existing::refuse); }
+    { const OutputFolder given_up(temporary / "mine", kTiles, Existing::refuse); }
     EXPECT_TRUE(fs::is_empty(temporary / "mine"));
-    OutputFolder folder(temporary / "new", Contents::recording, Existing::refuse);
+    OutputFolder folder(temporary / "new", kRecording, Existing::refuse);
     spill(folder.subfolder("velodyne") / "000000.bin", "all of it");
     folder.commit();
     EXPECT_EQ(slurp(temporary / "new/velodyne/000000.bin"), "all of it");
@@ -85,11 +95,11 @@ TEST(OutputFolder, OnlyARunOverwritesTheResultOfARun) {
     const TemporaryFolder temporary;
     spill(temporary / kRunState, "state");
     spill(temporary / "metrics.json", "{}");
-    for (const Contents other : {Contents::recording, Contents::benchmark, Contents::tiles}) {
-        EXPECT_THROW(OutputFolder(temporary.path(), other, Existing::replace), ConfigError);
+    for (const FolderFiles* other : {&kRecording, &kTiles}) {
+        EXPECT_THROW(OutputFolder(temporary.path(), *other, Existing::replace), ConfigError);
     }
     EXPECT_TRUE(fs::exists(temporary / "metrics.json"));
-    EXPECT_NO_THROW(OutputFolder(temporary.path(), Contents::result, Existing::replace));
+    EXPECT_NO_THROW(OutputFolder(temporary.path(), kResult, Existing::replace));
 }
 
 TEST(OutputFolder, GoesOnBesideWhatAKilledProcessWasReplacing) {
@@ -98,7 +108,7 @@ TEST(OutputFolder, GoesOnBesideWhatAKilledProcessWasReplacing) {
     fs::create_directory(temporary / ".new");
     spill(temporary / ".new/run.log", "new");
     spill(temporary / ".new/.run.log.tmp.1.0", "half");
-    OutputFolder folder(temporary.path(), Contents::result, Existing::resume);
+    OutputFolder folder(temporary.path(), kResult, Existing::resume);
     EXPECT_EQ(slurp(folder.path() / "run.log"), "new");
     EXPECT_FALSE(fs::exists(folder.path() / ".run.log.tmp.1.0"));
     EXPECT_EQ(slurp(temporary / "run.log"), "old");
@@ -109,9 +119,8 @@ TEST(OutputFolder, GoesOnBesideWhatAKilledProcessWasReplacing) {
 TEST(OutputFolder, AFileInItsPlaceIsAClearError) {
     const TemporaryFolder temporary;
     spill(temporary / "out", "a file");
-    EXPECT_THROW(OutputFolder(temporary / "out", Contents::result, Existing::replace), ConfigError);
-    EXPECT_THROW(OutputFolder(temporary / "out/below", Contents::result, Existing::replace),
-                 OutputError);
+    EXPECT_THROW(OutputFolder(temporary / "out", kResult, Existing::replace), ConfigError);
+    EXPECT_THROW(OutputFolder(temporary / "out/below", kResult, Existing::replace), OutputError);
 }
 
 TEST(RefuseSameFolder, SeesThroughNames) {

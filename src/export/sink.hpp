@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-/// What `convert` makes of a recording, scan by scan.
+/// What `convert` makes of a recording, scan by scan, and what its outputs share.
 #pragma once
 
 #include <cstddef>
 #include <memory>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,17 +21,18 @@ public:
     Sink& operator=(const Sink&) = delete;
     virtual ~Sink() = default;
     /// `labels` are verdicts or ground truth, empty if there are none.
-    virtual void append(const io::FullScan& frame, const Labels& labels) = 0;
+    virtual void append(const io::FullScan& scan, const Labels& labels) = 0;
     /// Returns what the format could not hold, as a sentence; empty if it held all. Without this
     /// call, no file is left.
     virtual std::string commit() = 0;
 };
 
-/// Chooses the sink by the output's name and --to. Throws ConfigError before any work is done.
-std::unique_ptr<Sink> make_sink(const ConvertOptions& options);
+/// Empty labels: nothing is dynamic.
+bool is_dynamic(const Labels& labels, std::size_t i);
 
-/// Throws ConfigError if the output is no cloud file that can be written, or is there already.
-void check_cloud_output(const ConvertOptions& options);
+/// "left out: a, b", of what a scan has and its format has no place for.
+std::string left_out(const std::vector<io::Field>& fields, const std::set<std::string>& kept,
+                     const std::string& also = "");
 
 /// Adds record i.
 void append_record(std::vector<std::byte>& to, std::span<const std::byte> records, std::size_t i,

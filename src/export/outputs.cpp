@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "export/outputs.hpp"
+
+#include "dynamic_filter/bag.hpp"
+#include "dynamic_filter/error.hpp"
+
+namespace dynamic_filter::app {
+
+const std::vector<Output>& outputs() {
+    static const std::vector<Output> rows = {
+        {.name = "kitti", .files = recording_files(), .of_recording = make_kitti_sink},
+        {.name = "benchmark", .files = benchmark_files(), .of_recording = make_benchmark_sink},
+        {.name = "3dtiles", .files = tileset_files(), .of_map = tileset_of_map},
+        {.name = "las", .files = las_files(), .of_map = las_of_map},
+        {.name = "autoware",
+         .files = autoware_files(),
+         .of_map = autoware_of_map,
+         .of_cloud = autoware_of_cloud}};
+    return rows;
+}
+
+std::vector<std::string> output_names() {
+    std::vector<std::string> names;
+    for (const Output& output : outputs()) names.push_back(output.name);
+    return names;
+}
+
+const Output& output_of(const std::string& name) {
+    for (const Output& output : outputs()) {
+        if (output.name == name) return output;
+    }
+    throw ConfigError("--to " + name + ": there is no such output");
+}
+
+std::string outputs_of_maps() {
+    std::vector<std::string> names;
+    for (const Output& output : outputs()) {
+        if (output.of_map != nullptr) names.push_back("--to " + output.name);
+    }
+    std::string text = names.front();
+    for (std::size_t i = 1; i < names.size(); ++i) {
+        text += (i + 1 < names.size() ? ", " : " or ") + names[i];
+    }
+    return text;
+}
+
+std::unique_ptr<Sink> make_sink(const ConvertOptions& o) {
+    if (!o.to.empty()) return output_of(o.to).of_recording(o);
+    if (o.output.extension().empty()) return make_kitti_sink(o);
+    return io::BagWriter::recognises(o.output) ? make_bag_sink(o) : make_cloud_sink(o);
+}
+
+}  // namespace dynamic_filter::app

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#include "export/sink.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace dynamic_filter::app {
+
+bool is_dynamic(const Labels& labels, std::size_t i) {
+    return !labels.empty() && labels[i] == Label::dynamic;
+}
+
+std::string left_out(const std::vector<io::Field>& fields, const std::set<std::string>& kept,
+                     const std::string& also) {
+    std::vector<std::string> names;
+    for (const io::Field& field : fields) {
+        if (!kept.contains(field.name)) names.push_back(field.name);
+    }
+    if (!also.empty()) names.push_back(also);
+    return names.empty() ? "" : fmt::format("left out: {}", fmt::join(names, ", "));
+}
+
+void append_record(std::vector<std::byte>& to, std::span<const std::byte> records, std::size_t i,
+                   std::size_t bytes) {
+    const auto record = records.subspan(i * bytes, bytes);
+    to.insert(to.end(), record.begin(), record.end());
+}
+
+}  // namespace dynamic_filter::app
