@@ -16,8 +16,8 @@
 #include "geometry/pose.hpp"
 #include "geometry/voxel.hpp"
 #include "recording/frames.hpp"
+#include "run/cut.hpp"
 #include "run/label_store.hpp"
-#include "run/piece.hpp"
 #include "run/tile_file.hpp"
 #include "run/tile_map.hpp"
 
@@ -33,8 +33,8 @@ using ScanGroup = std::vector<ScanOfDrive>;
 std::vector<ScanGroup> groups_of(const Plan& plan, const std::vector<ScanOfDrive>& scans) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, ScanGroup> groups;
     for (const ScanOfDrive& scan : scans) {
-        const std::uint32_t part = plan.drives[scan.drive].scans[scan.scan].part;
-        groups[part == 0 ? std::pair(0U, 0U) : std::pair(scan.drive, part)].push_back(scan);
+        const std::uint32_t stretch = plan.drives[scan.drive].scans[scan.scan].stretch;
+        groups[stretch == 0 ? std::pair(0U, 0U) : std::pair(scan.drive, stretch)].push_back(scan);
     }
     std::vector<ScanGroup> result;
     for (auto& [key, group] : groups) result.push_back(std::move(group));
@@ -43,8 +43,8 @@ std::vector<ScanGroup> groups_of(const Plan& plan, const std::vector<ScanOfDrive
 
 /// The final verdict on the points of a scan in and around the tile.
 struct Seen {
-    Piece piece;
-    Verdict verdict;                    // on the points of the piece
+    Cut cut;
+    Verdict verdict;                    // on the points of the cut
     std::vector<std::uint32_t> voxels;  // of these points; kNoVoxel outside of the tile
 };
 
@@ -171,11 +171,11 @@ bool TileRun::look_again(DynamicFilter& filter, const ScanGroup& scans) const {
 
 Seen TileRun::look(const DynamicFilter& filter, const io::FullScan& frame,
                    std::size_t number) const {
-    Seen seen{.piece = cut(frame, work.tile, job.plan.cell), .verdict = {}, .voxels = {}};
+    Seen seen{.cut = cut_of(frame, work.tile, job.plan.cell), .verdict = {}, .voxels = {}};
     seen.verdict =
-        filter.verdict({seen.piece.points, frame.T_world_sensor, frame.stamp, number}, seen.voxels);
+        filter.verdict({seen.cut.points, frame.T_world_sensor, frame.stamp, number}, seen.voxels);
     for (std::size_t i = 0; i < seen.voxels.size(); ++i) {
-        if (!seen.piece.inside[i]) seen.voxels[i] = kNoVoxel;
+        if (!seen.cut.inside[i]) seen.voxels[i] = kNoVoxel;
     }
     return seen;
 }
@@ -190,11 +190,11 @@ bool TileRun::decide(const DynamicFilter& filter, const ScanGroup& scans,
     };
     const auto use = [&](std::size_t number, io::FullScan& frame) {
         const Seen one = std::exchange(seen[number], {});
-        const Labels instant = labels_of(one.piece, instants.get(number));
+        const Labels instant = labels_of(one.cut, instants.get(number));
         const auto& [index, labels, probability, stays, tracked] = one.verdict;
         PointVerdicts inside;
         for (std::size_t i = 0; i < labels.size(); ++i) {
-            if (!one.piece.inside[i]) continue;
+            if (!one.cut.inside[i]) continue;
             inside.push_back({labels[i], instant[i], !stays.empty() && stays[i]});
         }
         verdicts.add(scans[number], inside);
@@ -209,7 +209,7 @@ bool TileRun::decide(const DynamicFilter& filter, const ScanGroup& scans,
 
 void TileRun::score(const Pose& T_world_sensor, const Seen& seen, const Labels& instant) {
     if (!scorer) scorer.emplace(eval::kVoxelSize, 2);
-    scorer->add(labelled_inside(seen.piece, T_world_sensor, scoring_origin()),
+    scorer->add(labelled_inside(seen.cut, T_world_sensor, scoring_origin()),
                 std::array<const Labels*, 2>{&seen.verdict.labels, &instant});
 }
 
@@ -219,11 +219,11 @@ bool TileRun::score_near(const ScanGroup& scans, const std::vector<std::size_t>&
     std::vector<std::vector<Points>> near(scans.size());
     const auto prepare = [&](std::size_t number, io::FullScan& frame) {
         if (frame.truth.empty()) return;
-        const Piece piece = cut(frame, work.tile, job.plan.cell);
+        const Cut cut = cut_of(frame, work.tile, job.plan.cell);
         const Labels final = finals.get(number);
-        const Labels instant = labels_of(piece, instants.get(number));
+        const Labels instant = labels_of(cut, instants.get(number));
         near[number] =
-            scorer->near_removed(labelled_inside(piece, frame.T_world_sensor, scoring_origin()),
+            scorer->near_removed(labelled_inside(cut, frame.T_world_sensor, scoring_origin()),
                                  std::array<const Labels*, 2>{&final, &instant});
     };
     const auto use = [&](std::size_t number, io::FullScan&) {

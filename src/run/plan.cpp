@@ -103,13 +103,13 @@ public:
             reject(i, "it has the stamp and the pose of the scan before");
             return;
         }
-        if (!begin_part(i, now)) return;
+        if (!begin_stretch(i, now)) return;
         if (!frame.truth_fault.empty()) {
             drive_.notes.push_back(frame.truth_fault + "; the scan is filtered, but not scored");
         }
         PlannedScan& scan = drive_.scans[i];
         scan.is_used = true;
-        scan.part = part_;
+        scan.stretch = stretch_;
         scan.position = frame.T_world_sensor.translation();
         cells_.insert(cells_.end(), extent.cells.begin(), extent.cells.end());
         cells_.insert(cells_.end(), extent.around.begin(), extent.around.end());
@@ -140,7 +140,7 @@ private:
                last_->T_world_sensor.matrix() == now.T_world_sensor.matrix();
     }
     /// False if the scan comes too late.
-    bool begin_part(std::size_t i, const StampedPose& now) {
+    bool begin_stretch(std::size_t i, const StampedPose& now) {
         const std::string name = io::stem(recording_, i);
         if (last_ && now.stamp < last_->stamp) {
             if (now.stamp >= last_->stamp - kRestart) {
@@ -150,18 +150,18 @@ private:
             drive_.notes.push_back(name +
                                    ": stamps went back by more than a second; scans are not "
                                    "compared with those before");
-            next_part();
+            next_stretch();
         } else if (const auto jump = pose_jump(before_last_, last_, now)) {
             drive_.notes.push_back(
                 fmt::format("{}: the pose is {:.0f} m from where the previous poses lead; scans "
                             "are not compared with those before",
                             name, *jump));
-            next_part();
+            next_stretch();
         }
         return true;
     }
-    void next_part() {
-        ++part_;
+    void next_stretch() {
+        ++stretch_;
         before_last_ = last_ = std::nullopt;
     }
 
@@ -169,7 +169,7 @@ private:
     PlannedDrive& drive_;
     std::vector<io::Field> fields_;
     std::optional<StampedPose> before_last_, last_;
-    std::uint32_t part_ = 0;
+    std::uint32_t stretch_ = 0;
     std::vector<PlaneCell> cells_;  // of all scans, one after the other
     std::vector<Counts> counts_;
 };
@@ -304,7 +304,7 @@ std::vector<std::size_t> used_scans(const PlannedDrive& drive) {
 }
 
 void cut_into_tiles(Plan& plan, const Config& config) {
-    const std::vector<Tile> tiles = cut(plan.voxels, plan.most_voxels);
+    const std::vector<Tile> tiles = tiles_of(plan.voxels, plan.most_voxels);
     const TileLookup lookup(tiles);
     plan.tiles.clear();
     for (const Tile& tile : tiles) plan.tiles.push_back({.tile = tile, .scans = {}, .inside = {}});

@@ -9,8 +9,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 COVERED = {  # test -> the units that it covers
     "commands/command_test.cpp": "check/motion commands/check commands/cleaning commands/compare commands/config commands/convert "
         "commands/demo commands/evaluate commands/info commands/main commands/odometry commands/options commands/picture commands/render commands/run "
-        "commands/serve commands/shared_options commands/simulate draw/animation draw/canvas export/convert_map export/sinks recording/frames recording/world_records run/run "
-        "run/run_reports run/run_sequence run/run_state run/scored_scans run/write_scans",
+        "commands/serve commands/shared_options commands/simulate draw/animation draw/canvas export/convert_map export/sinks online/scan_worker recording/frames recording/world_records run/run "
+        "run/filter_whole run/run_state run/scored_scans run/write_scans",
     "export/tileset_test.cpp": "export/glb",
     "formats/clouds/cloud_test.cpp": "formats/clouds/bin",
     "formats/clouds/las_test.cpp": "formats/clouds/las_header formats/clouds/las_writer",
@@ -22,8 +22,8 @@ COVERED = {  # test -> the units that it covers
     "recording/bag_scans_test.cpp": "recording/bag_contents recording/pose_source",
     "recording/layout_test.cpp": "recording/layouts/beside recording/layouts/folder recording/layouts/kitti",
     "recording/benchmark_test.cpp": "recording/layouts/benchmark",
-    "run/city_test.sh": "commands/merge commands/plan run/city run/filter_tile run/filter_tiles run/merge run/run_city "
-        "run/write_city",
+    "run/city_test.sh": "commands/merge commands/plan run/filter_tile run/filter_tiles run/job run/merge run/summary "
+        "run/write_tiles",
     "run/edits_test.cpp": "run/apply_edits run/edit_lookup run/map_gaps run/run_edits",
     "run/mpi/mpi_workers_test.cpp": "run/mpi/plugin",
     "run/plan_test.cpp": "run/plan_file",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "run/piece.hpp"
+#include "run/cut.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "support/random.hpp"
 
 namespace dynamic_filter::app {
-namespace piece_test {
+namespace cut_test {
 
 constexpr double kEdge = 12.8;
 
@@ -28,44 +28,44 @@ io::FullScan some_frame() {
     return frame;
 }
 
-TEST(Piece, HoldsThePointsInAndAroundTheTileInOrder) {
+TEST(Cut, HoldsThePointsInAndAroundTheTileInOrder) {
     const io::FullScan frame = some_frame();
     const Tile tile{.level = 1, .x = 0, .y = -1};
-    const Piece piece = cut(frame, tile, kEdge);
+    const Cut cut = cut_of(frame, tile, kEdge);
     std::size_t next = 0;
     each_measured(frame, [&](std::size_t i, const Eigen::Vector3d& world) {
         const PlaneCell cell = cell_at(world, kEdge);
         const bool is_around = cell.x >= -1 && cell.x <= 4 && cell.y >= -5 && cell.y <= 0;
         if (!is_around) return;
-        ASSERT_LT(next, piece.indices.size());
-        EXPECT_EQ(piece.indices[next], i);
-        EXPECT_EQ(piece.inside[next], tile_at(cell, 1) == tile);
-        EXPECT_EQ(piece.points[next], frame.points[i]);
-        EXPECT_EQ(piece.truth[next], frame.truth[i]);
+        ASSERT_LT(next, cut.indices.size());
+        EXPECT_EQ(cut.indices[next], i);
+        EXPECT_EQ(cut.inside[next], tile_at(cell, 1) == tile);
+        EXPECT_EQ(cut.points[next], frame.points[i]);
+        EXPECT_EQ(cut.truth[next], frame.truth[i]);
         ++next;
     });
-    EXPECT_EQ(next, piece.indices.size());
+    EXPECT_EQ(next, cut.indices.size());
     EXPECT_GT(next, 100U);
 }
 
-TEST(Piece, OfTheOnlyTileIsAllThatWasMeasured) {
+TEST(Cut, OfTheOnlyTileIsAllThatWasMeasured) {
     const io::FullScan frame = some_frame();
-    const Piece piece = cut(frame, {.is_whole = true}, kEdge);
-    EXPECT_EQ(piece.points.size(), frame.points.size() - 3);
-    EXPECT_EQ(labels_of(piece, frame.truth), piece.truth);
+    const Cut cut = cut_of(frame, {.is_whole = true}, kEdge);
+    EXPECT_EQ(cut.points.size(), frame.points.size() - 3);
+    EXPECT_EQ(labels_of(cut, frame.truth), cut.truth);
 }
 
-TEST(Piece, OutsideOfTheTileNothingIsScored) {
+TEST(Cut, OutsideOfTheTileNothingIsScored) {
     const io::FullScan frame = some_frame();
-    const Piece piece = cut(frame, {.level = 0, .x = 1, .y = -1}, kEdge);
-    const auto scan = labelled_inside(piece, frame.T_world_sensor, {10.0, 0.0, 0.0});
+    const Cut cut = cut_of(frame, {.level = 0, .x = 1, .y = -1}, kEdge);
+    const auto scan = labelled_inside(cut, frame.T_world_sensor, {10.0, 0.0, 0.0});
     for (std::size_t i = 0; i < scan.points.size(); ++i) {
-        EXPECT_EQ(scan.truth[i], piece.inside[i] ? piece.truth[i] : Label::unknown);
-        const Eigen::Vector3d world = frame.T_world_sensor * piece.points[i].cast<double>();
+        EXPECT_EQ(scan.truth[i], cut.inside[i] ? cut.truth[i] : Label::unknown);
+        const Eigen::Vector3d world = frame.T_world_sensor * cut.points[i].cast<double>();
         EXPECT_NEAR(world.x() - 10.0, scan.points[i].x(), 1e-4);
         EXPECT_NEAR(world.y(), scan.points[i].y(), 1e-4);
     }
 }
 
-}  // namespace piece_test
+}  // namespace cut_test
 }  // namespace dynamic_filter::app
