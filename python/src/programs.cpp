@@ -16,7 +16,7 @@
 #include "dynamic_filter/check.hpp"
 #include "dynamic_filter/file.hpp"
 #include "python/src/module.hpp"
-#include "recording/frames.hpp"
+#include "recording/scans.hpp"
 #include "run/run.hpp"
 #include "score/report.hpp"
 

@@ -12,7 +12,7 @@
 #include "formats/voxel_map/map_index.hpp"
 #include "page/run_view.hpp"
 #include "recording/data_options.hpp"
-#include "recording/frames.hpp"
+#include "recording/scans.hpp"
 #include "run/scored_scans.hpp"
 #include "score/report.hpp"
 

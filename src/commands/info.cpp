@@ -15,7 +15,7 @@
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/recording.hpp"
 #include "formats/voxel_map/map_index.hpp"
-#include "recording/frames.hpp"
+#include "recording/scans.hpp"
 
 namespace dynamic_filter::app {
 

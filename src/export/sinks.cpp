@@ -14,7 +14,7 @@
 #include "dynamic_filter/writers.hpp"
 #include "formats/label_files.hpp"
 #include "geometry/kept.hpp"
-#include "recording/frames.hpp"
+#include "recording/scans.hpp"
 #include "recording/world_records.hpp"
 
 namespace fs = std::filesystem;
@@ -45,15 +45,15 @@ public:
         : output_(folder, Contents::recording, replaced_if(overwrite)),
           scans_(output_.subfolder("velodyne")) {}
 
-    void append(const io::FullScan& frame, const Labels& labels) override {
+    void append(const io::FullScan& scan, const Labels& labels) override {
         const std::string name = fmt::format("{:06}", poses_.size());
-        fields_ = frame.cloud.fields;
-        io::write_bin(scans_ / (name + ".bin"), frame.points, intensities(frame.cloud));
+        fields_ = scan.cloud.fields;
+        io::write_bin(scans_ / (name + ".bin"), scan.points, intensities(scan.cloud));
         if (!labels.empty()) {
             io::write_labels(io::label_file(output_.subfolder("labels"), name), labels);
         }
-        poses_.push_back(frame.T_world_sensor);
-        stamps_.push_back(frame.stamp);
+        poses_.push_back(scan.T_world_sensor);
+        stamps_.push_back(scan.stamp);
     }
     std::string commit() override {
         io::write_poses_kitti(output_.path() / "poses.txt", poses_);
@@ -88,17 +88,17 @@ public:
         }
     }
 
-    void append(const io::FullScan& frame, const Labels& labels) override {
+    void append(const io::FullScan& scan, const Labels& labels) override {
         io::Cloud cloud = layout_;
-        fields_ = frame.cloud.fields;
-        cloud.data.resize(frame.points.size() * cloud.point_bytes);
-        const Points world = shifted_world(frame, Eigen::Vector3d::Zero());
+        fields_ = scan.cloud.fields;
+        cloud.data.resize(scan.points.size() * cloud.point_bytes);
+        const Points world = shifted_world(scan, Eigen::Vector3d::Zero());
         for (std::size_t i = 0; i < world.size(); ++i) {
             const std::array record{world[i].x(), world[i].y(), world[i].z(),
                                     is_dynamic(labels, i) ? 1.0F : 0.0F};
             std::memcpy(cloud.data.data() + i * sizeof record, record.data(), sizeof record);
         }
-        cloud.viewpoint = frame.T_world_sensor;
+        cloud.viewpoint = scan.T_world_sensor;
         io::write_pcd(scans_ / fmt::format("{:06}.pcd", count_++), cloud);
         truth_.data.insert(truth_.data.end(), cloud.data.begin(), cloud.data.end());
         labelled_ = labelled_ && !labels.empty();
@@ -132,18 +132,18 @@ public:
           map_(std::move(map)),
           keep_unknown_(keep_unknown) {}
 
-    void append(const io::FullScan& frame, const Labels& labels) override {
-        last_ = frame.stamp;
-        const io::Cloud cloud = in_sensor(frame);
+    void append(const io::FullScan& scan, const Labels& labels) override {
+        last_ = scan.stamp;
+        const io::Cloud cloud = in_sensor(scan);
         for (const io::Field& field : cloud.fields) {
             const bool wide = field.type == io::FieldType::i64 || field.type == io::FieldType::u64;
             if (wide) rounded_ = "64-bit integers are rounded to doubles";
         }
-        write("/tf", "tf2_msgs/TFMessage", frame.stamp,
-              io::transform_message(kWorld, kSensor, frame.T_world_sensor, frame.stamp, encoding_));
+        write("/tf", "tf2_msgs/TFMessage", scan.stamp,
+              io::transform_message(kWorld, kSensor, scan.T_world_sensor, scan.stamp, encoding_));
         const auto write_points = [&](const char* name, const io::Cloud& points) {
-            write(name, "sensor_msgs/PointCloud2", frame.stamp,
-                  io::cloud_message(points, frame.stamp, kSensor, encoding_));
+            write(name, "sensor_msgs/PointCloud2", scan.stamp,
+                  io::cloud_message(points, scan.stamp, kSensor, encoding_));
         };
         write_points("/points", cloud);
         if (labels.empty()) return;
@@ -168,9 +168,9 @@ private:
     static constexpr const char *kWorld = "map", *kSensor = "lidar";
 
     /// The record with the coordinates that the filter sees.
-    static io::Cloud in_sensor(const io::FullScan& frame) {
-        io::Cloud cloud = frame.cloud;
-        io::FullScan local = frame;
+    static io::Cloud in_sensor(const io::FullScan& scan) {
+        io::Cloud cloud = scan.cloud;
+        io::FullScan local = scan;
         local.T_world_sensor = Pose::Identity();
         cloud.data = world_records(local, cloud);
         return cloud;
@@ -198,16 +198,16 @@ class MapSink final : public Sink {
 public:
     explicit MapSink(fs::path file) : file_(std::move(file)) {}
 
-    void append(const io::FullScan& frame, const Labels& labels) override {
+    void append(const io::FullScan& scan, const Labels& labels) override {
         if (layout_.fields.empty()) {
-            layout_ = layout_of(frame, false);
+            layout_ = layout_of(scan, false);
             map_.fields = layout_.fields;
             map_.point_bytes = layout_.point_bytes;
             if (!labels.empty()) io::add_field(map_, "dynamic", io::FieldType::u8);
         }
-        const auto records = world_records(frame, layout_);
-        for (std::size_t i = 0; i < frame.points.size(); ++i) {
-            if (!is_measured(frame.points[i])) {
+        const auto records = world_records(scan, layout_);
+        for (std::size_t i = 0; i < scan.points.size(); ++i) {
+            if (!is_measured(scan.points[i])) {
                 ++unmeasured_;
                 continue;
             }

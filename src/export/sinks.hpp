@@ -20,7 +20,7 @@ public:
     Sink& operator=(const Sink&) = delete;
     virtual ~Sink() = default;
     /// `labels` are verdicts or ground truth, empty if there are none.
-    virtual void append(const io::FullScan& frame, const Labels& labels) = 0;
+    virtual void append(const io::FullScan& scan, const Labels& labels) = 0;
     /// Returns what the format could not hold, as a sentence; empty if it held all. Without this
     /// call, no file is left.
     virtual std::string commit() = 0;

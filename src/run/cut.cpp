@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "run/cut.hpp"
 
-#include "recording/frames.hpp"
+#include "recording/scans.hpp"
 
 namespace dynamic_filter::app {
 
@@ -39,20 +39,20 @@ bool is_around(const Tile& tile, const PlaneCell& cell) {
 
 }  // namespace
 
-Cut cut_of(const io::FullScan& frame, const Tile& tile, double edge) {
-    const FarFromTile is_far(tile, frame.T_world_sensor, edge);
+Cut cut_of(const io::FullScan& scan, const Tile& tile, double edge) {
+    const FarFromTile is_far(tile, scan.T_world_sensor, edge);
     Cut cut;
-    for (std::uint32_t i = 0; i < frame.points.size(); ++i) {
-        const Point& point = frame.points[i];
+    for (std::uint32_t i = 0; i < scan.points.size(); ++i) {
+        const Point& point = scan.points[i];
         if (!is_measured(point) || is_far(point)) continue;
-        const Eigen::Vector3d world = frame.T_world_sensor * point.cast<double>();
+        const Eigen::Vector3d world = scan.T_world_sensor * point.cast<double>();
         if (!has_cell(world)) continue;
         const PlaneCell cell = cell_at(world, edge);
         if (!tile.is_whole && !is_around(tile, cell)) continue;
         cut.indices.push_back(i);
         cut.points.push_back(point);
         cut.inside.push_back(tile.is_whole || tile_at(cell, tile.level) == tile);
-        if (!frame.truth.empty()) cut.truth.push_back(frame.truth[i]);
+        if (!scan.truth.empty()) cut.truth.push_back(scan.truth[i]);
     }
     return cut;
 }

@@ -20,7 +20,7 @@ struct Cut {
 };
 
 /// The measured points in the tile and in the cells around it. `edge` [m]: of a cell.
-Cut cut_of(const io::FullScan& frame, const Tile& tile, double edge);
+Cut cut_of(const io::FullScan& scan, const Tile& tile, double edge);
 
 /// The labels of the cut out of those of the whole scan.
 Labels labels_of(const Cut& cut, const Labels& of_scan);

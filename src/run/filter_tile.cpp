@@ -15,7 +15,7 @@
 #include "dynamic_filter/writers.hpp"
 #include "geometry/pose.hpp"
 #include "geometry/voxel.hpp"
-#include "recording/frames.hpp"
+#include "recording/scans.hpp"
 #include "run/cut.hpp"
 #include "run/label_store.hpp"
 #include "run/tile_file.hpp"
@@ -68,7 +68,7 @@ struct TileRun {
     bool look_again(DynamicFilter& filter, const ScanGroup& scans) const;
     bool decide(const DynamicFilter& filter, const ScanGroup& scans,
                 const std::vector<std::size_t>& numbers, const LabelStore& instants);
-    [[nodiscard]] Seen look(const DynamicFilter& filter, const io::FullScan& frame,
+    [[nodiscard]] Seen look(const DynamicFilter& filter, const io::FullScan& scan,
                             std::size_t number) const;
     void score(const Pose& T_world_sensor, const Seen& seen, const Labels& instant);
     bool score_near(const ScanGroup& scans, const std::vector<std::size_t>& numbers,
@@ -99,7 +99,7 @@ Eigen::Vector3d TileRun::scoring_origin() const {
     return nearby_origin(corner, eval::kVoxelSize);
 }
 
-/// Calls use(number, scan, frame) for the scans in order; `prepare` (number, frame) runs in
+/// Calls use(number, scan) for the scans in order; `prepare` (number, scan) runs in
 /// parallel before. False if it was interrupted.
 bool each_scan(const Job& job, const ScanGroup& group, const std::vector<std::size_t>& numbers,
                const std::function<void(std::size_t, io::FullScan&)>& prepare,
@@ -113,14 +113,14 @@ bool each_scan(const Job& job, const ScanGroup& group, const std::vector<std::si
             number_of[scans.back()] = numbers[begin];
         }
         const io::Recording& recording = job.drives[drive].recording;
-        for_each_frame(
+        for_each_scan(
             recording, scans,
-            [&](std::size_t i, MaybeFrame& maybe) {
-                if (prepare) prepare(number_of.at(i), *maybe.frame);
+            [&](std::size_t i, MaybeScan& maybe) {
+                if (prepare) prepare(number_of.at(i), *maybe.scan);
             },
-            [&](std::size_t i, MaybeFrame& maybe) {
-                if (!maybe.frame) throw changed_in_use(recording, i, maybe.error);
-                use(number_of.at(i), *maybe.frame);
+            [&](std::size_t i, MaybeScan& maybe) {
+                if (!maybe.scan) throw changed_in_use(recording, i, maybe.error);
+                use(number_of.at(i), *maybe.scan);
                 return !interrupted();
             });
         if (interrupted()) return false;
@@ -147,16 +147,16 @@ std::vector<std::vector<std::size_t>> inside_by_drive(const ScanGroup& group,
     return drives;
 }
 
-/// First pass: every scan goes through the filter.
+/// First reading: every scan goes through the filter.
 bool TileRun::filter(DynamicFilter& filter, const ScanGroup& scans, LabelStore& instants) const {
     std::uint32_t drive = scans.front().drive;
-    return each_scan(job, scans, all_of(scans), {}, [&](std::size_t number, io::FullScan& frame) {
+    return each_scan(job, scans, all_of(scans), {}, [&](std::size_t number, io::FullScan& scan) {
         if (std::exchange(drive, scans[number].drive) != scans[number].drive) filter.begin_drive();
-        instants.put(number, filter.push(take_scan(frame, number)).labels);
+        instants.put(number, filter.push(moved_scan(scan, number)).labels);
     });
 }
 
-/// Between the passes: all drives but the last one observe what only later ones found.
+/// Between the readings: all drives but the last one observe what only later ones found.
 bool TileRun::look_again(DynamicFilter& filter, const ScanGroup& scans) const {
     std::vector<std::size_t> earlier, drive_of;  // drives are counted from 0 within the group
     for (std::size_t n = 0; n < scans.size() && scans[n].drive != scans.back().drive; ++n) {
@@ -164,31 +164,31 @@ bool TileRun::look_again(DynamicFilter& filter, const ScanGroup& scans) const {
         drive_of.push_back(n == 0 ? 0 : drive_of.back() + (begins ? 1 : 0));
         earlier.push_back(n);
     }
-    return each_scan(job, scans, earlier, {}, [&](std::size_t number, io::FullScan& frame) {
-        filter.look_again(drive_of[number], take_scan(frame, number));
+    return each_scan(job, scans, earlier, {}, [&](std::size_t number, io::FullScan& scan) {
+        filter.look_again(drive_of[number], moved_scan(scan, number));
     });
 }
 
-Seen TileRun::look(const DynamicFilter& filter, const io::FullScan& frame,
+Seen TileRun::look(const DynamicFilter& filter, const io::FullScan& scan,
                    std::size_t number) const {
-    Seen seen{.cut = cut_of(frame, work.tile, job.plan.cell), .verdict = {}, .voxels = {}};
+    Seen seen{.cut = cut_of(scan, work.tile, job.plan.cell), .verdict = {}, .voxels = {}};
     seen.verdict =
-        filter.verdict({seen.cut.points, frame.T_world_sensor, frame.stamp, number}, seen.voxels);
+        filter.verdict({seen.cut.points, scan.T_world_sensor, scan.stamp, number}, seen.voxels);
     for (std::size_t i = 0; i < seen.voxels.size(); ++i) {
         if (!seen.cut.inside[i]) seen.voxels[i] = kNoVoxel;
     }
     return seen;
 }
 
-/// Second pass, of one drive: final verdicts on the points inside.
+/// Second reading, of one drive: final verdicts on the points inside.
 bool TileRun::decide(const DynamicFilter& filter, const ScanGroup& scans,
                      const std::vector<std::size_t>& numbers, const LabelStore& instants) {
     std::vector<Seen> seen(scans.size());
     LabelStore finals(folder);
-    const auto prepare = [&](std::size_t number, io::FullScan& frame) {
-        seen[number] = look(filter, frame, number);
+    const auto prepare = [&](std::size_t number, io::FullScan& scan) {
+        seen[number] = look(filter, scan, number);
     };
-    const auto use = [&](std::size_t number, io::FullScan& frame) {
+    const auto use = [&](std::size_t number, io::FullScan& scan) {
         const Seen one = std::exchange(seen[number], {});
         const Labels instant = labels_of(one.cut, instants.get(number));
         const auto& [index, labels, probability, stays, tracked] = one.verdict;
@@ -199,8 +199,8 @@ bool TileRun::decide(const DynamicFilter& filter, const ScanGroup& scans,
         }
         verdicts.add(scans[number], inside);
         sightings.add(scans[number], one.voxels);
-        if (frame.truth.empty()) return;
-        score(frame.T_world_sensor, one, instant);
+        if (scan.truth.empty()) return;
+        score(scan.T_world_sensor, one, instant);
         finals.put(number, labels);
     };
     if (!each_scan(job, scans, numbers, prepare, use)) return false;
@@ -213,17 +213,17 @@ void TileRun::score(const Pose& T_world_sensor, const Seen& seen, const Labels& 
                 std::array<const Labels*, 2>{&seen.verdict.labels, &instant});
 }
 
-/// Third pass, with ground truth: which removed points lie near one that stays.
+/// Third reading, with ground truth: which removed points lie near one that stays.
 bool TileRun::score_near(const ScanGroup& scans, const std::vector<std::size_t>& numbers,
                          const LabelStore& finals, const LabelStore& instants) {
     std::vector<std::vector<Points>> near(scans.size());
-    const auto prepare = [&](std::size_t number, io::FullScan& frame) {
-        if (frame.truth.empty()) return;
-        const Cut cut = cut_of(frame, work.tile, job.plan.cell);
+    const auto prepare = [&](std::size_t number, io::FullScan& scan) {
+        if (scan.truth.empty()) return;
+        const Cut cut = cut_of(scan, work.tile, job.plan.cell);
         const Labels final = finals.get(number);
         const Labels instant = labels_of(cut, instants.get(number));
         near[number] =
-            scorer->near_removed(labelled_inside(cut, frame.T_world_sensor, scoring_origin()),
+            scorer->near_removed(labelled_inside(cut, scan.T_world_sensor, scoring_origin()),
                                  std::array<const Labels*, 2>{&final, &instant});
     };
     const auto use = [&](std::size_t number, io::FullScan&) {

@@ -44,10 +44,10 @@ inline bool has_cell(const Eigen::Vector3d& world) {
 
 /// Calls use(i, world) for every point of the scan that was measured and has a cell, in order.
 template <class Use>
-void each_measured(const io::FullScan& frame, const Use& use) {
-    for (std::size_t i = 0; i < frame.points.size(); ++i) {
-        if (!is_measured(frame.points[i])) continue;
-        const Eigen::Vector3d world = frame.T_world_sensor * frame.points[i].cast<double>();
+void each_measured(const io::FullScan& scan, const Use& use) {
+    for (std::size_t i = 0; i < scan.points.size(); ++i) {
+        if (!is_measured(scan.points[i])) continue;
+        const Eigen::Vector3d world = scan.T_world_sensor * scan.points[i].cast<double>();
         if (has_cell(world)) use(i, world);
     }
 }

@@ -15,7 +15,7 @@
 #include "formats/voxel_map/map_index.hpp"
 #include "page/city_report.hpp"
 #include "page/page.hpp"
-#include "recording/frames.hpp"
+#include "recording/scans.hpp"
 #include "run/run.hpp"
 #include "run/run_state.hpp"
 #include "run/tile_file.hpp"
@@ -54,7 +54,7 @@ Tiles open_tiles(const Job& job, const TileFolders& folders) {
 
 /// The verdict on a scan, put together from the tiles in which it has points.
 Verdict verdict_of(const Job& job, const Tiles& tiles, const ScanOfDrive& scan,
-                   const io::FullScan& frame) {
+                   const io::FullScan& full) {
     struct Open {
         std::uint32_t tile;
         PointVerdicts verdicts;
@@ -65,12 +65,12 @@ Verdict verdict_of(const Job& job, const Tiles& tiles, const ScanOfDrive& scan,
         open.push_back({.tile = t, .verdicts = tiles.readers[t]->read(scan)});
     }
     Verdict verdict{.index = scan.scan,
-                    .labels = Labels(frame.points.size(), Label::unknown),
+                    .labels = Labels(full.points.size(), Label::unknown),
                     .probability = {}};
-    if (job.config.map.time == MapTime::latest) verdict.stays.resize(frame.points.size());
+    if (job.config.map.time == MapTime::latest) verdict.stays.resize(full.points.size());
     std::optional<PlaneCell> last;
     Open* in = nullptr;
-    each_measured(frame, [&](std::size_t i, const Eigen::Vector3d& world) {
+    each_measured(full, [&](std::size_t i, const Eigen::Vector3d& world) {
         const PlaneCell cell = cell_at(world, job.plan.cell);
         if (last != cell) {
             last = cell;
@@ -115,8 +115,8 @@ RunSummary write_drive(const Job& job, const Tiles& tiles, std::uint32_t number,
     summary.rejected = planned.rejected;
     summary.notes = planned.notes;
     summary.warnings = planned.warnings;
-    const auto decide = [&](std::size_t i, const io::FullScan& frame) {
-        return verdict_of(job, tiles, {number, static_cast<std::uint32_t>(i)}, frame);
+    const auto decide = [&](std::size_t i, const io::FullScan& full) {
+        return verdict_of(job, tiles, {number, static_cast<std::uint32_t>(i)}, full);
     };
     const auto use = [&](std::size_t, const io::FullScan&, const Verdict& verdict) {
         summary.count(verdict.labels);

@@ -104,10 +104,9 @@ std::size_t differing_labels(const Options& o, const Heard& heard) {
     DynamicFilter filter{Config{}};
     std::size_t differing = 0;
     for (std::size_t i = 0; i < recording.size(); ++i) {
-        io::FullScan frame = recording.read(i);
-        const auto own =
-            filter.push({std::move(frame.points), frame.T_world_sensor, frame.stamp, i});
-        const auto stamp = io::to_nanoseconds(frame.stamp);
+        io::FullScan full = recording.read(i);
+        const auto own = filter.push({std::move(full.points), full.T_world_sensor, full.stamp, i});
+        const auto stamp = io::to_nanoseconds(full.stamp);
         const auto heard_at =
             std::find_if(heard.verdicts.begin(), heard.verdicts.end(),
                          [&](const auto& v) { return std::abs(v.first - stamp) < 1000; });

@@ -9,7 +9,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 COVERED = {  # test -> the units that it covers
     "commands/command_test.cpp": "check/motion commands/check commands/cleaning commands/compare commands/config commands/convert "
         "commands/demo commands/evaluate commands/info commands/main commands/odometry commands/options commands/picture commands/render commands/run "
-        "commands/serve commands/shared_options commands/simulate draw/animation draw/canvas export/convert_map export/sinks online/scan_worker recording/frames recording/world_records run/run "
+        "commands/serve commands/shared_options commands/simulate draw/animation draw/canvas export/convert_map export/sinks online/scan_worker recording/scans recording/world_records run/run "
         "run/filter_whole run/run_state run/scored_scans run/write_scans",
     "export/tileset_test.cpp": "export/glb",
     "formats/clouds/cloud_test.cpp": "formats/clouds/bin",
