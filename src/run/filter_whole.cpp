@@ -90,7 +90,7 @@ void push(Whole& whole, Scan scan) {
         return;
     }
     whole.queue.add({.scan = std::move(scan), .reply = nullptr});
-    QueuedScan next = whole.queue.take();
+    QueuedScan next = whole.queue.pop();
     const bool restarts = std::exchange(whole.run, next.run) != next.run;
     whole.keep(whole.maps.judge(std::move(next.scan), restarts));
     whole.maps.catch_up();
@@ -114,7 +114,7 @@ void reject(Whole& whole, std::size_t i, const std::string& why) {
 }
 
 /// Puts the filter's notices about scans into the summary.
-void take_notices(Whole& whole) {
+void add_notices(Whole& whole) {
     for (const Notice& notice : whole.notices) {
         const std::string line =
             fmt::format("{}: {}", io::stem(whole.recording, notice.index), notice.text);
@@ -141,7 +141,7 @@ void keep_pace(const Whole& whole, Clock::time_point start, double stamp) {
 }
 
 /// The poses that were found or refined are the recording's from now on.
-void take_poses(Whole& whole) {
+void use_poses(Whole& whole) {
     const auto was_tracked = [](const auto& tracked) { return tracked.has_value(); };
     if (std::none_of(whole.tracked.begin(), whole.tracked.end(), was_tracked)) return;
     whole.recording = io::with_poses(whole.recording, whole.tracked);
@@ -180,8 +180,8 @@ void filter_scans(Whole& whole) {
     };
     for_each_scan(whole.recording, all_scans(whole.recording), {}, use);
     finish(whole);
-    take_notices(whole);
-    take_poses(whole);
+    add_notices(whole);
+    use_poses(whole);
     const bool none =
         std::find(whole.accepted.begin(), whole.accepted.end(), true) == whole.accepted.end();
     if (none && !whole.summary.interrupted) {
@@ -248,7 +248,7 @@ void score(Whole& whole) {
 }
 
 /// What the filter holds, and how fast its stages were.
-void take_contents(Whole& whole) {
+void read_contents(Whole& whole) {
     RunSummary& s = whole.summary;
     s.contents = whole.maps.contents();
     const StageTimes times = whole.maps.times();
@@ -332,7 +332,7 @@ void write_page(Whole& whole, const Json& metrics) {
 
 void write_reports(Whole& whole) {
     const std::filesystem::path& folder = whole.output.path();
-    take_contents(whole);
+    read_contents(whole);
     const Json metrics = metrics_of(whole.summary, whole.recording.info().losses);
     write_page(whole, metrics);
     io::write_file(folder / "metrics.json", text_of(metrics));

@@ -92,7 +92,7 @@ public:
         drive_.rejected.push_back(fmt::format("{}: {}", io::stem(recording_, i), why));
     }
 
-    void take(std::size_t i, const io::FullScan& full, const Extent& extent) {
+    void add(std::size_t i, const io::FullScan& full, const Extent& extent) {
         if (!fields_.empty() && full.cloud.fields != fields_) {
             reject(i, io::kOtherFields);
             return;
@@ -202,7 +202,7 @@ void scan_drive(const Drive& drive, double voxel_size, PlannedDrive& planned, Vo
     const auto use = [&](std::size_t i, MaybeScan& maybe) {
         const Extent extent = std::exchange(extents[i], {});
         if (maybe.scan) {
-            gate.take(i, *maybe.scan, extent);
+            gate.add(i, *maybe.scan, extent);
             if (planned.scans[i].is_used) sample.add(extent.cells, extent.sampled);
         } else {
             gate.reject(i, maybe.error);

@@ -72,7 +72,7 @@ struct Heard {
     std::map<std::int64_t, Labels> verdicts;  // only for --check
 };
 
-void take_labels(Heard& heard, bool keep, const io::Topic& topic, const Bytes& message) {
+void count_labels(Heard& heard, bool keep, const io::Topic& topic, const Bytes& message) {
     const auto now = Clock::now();
     const io::CloudMessage cloud = io::read_cloud_message(*message, topic);
     const std::lock_guard hold(heard.lock);
@@ -151,7 +151,7 @@ int play(Bus& bus, const Options& o) {
     const Quality reliable{.reliable = true, .latched = false, .depth = 10};
     bus.subscribe({relays ? o.answer : o.prefix + "/labels", "sensor_msgs/PointCloud2", encoding},
                   reliable, [&](const io::Topic& topic, const Bytes& message) {
-                      take_labels(heard, o.check, topic, message);
+                      count_labels(heard, o.check, topic, message);
                   });
     if (o.all) {
         const auto count = [&](const io::Topic& topic, const Bytes&) {

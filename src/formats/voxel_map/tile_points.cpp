@@ -34,7 +34,7 @@ const io::Field& field_of(const io::Cloud& cloud, const fs::path& file, const ch
 }
 
 template <class T>
-void take(const io::Cloud& cloud, const io::Field& field, std::vector<T>& values) {
+void read_column(const io::Cloud& cloud, const io::Field& field, std::vector<T>& values) {
     values.resize(cloud.size() * field.count);
     const std::size_t bytes = sizeof(T) * field.count;
     for (std::size_t i = 0; i < cloud.size(); ++i) {
@@ -43,14 +43,15 @@ void take(const io::Cloud& cloud, const io::Field& field, std::vector<T>& values
     }
 }
 
-void take_positions(const io::Cloud& cloud, const fs::path& file, TilePoints& points) {
+void read_positions(const io::Cloud& cloud, const fs::path& file, TilePoints& points) {
     points.positions.resize(cloud.size());
     constexpr std::array names = {"x", "y", "z"};
     for (int axis = 0; axis < 3; ++axis) {
         std::vector<double> column;
-        take(cloud,
-             field_of(cloud, file, names[static_cast<std::size_t>(axis)], io::FieldType::f64, 1),
-             column);
+        read_column(
+            cloud,
+            field_of(cloud, file, names[static_cast<std::size_t>(axis)], io::FieldType::f64, 1),
+            column);
         for (std::size_t i = 0; i < column.size(); ++i) points.positions[i][axis] = column[i];
     }
 }
@@ -101,11 +102,12 @@ TilePoints read_tile(const fs::path& folder, const MapIndex& index, const MapTil
     }
     TilePoints points;
     points.words = session_words(index.drives.size());
-    take_positions(cloud, file, points);
-    take(cloud, field_of(cloud, file, "probability", io::FieldType::f32, 1), points.probability);
-    take(cloud, field_of(cloud, file, "scans", io::FieldType::u32, 1), points.scans);
-    take(cloud, field_of(cloud, file, "sessions", io::FieldType::u32, points.words),
-         points.sessions);
+    read_positions(cloud, file, points);
+    read_column(cloud, field_of(cloud, file, "probability", io::FieldType::f32, 1),
+                points.probability);
+    read_column(cloud, field_of(cloud, file, "scans", io::FieldType::u32, 1), points.scans);
+    read_column(cloud, field_of(cloud, file, "sessions", io::FieldType::u32, points.words),
+                points.sessions);
     check_places(points, index, tile, file);
     return points;
 }
