@@ -170,7 +170,7 @@ int convert(const ConvertOptions& o) {
             throw ConfigError(o.output.string() + ": lies within the recording; choose another");
         }
     }
-    if (o.data.format.empty() && is_city_map(o.data.data)) return convert_map(o);
+    if (o.data.format.empty() && is_tiled_map(o.data.data)) return convert_map(o);
     refuse_map_options(o);
     const bool is_recording = !o.data.format.empty() || fs::is_directory(o.data.data, ignored) ||
                               io::Bag::recognises(o.data.data);

@@ -13,7 +13,7 @@
 #include "dynamic_filter/file.hpp"
 #include "dynamic_filter/parallel.hpp"
 #include "formats/voxel_map/map_index.hpp"
-#include "page/city_report.hpp"
+#include "page/map_page.hpp"
 #include "page/page.hpp"
 #include "recording/scans.hpp"
 #include "run/run.hpp"
@@ -170,21 +170,21 @@ void write_map(const Job& job, const Tiles& tiles, const TileFolders& folders, b
 }
 
 /// Where the drives went, for the report: a place every few metres.
-std::vector<DriveTrack> tracks_of(const Job& job) {
+std::vector<DrivePath> paths_of(const Job& job) {
     constexpr double kApart = 5.0;  // [m]
-    std::vector<DriveTrack> tracks;
+    std::vector<DrivePath> paths;
     for (std::size_t d = 0; d < job.drives.size(); ++d) {
-        DriveTrack track{.name = job.drives[d].name, .positions = {}};
+        DrivePath path{.name = job.drives[d].name, .positions = {}};
         const PlannedDrive& planned = job.plan.drives[d];
         for (const std::size_t i : used_scans(planned)) {
             const Eigen::Vector3d& position = planned.scans[i].position;
             const bool is_near =
-                !track.positions.empty() && (position - track.positions.back()).norm() < kApart;
-            if (!is_near) track.positions.push_back(position);
+                !path.positions.empty() && (position - path.positions.back()).norm() < kApart;
+            if (!is_near) path.positions.push_back(position);
         }
-        tracks.push_back(std::move(track));
+        paths.push_back(std::move(path));
     }
-    return tracks;
+    return paths;
 }
 
 /// The run as a whole.
@@ -258,7 +258,7 @@ std::string write_reports(const Job& job, const Totals& totals,
     if (several) io::write_file(folder / "metrics.json", text_of(metrics));
     if (o.report && !viewer_page().empty()) {
         // Without the timing, so that the pages are the same however the work was shared out.
-        write_city_report(folder, metrics, nullptr, tracks_of(job));
+        write_map_page(folder, metrics, nullptr, paths_of(job));
         clock.finish("report");
     }
     Json timing = timing_of(totals.scans, clock, o.threads);
