@@ -78,19 +78,17 @@ void TilePoints::append(const TilePoints& other, std::size_t i) {
     positions.push_back(other.positions[i]);
     probability.push_back(other.probability[i]);
     scans.push_back(other.scans[i]);
-    const auto begin = other.sessions.begin() + static_cast<std::ptrdiff_t>(i * words);
-    sessions.insert(sessions.end(), begin, begin + static_cast<std::ptrdiff_t>(words));
+    const auto begin = other.drives.begin() + static_cast<std::ptrdiff_t>(i * words);
+    drives.insert(drives.end(), begin, begin + static_cast<std::ptrdiff_t>(words));
 }
 
-std::size_t session_words(std::size_t drives) {
-    return std::max<std::size_t>(1, (drives + 31) / 32);
-}
+std::size_t drive_words(std::size_t drives) { return std::max<std::size_t>(1, (drives + 31) / 32); }
 
 TilePoints read_tile(const fs::path& folder, const MapIndex& index, const MapTile& tile) {
     const fs::path file = folder / tile.file;
     if (tile.voxels == 0) {  // then there need not be a file
         TilePoints none;
-        none.words = session_words(index.drives.size());
+        none.words = drive_words(index.drives.size());
         return none;
     }
     const io::Cloud cloud = io::read_pcd(file);
@@ -101,13 +99,13 @@ TilePoints read_tile(const fs::path& folder, const MapIndex& index, const MapTil
                                      cloud.size(), tile.voxels));
     }
     TilePoints points;
-    points.words = session_words(index.drives.size());
+    points.words = drive_words(index.drives.size());
     read_positions(cloud, file, points);
     read_column(cloud, field_of(cloud, file, "probability", io::FieldType::f32, 1),
                 points.probability);
     read_column(cloud, field_of(cloud, file, "scans", io::FieldType::u32, 1), points.scans);
     read_column(cloud, field_of(cloud, file, "sessions", io::FieldType::u32, points.words),
-                points.sessions);
+                points.drives);
     check_places(points, index, tile, file);
     return points;
 }
