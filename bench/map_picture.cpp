@@ -17,7 +17,7 @@
 #include "geometry/pose.hpp"
 #include "geometry/voxel.hpp"
 #include "paper/window.hpp"
-#include "recording/frames.hpp"
+#include "recording/scans.hpp"
 
 namespace {
 
@@ -96,18 +96,18 @@ Painter by_submap(const io::Recording& recording) {
     };
 }
 
-void add(Voxels& voxels, const io::FullScan& frame, const Labels& verdict) {
-    if (verdict.size() != frame.points.size()) {
+void add(Voxels& voxels, const io::FullScan& scan, const Labels& verdict) {
+    if (verdict.size() != scan.points.size()) {
         throw ConfigError("a scan and its labels differ in number: are they of one recording?");
     }
-    const Points world = app::shifted_world(frame, Eigen::Vector3d::Zero());
-    const auto floor = static_cast<float>(frame.T_world_sensor.translation().z()) + kFloor;
+    const Points world = app::shifted_world(scan, Eigen::Vector3d::Zero());
+    const auto floor = static_cast<float>(scan.T_world_sensor.translation().z()) + kFloor;
     for (std::size_t i = 0; i < world.size(); ++i) {
-        if (!is_measured(frame.points[i]) || frame.truth[i] == Label::unknown) continue;
+        if (!is_measured(scan.points[i]) || scan.truth[i] == Label::unknown) continue;
         const auto cell = cell_of(world[i], 1.0F / kVoxel);
         if (!cell) continue;
         Voxel& voxel = voxels[pack(*cell)];
-        (frame.truth[i] == Label::dynamic ? voxel.dynamic : voxel.still) = true;
+        (scan.truth[i] == Label::dynamic ? voxel.dynamic : voxel.still) = true;
         voxel.kept |= verdict[i] != Label::dynamic;
         voxel.high |= world[i].z() > floor;
     }

@@ -178,10 +178,10 @@ Copy read_copy(const fs::path& recording) {
     const io::Recording opened = io::open_recording(recording);
     Copy copy;
     for (std::size_t i = 0; i < std::min(kMost, opened.size()); ++i) {
-        io::FullScan frame = opened.read(i);
-        copy.scans.push_back(std::move(frame.points));
-        copy.poses.push_back(frame.T_world_sensor);
-        copy.stamps.push_back(1000.0 + frame.stamp);
+        io::FullScan scan = opened.read(i);
+        copy.scans.push_back(std::move(scan.points));
+        copy.poses.push_back(scan.T_world_sensor);
+        copy.stamps.push_back(1000.0 + scan.stamp);
     }
     return copy;
 }

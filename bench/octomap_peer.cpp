@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "dynamic_filter/error.hpp"
-#include "recording/frames.hpp"
+#include "recording/scans.hpp"
 #include "run/scored_scans.hpp"
 #include "score/report.hpp"
 
@@ -47,25 +47,25 @@ octomap::point3d to_octomap(const Point& p) { return {p.x(), p.y(), p.z()}; }
 
 /// `origin` is the origin of the frame of the scores, a whole multiple of the voxel size, so that
 /// the voxels are the same.
-void insert(octomap::OcTree& tree, const io::FullScan& frame, const Eigen::Vector3d& origin,
+void insert(octomap::OcTree& tree, const io::FullScan& scan, const Eigen::Vector3d& origin,
             Seconds& insertion) {
-    const Points points = app::shifted_world(frame, origin);
+    const Points points = app::shifted_world(scan, origin);
     octomap::Pointcloud cloud;
     for (std::size_t i = 0; i < points.size(); ++i) {
-        if (is_measured(frame.points[i])) cloud.push_back(to_octomap(points[i]));
+        if (is_measured(scan.points[i])) cloud.push_back(to_octomap(points[i]));
     }
-    const Eigen::Vector3d sensor = frame.T_world_sensor.translation() - origin;
+    const Eigen::Vector3d sensor = scan.T_world_sensor.translation() - origin;
     const Stopwatch stopwatch(insertion);
     tree.insertPointCloud(cloud, to_octomap(sensor.cast<float>()));
 }
 
-Labels labels_of(const octomap::OcTree& tree, const io::FullScan& frame,
+Labels labels_of(const octomap::OcTree& tree, const io::FullScan& scan,
                  const Eigen::Vector3d& origin) {
     Labels labels;
-    const Points world = app::shifted_world(frame, origin);
+    const Points world = app::shifted_world(scan, origin);
     for (std::size_t i = 0; i < world.size(); ++i) {
         const auto* const node =
-            is_measured(frame.points[i]) ? tree.search(to_octomap(world[i])) : nullptr;
+            is_measured(scan.points[i]) ? tree.search(to_octomap(world[i])) : nullptr;
         labels.push_back(node == nullptr             ? Label::unknown
                          : tree.isNodeOccupied(node) ? Label::static_
                                                      : Label::dynamic);

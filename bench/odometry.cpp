@@ -22,13 +22,13 @@ void measure(const char* path) {
     std::size_t weak = 0, lost = 0;
     std::clock_t clocks = 0;
     for (std::size_t i = 0; i < recording.size(); ++i) {
-        const io::FullScan frame = recording.read(i);
+        const io::FullScan scan = recording.read(i);
         const std::clock_t start = std::clock();
-        const auto times = io::point_times(frame.cloud, frame.stamp);
-        const Tracked tracked = odometry.track(frame.points, times, frame.stamp);
+        const auto times = io::point_times(scan.cloud, scan.stamp);
+        const Tracked tracked = odometry.track(scan.points, times, scan.stamp);
         odometry.learn({});
         clocks += std::clock() - start;
-        truth.push_back(frame.T_world_sensor);
+        truth.push_back(scan.T_world_sensor);
         found.push_back(tracked.T_world_sensor);
         weak += tracked.status == TrackStatus::weak ? 1 : 0;
         lost += tracked.status == TrackStatus::lost ? 1 : 0;

@@ -53,9 +53,9 @@ void measure(const char* recording) {
     std::deque<Cloud> map;
     std::clock_t clocks = 0;
     for (std::size_t i = 0; i < sequence.size(); ++i) {
-        const io::FullScan frame = sequence.read(i);
+        const io::FullScan full = sequence.read(i);
         const std::clock_t start = std::clock();
-        const auto scan = thinned(frame.points);
+        const auto scan = thinned(full.points);
         Pose pose = found.empty() ? Pose::Identity() : found.back();
         if (found.size() > 1) pose = pose * (found[i - 2].inverse() * found[i - 1]);
         if (!map.empty()) {
@@ -73,7 +73,7 @@ void measure(const char* recording) {
         map.push_back(in_world.Transform(pose.matrix()));
         if (map.size() > kScans) map.pop_front();
         clocks += std::clock() - start;
-        truth.push_back(frame.T_world_sensor);
+        truth.push_back(full.T_world_sensor);
         found.push_back(pose);
     }
     print_errors(recording, truth, found, "Open3D's ICP", clocks);

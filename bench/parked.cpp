@@ -81,8 +81,8 @@ Row measure(const fs::path& drive, const fs::path& labels, const Rule& rule) {
     Row row;
     for (std::size_t i = 0; i < recording.size(); ++i) {
         const std::string name = io::stem(recording, i) + ".label";
-        const io::FullScan frame = recording.read(i);
-        const Points& points = frame.points;
+        const io::FullScan scan = recording.read(i);
+        const Points& points = scan.points;
         const std::vector<std::uint32_t> truth = raw_labels(drive / "labels" / name);
         const Labels result = io::read_labels(labels / name);
         check_sizes(drive / "labels" / name, points.size(), truth.size());
@@ -95,7 +95,7 @@ Row measure(const fs::path& drive, const fs::path& labels, const Rule& rule) {
             if (static_cast<double>(points[k].norm()) > rule.range) continue;
             Thing& thing = row.things[truth[k] >> 16U];
             thing.near.add(found);
-            thing.sum += frame.T_world_sensor * points[k].cast<double>();
+            thing.sum += scan.T_world_sensor * points[k].cast<double>();
         }
     }
     std::erase_if(row.things, [&](const auto& entry) {
@@ -130,12 +130,12 @@ void look_through(const fs::path& drive, const Row& of_drive, Row& row) {
     const io::Recording recording = io::open_recording(drive);
     for (std::size_t i = 0; i < recording.size(); i += 4) {
         const Pose T_sensor_world = recording.info().T_world_sensor[i].inverse();
-        std::optional<io::FullScan> frame;
+        std::optional<io::FullScan> scan;
         for (Passing& passing : absent) {
             const Eigen::Vector3d place = T_sensor_world * passing.thing->middle();
             if (place.norm() > 12.0) continue;
-            if (!frame) frame = recording.read(i);
-            count_beams(frame->points, place, passing);
+            if (!scan) scan = recording.read(i);
+            count_beams(scan->points, place, passing);
         }
     }
     for (const Passing& p : absent) {

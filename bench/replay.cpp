@@ -16,7 +16,7 @@
 #include <thread>
 
 #include "dynamic_filter/dynamic_filter.hpp"
-#include "recording/frames.hpp"
+#include "recording/scans.hpp"
 #include "score/report.hpp"
 
 namespace {
@@ -37,8 +37,8 @@ class EndlessDrive {
 public:
     explicit EndlessDrive(const io::Recording& recording) {
         for (std::size_t i = 0; i < recording.size(); ++i) {
-            io::FullScan frame = recording.read(i);
-            scans_.push_back(app::take_scan(frame, i));
+            io::FullScan full = recording.read(i);
+            scans_.push_back(app::moved_scan(full, i));
         }
         if (scans_.size() < 2) throw Error("one scan is no drive");
         const double rounds = static_cast<double>(scans_.size() - 1);

@@ -100,7 +100,7 @@ void measure(const sim::SimulationOptions& options) {
     sim::Simulation simulation(options);
     DynamicFilter filter{Config{}};
     std::array<Scores, kMoments> scores;
-    const auto take = [&](std::size_t i) {
+    const auto pop = [&](std::size_t i) {
         const sim::SimulatedScan in = simulation.scan(i);
         Waiting w{{in.points, in.T_world_sensor, in.stamp, i}, {}};
         for (const sim::Kind kind : in.kinds) w.moves.push_back(is_dynamic(kind));
@@ -108,7 +108,7 @@ void measure(const sim::SimulationOptions& options) {
     };
     std::deque<Waiting> waiting;
     for (std::size_t i = 0; i < simulation.size(); ++i) {
-        waiting.push_back(take(i));
+        waiting.push_back(pop(i));
         const Waiting& newest = waiting.back();
         scores[0].add(newest.scan, newest.moves, filter.push(newest.scan).labels);
         ask(waiting, newest.scan.stamp, filter, scores);
@@ -116,7 +116,7 @@ void measure(const sim::SimulationOptions& options) {
     ask(waiting, std::numeric_limits<double>::infinity(), filter, scores);
     filter.finish();
     for (std::size_t i = 0; i < simulation.size(); ++i) {
-        const Waiting w = take(i);
+        const Waiting w = pop(i);
         scores.back().add(w.scan, w.moves, filter.verdict(w.scan).labels);
     }
     fmt::print("| verdicts after | PR [%] | RR [%] | F1 | moving IoU |\n|---|--:|--:|--:|--:|\n");

@@ -52,7 +52,7 @@ int filter(int argc, char** argv) {
     command.action([&] {
         live::Ros1Bus bus(arguments.remappings, live::changing_settings(), kLongestStart);
         const live::LiveConfig config =
-            live::load_live_config(options.config, bus.take_parameters());
+            live::load_live_config(options.config, bus.pop_parameters());
         return live::live(bus, options, config);
     });
     return program.run(arguments.own);

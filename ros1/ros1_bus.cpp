@@ -350,12 +350,12 @@ std::uint64_t Ros1Bus::lost() const {
     return lost;
 }
 
-std::vector<std::string> Ros1Bus::take_notices() {
+std::vector<std::string> Ros1Bus::pop_notices() {
     const std::lock_guard hold(engine_->lock);
     return std::exchange(engine_->notices, {});
 }
 
-std::vector<std::pair<std::string, std::string>> Ros1Bus::take_parameters() {
+std::vector<std::pair<std::string, std::string>> Ros1Bus::pop_parameters() {
     const std::lock_guard hold(engine_->lock);
     const auto news = std::exchange(engine_->news, {});
     return {news.begin(), news.end()};

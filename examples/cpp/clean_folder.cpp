@@ -11,8 +11,8 @@ namespace df = dynamic_filter;
 
 namespace {
 
-df::Scan scan_of(const df::io::FullScan& frame, std::size_t index) {
-    return {frame.points, frame.T_world_sensor, frame.stamp, index};
+df::Scan scan_of(const df::io::FullScan& full, std::size_t index) {
+    return {full.points, full.T_world_sensor, full.stamp, index};
 }
 
 void append(df::io::Cloud& map, const df::Point& in_world) {

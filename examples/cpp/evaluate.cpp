@@ -10,8 +10,8 @@ namespace df = dynamic_filter;
 
 namespace {
 
-df::Scan scan_of(const df::io::FullScan& frame, std::size_t index) {
-    return {frame.points, frame.T_world_sensor, frame.stamp, index};
+df::Scan scan_of(const df::io::FullScan& scan, std::size_t index) {
+    return {scan.points, scan.T_world_sensor, scan.stamp, index};
 }
 
 void evaluate(const df::io::Recording& recording) {
@@ -25,12 +25,12 @@ void evaluate(const df::io::Recording& recording) {
     filter.finish();
 
     const auto judged = [&](std::size_t i) -> std::optional<df::eval::LabelledScan> {
-        df::io::FullScan frame = recording.read(i);
-        df::Labels verdict = filter.verdict(scan_of(frame, i)).labels;
-        for (df::Point& p : frame.points) {
-            p = (frame.T_world_sensor * p.cast<double>()).cast<float>();
+        df::io::FullScan scan = recording.read(i);
+        df::Labels verdict = filter.verdict(scan_of(scan, i)).labels;
+        for (df::Point& p : scan.points) {
+            p = (scan.T_world_sensor * p.cast<double>()).cast<float>();
         }
-        return df::eval::LabelledScan{std::move(frame.points), std::move(frame.truth),
+        return df::eval::LabelledScan{std::move(scan.points), std::move(scan.truth),
                                       std::move(verdict)};
     };
     const df::eval::Scores scores =

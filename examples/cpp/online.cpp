@@ -38,9 +38,9 @@ void replay(const df::io::Recording& recording) {
     df::OnlineFilter filter(df::Config{}, options, callbacks);
     df::Pose last;
     for (std::size_t i = 0; i < recording.size(); ++i) {
-        df::io::FullScan frame = recording.read(i);
-        last = frame.T_world_sensor;
-        filter.push({std::move(frame.points), frame.T_world_sensor, frame.stamp, i});
+        df::io::FullScan scan = recording.read(i);
+        last = scan.T_world_sensor;
+        filter.push({std::move(scan.points), scan.T_world_sensor, scan.stamp, i});
     }
     filter.finish();
     std::printf("%zu scans, %zu verdicts corrected, %zu static voxels around\n",

@@ -186,7 +186,7 @@ struct ScansConfig {
     } vote;
 
     /// Clusters of a scan and their tracks over time; see filter/clusters.hpp and
-    /// filter/instances.hpp.
+    /// filter/objects.hpp.
     struct Instances {
         double every = 0.15;
         double reach = 60.0;

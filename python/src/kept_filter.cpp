@@ -41,15 +41,15 @@ KeptFilter::KeptFilter(const Config& config, OnlineOptions options, std::size_t 
 
 OnlineCallbacks KeptFilter::callbacks() {
     OnlineCallbacks callbacks;
-    callbacks.notice = [this](const Notice& notice) { take(notice); };
+    callbacks.notice = [this](const Notice& notice) { add(notice); };
     // With the method "scans", push() has the verdict before the scan is kept.
-    callbacks.instant = [this](const Verdict& verdict) { take(verdict); };
+    callbacks.instant = [this](const Verdict& verdict) { add(verdict); };
     return callbacks;
 }
 
 /// No scan is dropped here. So each notice except a break of the trajectory is a refusal, and comes
 /// while push() waits.
-void KeptFilter::take(const Notice& notice) {
+void KeptFilter::add(const Notice& notice) {
     if (notice.kind != NoticeKind::jump && notice.kind != NoticeKind::restart) {
         refused_ = notice.text;
         return;
@@ -58,7 +58,7 @@ void KeptFilter::take(const Notice& notice) {
     notices_.emplace_back(notice.index, notice.text);
 }
 
-void KeptFilter::take(const Verdict& verdict) {
+void KeptFilter::add(const Verdict& verdict) {
     const std::lock_guard hold(lock_);
     if (verdict.index >= size_) return;  // push() waits for this verdict itself
     if (Kept* const kept = find(verdict.index)) {

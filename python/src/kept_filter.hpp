@@ -78,8 +78,8 @@ private:
         Labels judged;  ///< labels from the window that has closed, with the method "submaps"
     };
     OnlineCallbacks callbacks();
-    void take(const Notice& notice);
-    void take(const Verdict& verdict);
+    void add(const Notice& notice);
+    void add(const Verdict& verdict);
     Scan numbered(Pushed pushed) const;
     void keep(Scan scan, const Labels& told);
     void keep(const std::optional<Located>& located);

@@ -21,7 +21,7 @@ app::ConfigOptions config_options(const pybind11::object& given);
 
 /// Moves an option, if it is given and not None, to its place. Raises TypeError.
 template <class T>
-void take(pybind11::dict& options, const char* name, T& to) {
+void pop_option(pybind11::dict& options, const char* name, T& to) {
     if (!options.contains(name)) return;
     const pybind11::object value = options.attr("pop")(name);
     if (value.is_none()) return;
@@ -47,7 +47,7 @@ T taken(const pybind11::object& value, const char* name, const char* expected) {
 
 /// Moves an option that is True, False, "auto", "on" or "off" to its place, if it is given and not
 /// None. Raises TypeError, throws ConfigError.
-void take_switch(pybind11::dict& options, const char* name, std::string& to);
+void pop_switch(pybind11::dict& options, const char* name, std::string& to);
 
 /// Removes the options about reading a recording from `options`. Raises TypeError, throws
 /// ConfigError.

@@ -66,7 +66,7 @@ app::ConfigOptions config_options(const py::object& given) {
     return options;
 }
 
-void take_switch(py::dict& options, const char* name, std::string& to) {
+void pop_switch(py::dict& options, const char* name, std::string& to) {
     if (!options.contains(name)) return;
     const py::object value = options.attr("pop")(name);
     if (value.is_none()) return;
@@ -83,9 +83,9 @@ app::DataOptions data_options(const std::filesystem::path& data, py::dict& optio
     o.data = data;
     app::visit_reading(o, [&](const app::ReadingOption& option, auto& value) {
         if constexpr (std::is_same_v<decltype(value), std::string&>) {
-            if (option.alone != nullptr) return take_switch(options, option.name, value);
+            if (option.alone != nullptr) return pop_switch(options, option.name, value);
         }
-        take(options, option.name, value);
+        pop_option(options, option.name, value);
     });
     app::refuse_invalid(o, app::Asker::python);
     return o;

@@ -17,7 +17,7 @@
 #include "dynamic_filter/file.hpp"
 #include "export/outputs.hpp"
 #include "python/src/module.hpp"
-#include "recording/frames.hpp"
+#include "recording/scans.hpp"
 #include "run/run.hpp"
 #include "score/report.hpp"
 
@@ -59,15 +59,15 @@ app::RunOptions run_options(const fs::path& data, const std::optional<fs::path>&
     app::RunOptions o;
     o.output = output ? *output : app::default_output();
     o.config = config_options(options.attr("pop")("config", py::none()));
-    take(options, "threads", o.threads);
-    take_switch(options, "refine", o.refine);
-    take(options, "overwrite", o.overwrite);
-    take(options, "resume", o.resume);
+    pop_option(options, "threads", o.threads);
+    pop_switch(options, "refine", o.refine);
+    pop_option(options, "overwrite", o.overwrite);
+    pop_option(options, "resume", o.resume);
     o.catches = false;
     o.quiet = true;
-    take(options, "quiet", o.quiet);
+    pop_option(options, "quiet", o.quiet);
     std::optional<double> online;
-    take(options, "online", online);
+    pop_option(options, "online", online);
     refuse_threads(o.threads);
     if (!(online.value_or(0.0) >= 0.0)) {
         throw py::value_error("online: expected a multiple of the sensor's rate, 0 or more");

@@ -12,8 +12,8 @@
 #include "dynamic_filter/writers.hpp"
 #include "python/src/arrays.hpp"
 #include "python/src/module.hpp"
-#include "recording/frames.hpp"
 #include "recording/layouts/registry.hpp"
+#include "recording/scans.hpp"
 
 namespace dynamic_filter::python {
 

@@ -10,7 +10,7 @@ namespace dynamic_filter::io {
 namespace {
 
 /// Removes the digits at the front, and returns them without leading zeros.
-std::string_view take_number(std::string_view& rest) {
+std::string_view next_number(std::string_view& rest) {
     std::size_t end = 0;
     while (end < rest.size() && is_digit(rest[end])) ++end;
     std::string_view number = rest.substr(0, end);
@@ -28,8 +28,8 @@ std::strong_ordering compare_naturally(std::string_view a, std::string_view b) {
     while (!a.empty() && !b.empty()) {
         std::strong_ordering order = std::strong_ordering::equal;
         if (is_digit(a[0]) && is_digit(b[0])) {
-            const std::string_view number = take_number(a);
-            order = compare_numbers(number, take_number(b));
+            const std::string_view number = next_number(a);
+            order = compare_numbers(number, next_number(b));
         } else {
             order = static_cast<unsigned char>(a[0]) <=> static_cast<unsigned char>(b[0]);
             a.remove_prefix(1);

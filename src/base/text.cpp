@@ -29,7 +29,7 @@ void Lines::fail(const std::string& what) const {
     throw InputError(file_, "line " + std::to_string(number_), what);
 }
 
-std::string_view take_token(std::string_view& rest) {
+std::string_view next_token(std::string_view& rest) {
     std::size_t begin = 0;
     while (begin < rest.size() && is_space(rest[begin])) ++begin;
     std::size_t end = begin;
@@ -41,7 +41,7 @@ std::string_view take_token(std::string_view& rest) {
 
 std::vector<std::string_view> split_tokens(std::string_view line) {
     std::vector<std::string_view> tokens;
-    for (auto token = take_token(line); !token.empty(); token = take_token(line)) {
+    for (auto token = next_token(line); !token.empty(); token = next_token(line)) {
         tokens.push_back(token);
     }
     return tokens;

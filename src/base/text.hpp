@@ -36,7 +36,7 @@ private:
 };
 
 /// Removes the first token from `rest` and returns it; empty if there is none left.
-std::string_view take_token(std::string_view& rest);
+std::string_view next_token(std::string_view& rest);
 std::vector<std::string_view> split_tokens(std::string_view line);
 /// Parts without blanks at their ends.
 std::vector<std::string_view> split_at(std::string_view line, char separator);

@@ -168,10 +168,10 @@ Points cloud_around(const Recording& recording, const std::vector<std::size_t>& 
     Points cloud;
     for (const std::size_t i : scans) {
         try {
-            const FullScan frame = recording.read(i);
-            if (!frame.has_pose) continue;
-            const Pose T_place_sensor = Eigen::Translation3d(-place) * frame.T_world_sensor;
-            const ScanSample sample = sample_for_map(frame.points, {}, config);
+            const FullScan scan = recording.read(i);
+            if (!scan.has_pose) continue;
+            const Pose T_place_sensor = Eigen::Translation3d(-place) * scan.T_world_sensor;
+            const ScanSample sample = sample_for_map(scan.points, {}, config);
             const Points here = moved(sample.points, T_place_sensor);
             cloud.insert(cloud.end(), here.begin(), here.end());
         } catch (const InputError&) {

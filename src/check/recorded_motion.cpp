@@ -25,9 +25,9 @@ using Piece = std::vector<Scan>;
 
 std::optional<Scan> read(const Recording& recording, std::size_t i) {
     try {
-        FullScan frame = recording.read(i);
-        return Scan{std::move(frame.points), frame.T_world_sensor,  frame.stamp, i,
-                    frame.has_pose,          std::move(frame.times)};
+        FullScan scan = recording.read(i);
+        return Scan{std::move(scan.points), scan.T_world_sensor,  scan.stamp, i,
+                    scan.has_pose,          std::move(scan.times)};
     } catch (const InputError&) {
         return std::nullopt;
     }

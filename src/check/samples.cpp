@@ -100,8 +100,8 @@ std::optional<double> began_of(const Cloud& cloud) {
 
 /// The points without motion compensation, after which they are seen from several places and
 /// naturally lie behind each other.
-Points as_measured(const Recording& recording, const FullScan& frame) {
-    return recording.info().points_in_world ? frame.points : positions(frame.cloud);
+Points as_measured(const Recording& recording, const FullScan& scan) {
+    return recording.info().points_in_world ? scan.points : positions(scan.cloud);
 }
 
 float typical_range(const Points& points) {
@@ -112,15 +112,15 @@ float typical_range(const Points& points) {
     return median(std::move(ranges));
 }
 
-Sample sample_of(const Recording& recording, const FullScan& frame) {
-    const Point said = frame.T_world_sensor.translation().cast<float>();
-    return {upright(frame.points),
-            frame.T_world_sensor,
-            share_of_doubles(as_measured(recording, frame)),
-            count_near(frame.points, Point::Zero()),
-            count_near(frame.points, said),
-            typical_range(frame.points),
-            began_of(frame.cloud)};
+Sample sample_of(const Recording& recording, const FullScan& scan) {
+    const Point said = scan.T_world_sensor.translation().cast<float>();
+    return {upright(scan.points),
+            scan.T_world_sensor,
+            share_of_doubles(as_measured(recording, scan)),
+            count_near(scan.points, Point::Zero()),
+            count_near(scan.points, said),
+            typical_range(scan.points),
+            began_of(scan.cloud)};
 }
 
 }  // namespace
@@ -144,10 +144,10 @@ Samples read_samples(const Recording& recording, const std::vector<Pair>& pairs,
     std::vector<Field> fields;
     for (const std::size_t i : chosen) {
         try {
-            const FullScan frame = recording.read(i);
-            if (fields.empty()) fields = frame.cloud.fields;
-            if (frame.cloud.fields != fields) unusable[i] = kOtherFields;
-            samples.emplace(i, sample_of(recording, frame));
+            const FullScan scan = recording.read(i);
+            if (fields.empty()) fields = scan.cloud.fields;
+            if (scan.cloud.fields != fields) unusable[i] = kOtherFields;
+            samples.emplace(i, sample_of(recording, scan));
         } catch (const InputError& error) {
             unusable[i] = error.what();
         }

@@ -10,7 +10,7 @@
 #include "dynamic_filter/error.hpp"
 #include "recording/data_options.hpp"
 #include "recording/drives.hpp"
-#include "recording/frames.hpp"
+#include "recording/scans.hpp"
 
 namespace dynamic_filter::app {
 namespace {

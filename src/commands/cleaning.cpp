@@ -13,7 +13,7 @@
 #include "dynamic_filter/filter.hpp"
 #include "geometry/pose.hpp"
 #include "page/sampling.hpp"
-#include "recording/frames.hpp"
+#include "recording/scans.hpp"
 
 namespace dynamic_filter::app {
 
@@ -27,17 +27,16 @@ struct Sample {
     Points in_world;
 };
 
-Sample sample_of(const io::FullScan& frame, std::size_t index, const Eigen::Vector3d& origin,
+Sample sample_of(const io::FullScan& scan, std::size_t index, const Eigen::Vector3d& origin,
                  double points) {
-    Sample sample{{{}, frame.T_world_sensor, frame.stamp, index}, {}};
-    const double share = points / static_cast<double>(frame.points.size());
-    Pose T_picture_sensor = frame.T_world_sensor;
+    Sample sample{{{}, scan.T_world_sensor, scan.stamp, index}, {}};
+    const double share = points / static_cast<double>(scan.points.size());
+    Pose T_picture_sensor = scan.T_world_sensor;
     T_picture_sensor.translation() -= origin;
-    for (std::size_t i = 0; i < frame.points.size(); ++i) {
-        if (!is_sampled(index, i, share) || !is_measured(frame.points[i])) continue;
-        sample.scan.points.push_back(frame.points[i]);
-        sample.in_world.push_back(
-            (T_picture_sensor * frame.points[i].cast<double>()).cast<float>());
+    for (std::size_t i = 0; i < scan.points.size(); ++i) {
+        if (!is_sampled(index, i, share) || !is_measured(scan.points[i])) continue;
+        sample.scan.points.push_back(scan.points[i]);
+        sample.in_world.push_back((T_picture_sensor * scan.points[i].cast<double>()).cast<float>());
     }
     return sample;
 }
@@ -134,10 +133,10 @@ void animate_cleaning(const io::Recording& recording, const Config& config,
 
     std::vector<Sample> samples;
     std::optional<Eigen::Vector3d> origin;
-    for_each_frame(recording, scans, {}, [&](std::size_t i, MaybeFrame& maybe) {
-        if (!maybe.frame) return true;
-        if (!origin) origin = nearby_origin(maybe.frame->T_world_sensor, 1.0);
-        samples.push_back(sample_of(*maybe.frame, i, *origin, points));
+    for_each_scan(recording, scans, {}, [&](std::size_t i, MaybeScan& maybe) {
+        if (!maybe.scan) return true;
+        if (!origin) origin = nearby_origin(maybe.scan->T_world_sensor, 1.0);
+        samples.push_back(sample_of(*maybe.scan, i, *origin, points));
         return true;
     });
     if (samples.empty()) throw InputError(recording.info().root, "", "no scan is usable");
@@ -149,12 +148,12 @@ void animate_cleaning(const io::Recording& recording, const Config& config,
                                static_cast<std::size_t>(o.pictures);
     Progress progress("draw", samples.size());
     std::size_t done = 0;
-    for_each_frame(recording, scans, {}, [&](std::size_t i, MaybeFrame& maybe) {
-        if (!maybe.frame) return true;
+    for_each_scan(recording, scans, {}, [&](std::size_t i, MaybeScan& maybe) {
+        if (!maybe.scan) return true;
         const bool drawn = ++done % stride == 0 || done == samples.size();
         constexpr double kOfNewest = 20'000.0;
-        const Sample newest = sample_of(*maybe.frame, i, *origin, drawn ? kOfNewest : 0.0);
-        filter.push(take_scan(*maybe.frame, i));
+        const Sample newest = sample_of(*maybe.scan, i, *origin, drawn ? kOfNewest : 0.0);
+        filter.push(moved_scan(*maybe.scan, i));
         if (drawn) {
             const auto kept = kept_of(samples, done, filter);
             const Labels labels = filter.settled(newest.scan).labels;

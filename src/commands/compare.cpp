@@ -12,7 +12,7 @@
 #include "formats/voxel_map/map_index.hpp"
 #include "page/run_view.hpp"
 #include "recording/data_options.hpp"
-#include "recording/frames.hpp"
+#include "recording/scans.hpp"
 #include "run/scored_scans.hpp"
 #include "score/report.hpp"
 
@@ -53,7 +53,7 @@ std::string run_of(const fs::path& result, std::size_t number, const io::Recordi
                    double voxel) {
     if (fs::is_directory(result)) {
         const fs::path page = result / "report.html";
-        if (is_city_map(result)) {
+        if (is_tiled_map(result)) {
             throw ConfigError(result.string() +
                               ": is the map of several drives, whose report has pages of its own; "
                               "open " +

@@ -17,7 +17,7 @@
 #include "export/outputs.hpp"
 #include "formats/label_files.hpp"
 #include "formats/voxel_map/map_index.hpp"
-#include "recording/frames.hpp"
+#include "recording/scans.hpp"
 #include "settings/config_file.hpp"
 
 namespace fs = std::filesystem;
@@ -33,18 +33,18 @@ void say(const std::string& note) {
 
 /// Reads the labels of a run if --labels is given, else the recording's own ground truth.
 Labels labels_of(const ConvertOptions& o, const io::Recording& recording, std::size_t i,
-                 const io::FullScan& frame) {
+                 const io::FullScan& scan) {
     if (!o.labels) {
-        const bool has_own = !recording.info().has_truth() || !frame.truth.empty();
-        return has_own ? frame.truth : Labels(frame.points.size(), Label::unknown);
+        const bool has_own = !recording.info().has_truth() || !scan.truth.empty();
+        return has_own ? scan.truth : Labels(scan.points.size(), Label::unknown);
     }
     const fs::path folder = io::label_folder(*o.labels);
     Labels labels = io::read_labels(io::label_file(folder, io::stem(recording, i)));
-    if (labels.size() == frame.points.size()) return labels;
+    if (labels.size() == scan.points.size()) return labels;
     throw ConfigError(
         fmt::format("{}: {} labels for the {} points of scan {}; are they of another "
                     "recording?",
-                    folder.string(), labels.size(), frame.points.size(), io::stem(recording, i)));
+                    folder.string(), labels.size(), scan.points.size(), io::stem(recording, i)));
 }
 
 /// The settings of the run that left the labels; the default ones for other labels.
@@ -96,17 +96,17 @@ int convert_recording(const ConvertOptions& o) {
     std::vector<std::string> rejected, notes;
     {
         Progress progress("convert", scans.size());
-        for_each_frame(recording, scans, {}, [&](std::size_t i, MaybeFrame& maybe) {
+        for_each_scan(recording, scans, {}, [&](std::size_t i, MaybeScan& maybe) {
             progress.advance();
             if (interrupted()) return false;
-            if (!maybe.frame) {
+            if (!maybe.scan) {
                 rejected.push_back(maybe.error);
                 return true;
             }
-            if (!o.labels && !maybe.frame->truth_fault.empty()) {
-                notes.push_back(maybe.frame->truth_fault + "; its points are unknown");
+            if (!o.labels && !maybe.scan->truth_fault.empty()) {
+                notes.push_back(maybe.scan->truth_fault + "; its points are unknown");
             }
-            sink->append(*maybe.frame, labels_of(o, recording, i, *maybe.frame));
+            sink->append(*maybe.scan, labels_of(o, recording, i, *maybe.scan));
             return true;
         });
     }
@@ -150,7 +150,7 @@ int convert(const ConvertOptions& o) {
             throw ConfigError(o.output.string() + ": lies within the recording; choose another");
         }
     }
-    if (o.data.format.empty() && is_city_map(o.data.data)) return convert_map(o);
+    if (o.data.format.empty() && is_tiled_map(o.data.data)) return convert_map(o);
     refuse_map_options(o);
     const bool is_recording = !o.data.format.empty() || fs::is_directory(o.data.data, ignored) ||
                               io::Bag::recognises(o.data.data);

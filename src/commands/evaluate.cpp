@@ -15,7 +15,7 @@
 #include "dynamic_filter/file.hpp"
 #include "formats/label_files.hpp"
 #include "recording/data_options.hpp"
-#include "recording/frames.hpp"
+#include "recording/scans.hpp"
 #include "run/scored_scans.hpp"
 #include "score/protocols.hpp"
 #include "score/range_limits.hpp"

@@ -15,7 +15,7 @@
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/recording.hpp"
 #include "formats/voxel_map/map_index.hpp"
-#include "recording/frames.hpp"
+#include "recording/scans.hpp"
 
 namespace dynamic_filter::app {
 
@@ -197,7 +197,7 @@ void refuse_selection(const DataOptions& of) {
 
 int info(const DataOptions& of) {
     const std::filesystem::path& file = of.data;
-    if (of.format.empty() && is_city_map(file)) {
+    if (of.format.empty() && is_tiled_map(file)) {
         refuse_selection(of);
         describe_map(file);
     } else if (of.format == "bag" || (of.format.empty() && io::Bag::recognises(file))) {

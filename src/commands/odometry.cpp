@@ -10,7 +10,7 @@
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/poses.hpp"
 #include "recording/data_options.hpp"
-#include "recording/frames.hpp"
+#include "recording/scans.hpp"
 #include "settings/config_file.hpp"
 
 namespace dynamic_filter::app {

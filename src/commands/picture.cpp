@@ -5,7 +5,7 @@
 #include "commands/render.hpp"
 #include "draw/canvas.hpp"
 #include "dynamic_filter/cloud.hpp"
-#include "recording/frames.hpp"
+#include "recording/scans.hpp"
 
 namespace dynamic_filter::app {
 

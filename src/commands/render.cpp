@@ -12,7 +12,7 @@
 #include "commands/render.hpp"
 #include "commands/shared_options.hpp"
 #include "dynamic_filter/error.hpp"
-#include "recording/frames.hpp"
+#include "recording/scans.hpp"
 #include "settings/config_file.hpp"
 
 namespace dynamic_filter::app {

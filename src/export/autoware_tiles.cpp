@@ -49,14 +49,14 @@ void append(io::Cloud& cloud, const TilePoints& points, std::size_t i) {
     std::memcpy(record, position.data(), 12);
     std::memcpy(record + 12, &points.probability[i], 4);
     std::memcpy(record + 16, &points.scans[i], 4);
-    std::memcpy(record + 20, &points.sessions[i * points.words], 4 * points.words);
+    std::memcpy(record + 20, &points.drives[i * points.words], 4 * points.words);
 }
 
 /// Squares under way: what they hold, and how many tiles are still to come.
 class OpenSquares {
 public:
     OpenSquares(const MapIndex& index, fs::path folder)
-        : index_(index), folder_(std::move(folder)), words_(session_words(index.drives.size())) {
+        : index_(index), folder_(std::move(folder)), words_(drive_words(index.drives.size())) {
         for (const MapTile& tile : index.tiles)
             for (const Corner& corner : squares_of(index_, tile)) ++to_come_[corner];
     }

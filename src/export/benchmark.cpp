@@ -7,7 +7,7 @@
 
 #include "base/output_folder.hpp"
 #include "dynamic_filter/writers.hpp"
-#include "recording/frames.hpp"
+#include "recording/scans.hpp"
 
 namespace fs = std::filesystem;
 

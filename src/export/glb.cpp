@@ -79,7 +79,7 @@ std::size_t add_colors(Glb& glb, const TilePoints& points, const HeightRange& he
                         points.size());
 }
 
-std::string sessions_name(std::size_t word) { return fmt::format("_SESSIONS_{}", word); }
+std::string attribute_of_drives(std::size_t word) { return fmt::format("_SESSIONS_{}", word); }
 
 ordered_json add_attributes(Glb& glb, const TilePoints& points, const Eigen::Vector3d& origin,
                             const HeightRange& heights) {
@@ -94,8 +94,8 @@ ordered_json add_attributes(Glb& glb, const TilePoints& points, const Eigen::Vec
     for (std::size_t word = 0; word < points.words; ++word) {
         std::vector<std::uint32_t> bits;
         for (std::size_t i = 0; i < points.size(); ++i)
-            bits.push_back(points.sessions[i * points.words + word]);
-        attributes[sessions_name(word)] =
+            bits.push_back(points.drives[i * points.words + word]);
+        attributes[attribute_of_drives(word)] =
             add_accessor(glb, bits, {{"componentType", kBytes}, {"type", "VEC4"}}, points.size());
     }
     return attributes;
@@ -118,7 +118,7 @@ ordered_json metadata_of(std::size_t words) {
          {"type", "SCALAR"},
          {"componentType", "FLOAT32"}});
     for (std::size_t word = 0; word < words; ++word) {
-        add(sessions_name(word), fmt::format("sessions_{}", word),
+        add(attribute_of_drives(word), fmt::format("sessions_{}", word),
             {{"name", fmt::format("Drives {} to {} that saw the voxel, a bit each", 32 * word,
                                   32 * word + 31)},
              {"type", "VEC4"},

@@ -72,7 +72,7 @@ double spacing_of(const Writer& writer, int level) {
 Done write_above(Writer& writer, const TreeNode& node, std::vector<Done> below,
                  double spacing_above) {
     TilePoints points;
-    points.words = session_words(writer.index.drives.size());
+    points.words = drive_words(writer.index.drives.size());
     Done done;
     ordered_json children = ordered_json::array();
     for (Done& child : below) {

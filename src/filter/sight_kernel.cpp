@@ -79,7 +79,7 @@ struct Around {
     Near quad[2][2];
     Ints touched{}, blocked{};
 };
-DF_INLINE void take_in(Around& around, const Places& p, const Beams& b) {
+DF_INLINE void add(Around& around, const Places& p, const Beams& b) {
     around.touched |= b.touches;
     around.blocked |= b.blocks;
     const Floats nearness =
@@ -121,7 +121,7 @@ DF_INLINE Around beams_around_small(const SightArgs& args, const Places& p) {
         const Ints in_image = p.in_range & (r >= 0) & (r < args.rows);
         const Section section = section_at(args, first_pixels(args, r, column - 1, in_image));
         for (int i = 0; i < 3; ++i) {
-            take_in(around, p, beams_of(args, p, section.pixels[i], r, column + (i - 1)));
+            add(around, p, beams_of(args, p, section.pixels[i], r, column + (i - 1)));
         }
     }
     return around;
@@ -144,7 +144,7 @@ DF_INLINE Around beams_around(const SightArgs& args, const Places& p) {
             const Ints wanted = row_active & (c <= last_column);
             const Section section = section_at(args, first_pixels(args, r, c, wanted));
             for (int i = 0; i < 4 && along + i <= width; ++i) {
-                take_in(around, p, beams_of(args, p, section.pixels[i], r, c + i));
+                add(around, p, beams_of(args, p, section.pixels[i], r, c + i));
             }
         }
         active &= ~around.touched;

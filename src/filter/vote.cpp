@@ -45,12 +45,12 @@ struct Neighborhood {
             if (voters[i] == kNoVoxel) {
                 x[i] = kernel::kOutOfReach;
             } else {
-                take(i, grid[voters[i]], sure);
+                add(i, grid[voters[i]], sure);
             }
         }
         while (count % kernel::kVoters != 0) x[count++] = kernel::kOutOfReach;
     }
-    void take(std::size_t i, const EvidenceGrid::State& voter, float sure) {
+    void add(std::size_t i, const EvidenceGrid::State& voter, float sure) {
         const Evidence& e = voter.evidence;
         const auto looks = static_cast<float>(e.n_own + e.n_free);
         x[i] = static_cast<float>(cells[i].x());

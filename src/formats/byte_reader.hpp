@@ -36,7 +36,7 @@ public:
     [[nodiscard]] std::size_t at() const { return at_; }
     [[nodiscard]] std::size_t left() const { return bytes_.size() - at_; }
 
-    std::span<const std::byte> take(std::uint64_t count) {
+    std::span<const std::byte> read(std::uint64_t count) {
         if (count > left()) {
             throw Malformed("ends at byte " + std::to_string(bytes_.size()) + ", but " +
                             std::to_string(count) + " bytes should follow byte " +
@@ -48,11 +48,11 @@ public:
     }
     template <class T>
     T number() {
-        return little_endian<T>(take(sizeof(T)).data());
+        return little_endian<T>(read(sizeof(T)).data());
     }
-    std::string_view text(std::uint64_t length) { return as_text(take(length)); }
+    std::string_view text(std::uint64_t length) { return as_text(read(length)); }
     /// Bytes with their length (32 bits) before them.
-    std::span<const std::byte> block() { return take(number<std::uint32_t>()); }
+    std::span<const std::byte> block() { return read(number<std::uint32_t>()); }
     std::string_view text() { return as_text(block()); }
 
 private:

@@ -127,14 +127,14 @@ void BeamImage::pool() {
         }
     }
     farthest_of_nine_cm_ = along;
-    const auto take_in = [&](std::size_t to, std::size_t from) {
+    const auto widen = [&](std::size_t to, std::size_t from) {
         for (std::size_t i = 0; i + width < along.size(); ++i) {
             std::uint16_t& farthest = farthest_of_nine_cm_[to + i];
             farthest = std::max(farthest, along[from + i]);
         }
     };
-    take_in(0, width);
-    take_in(width, 0);
+    widen(0, width);
+    widen(width, 0);
 }
 
 bool BeamImage::reaches(float range, int first_row, int last_row, int first_column,

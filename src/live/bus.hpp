@@ -72,10 +72,10 @@ public:
     /// Number of messages that were lost on their way to this process, as far as the bus knows.
     [[nodiscard]] virtual std::uint64_t lost() const = 0;
     /// Problems since the last call that the user should know of, such as a lost master.
-    virtual std::vector<std::string> take_notices() = 0;
+    virtual std::vector<std::string> pop_notices() = 0;
     /// Values of the configuration that came with the bus or changed since the last call, such as
     /// {"map.rate", "0.5"} of ROS 1's parameter server.
-    virtual std::vector<std::pair<std::string, std::string>> take_parameters() = 0;
+    virtual std::vector<std::pair<std::string, std::string>> pop_parameters() = 0;
 };
 
 }  // namespace dynamic_filter::live

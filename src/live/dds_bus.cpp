@@ -74,7 +74,7 @@ Quality quality_of(const dds_qos_t* qos) {
 }
 
 std::vector<std::string> reasons_of(dds_return_t code) {
-    std::vector<std::string> reasons = take_dds_log();
+    std::vector<std::string> reasons = pop_dds_log();
     if (reasons.empty()) reasons.emplace_back(dds_strretcode(-code));
     return reasons;
 }
@@ -210,7 +210,7 @@ struct DdsBus::Engine {
                     reader_of(static_cast<dds_entity_t>(ready[static_cast<std::size_t>(i)]));
                 // One message of each topic at a time, so that no topic holds up the others.
                 if (!reader) continue;
-                if (const auto message = take_bytes(reader->entity)) {
+                if (const auto message = pop_bytes(reader->entity)) {
                     reader->receive(reader->topic, *message);
                 }
             }
@@ -339,8 +339,8 @@ void DdsBus::subscribe(const io::Topic& topic, const Quality& quality, Receive r
     current = std::move(reader);
 }
 
-std::vector<std::string> DdsBus::take_notices() {
-    std::vector<std::string> notices = take_dds_log();
+std::vector<std::string> DdsBus::pop_notices() {
+    std::vector<std::string> notices = pop_dds_log();
     for (std::string& notice : notices) notice.insert(0, "DDS: ");
     return notices;
 }

@@ -35,8 +35,8 @@ public:
     void subscribe(const io::Topic& topic, const Quality& quality, Receive receive) override;
     void stop() override;
     [[nodiscard]] std::uint64_t lost() const override;
-    std::vector<std::string> take_notices() override;
-    std::vector<std::pair<std::string, std::string>> take_parameters() override { return {}; }
+    std::vector<std::string> pop_notices() override;
+    std::vector<std::pair<std::string, std::string>> pop_parameters() override { return {}; }
 
 private:
     struct Engine;

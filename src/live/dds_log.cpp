@@ -45,7 +45,7 @@ void keep_dds_log() {
     dds_set_log_sink(keep, nullptr);
 }
 
-std::vector<std::string> take_dds_log() {
+std::vector<std::string> pop_dds_log() {
     Log& log = kept();
     const std::lock_guard hold(log.lock);
     return std::exchange(log.lines, {});

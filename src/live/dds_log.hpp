@@ -11,6 +11,6 @@ namespace dynamic_filter::live {
 void keep_dds_log();
 
 /// The complaints since the last call; of those that begin alike, one, and a few altogether.
-std::vector<std::string> take_dds_log();
+std::vector<std::string> pop_dds_log();
 
 }  // namespace dynamic_filter::live

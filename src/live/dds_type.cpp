@@ -179,7 +179,7 @@ dds_entity_t create_topic_of_bytes(dds_entity_t participant, const std::string& 
     return topic;
 }
 
-std::optional<Bytes> take_bytes(dds_entity_t reader) {
+std::optional<Bytes> pop_bytes(dds_entity_t reader) {
     while (true) {
         Bytes message;
         void* to = &message;

@@ -21,7 +21,7 @@ dds_entity_t create_topic_of_bytes(dds_entity_t participant, const std::string& 
 
 /// Takes the oldest message of a reader; empty if there is none. What is no message (the end of a
 /// publisher) is skipped.
-std::optional<Bytes> take_bytes(dds_entity_t reader);
+std::optional<Bytes> pop_bytes(dds_entity_t reader);
 
 /// Sends a message. Never waits; returns a code below 0 if the message was not taken.
 dds_return_t write_bytes(dds_entity_t writer, const Bytes& message);

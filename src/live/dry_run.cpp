@@ -50,7 +50,7 @@ Seen listen_to(Bus& bus, const LiveConfig& config, double look) {
             seen.ambiguous = error.what();
         }
         constexpr double kMoment = 0.1;  // [s]
-        auto scan = intake.take(kMoment);
+        auto scan = intake.pop(kMoment);
         if (!scan) continue;
         ++seen.scans;
         seen.delay = now_of_this_machine() - scan->stamp;
@@ -62,7 +62,7 @@ Seen listen_to(Bus& bus, const LiveConfig& config, double look) {
     seen.counters = intake.counters();
     seen.origin = intake.origin();
     seen.poses = intake.poses_text();
-    seen.notices = intake.take_notices();
+    seen.notices = intake.pop_notices();
     return seen;
 }
 

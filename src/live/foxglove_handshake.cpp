@@ -20,7 +20,7 @@ constexpr std::string_view kKnownOrigins[] = {"https://app.foxglove.dev",
 constexpr std::string_view kThisMachine[] = {"localhost", "127.0.0.1", "[::1]"};
 
 using app::lower;
-using app::take;
+using app::pop_until;
 using app::trimmed;
 using Headers = std::map<std::string, std::string>;
 
@@ -28,8 +28,8 @@ using Headers = std::map<std::string, std::string>;
 Headers headers_of(std::string_view head) {
     Headers headers;
     while (!head.empty()) {
-        std::string_view line = take(head, "\r\n");
-        const std::string name = lower(take(line, ":"));
+        std::string_view line = pop_until(head, "\r\n");
+        const std::string name = lower(pop_until(line, ":"));
         std::string& value = headers[name];
         value += (value.empty() ? "" : ",") + std::string(trimmed(line));
     }
@@ -38,7 +38,7 @@ Headers headers_of(std::string_view head) {
 
 std::vector<std::string> items_of(std::string_view list) {
     std::vector<std::string> items;
-    while (!list.empty()) items.emplace_back(trimmed(take(list, ",")));
+    while (!list.empty()) items.emplace_back(trimmed(pop_until(list, ",")));
     return items;
 }
 
@@ -56,7 +56,7 @@ bool is_key(std::string_view key) {
 }
 
 bool is_this_machine(std::string_view origin) {
-    const std::string_view scheme = take(origin, "://");
+    const std::string_view scheme = pop_until(origin, "://");
     if (scheme != "http" && scheme != "https") return false;
     return std::any_of(std::begin(kThisMachine), std::end(kThisMachine), [&](auto host) {
         if (!origin.starts_with(host)) return false;
@@ -104,8 +104,8 @@ Handshake refused(int status, std::string_view why) {
 }
 
 Handshake judge_handshake(std::string_view head, const std::vector<std::string>& origins) {
-    std::string_view line = take(head, "\r\n");
-    const bool is_get = take(line, " ") == "GET" && take(line, " ").starts_with('/');
+    std::string_view line = pop_until(head, "\r\n");
+    const bool is_get = pop_until(line, " ") == "GET" && pop_until(line, " ").starts_with('/');
     if (!is_get || line != "HTTP/1.1") return refused(400, "expected GET / HTTP/1.1");
     Headers headers = headers_of(head);
     const std::string& origin = headers["origin"];

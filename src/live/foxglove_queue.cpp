@@ -45,7 +45,7 @@ void FoxgloveQueue::clear() {
     bytes_ = 0;
 }
 
-std::optional<Outgoing> FoxgloveQueue::take() {
+std::optional<Outgoing> FoxgloveQueue::pop() {
     if (!texts_.empty()) {
         Outgoing next{.head = std::move(texts_.front()), .body = nullptr, .subscription = 0};
         texts_.pop_front();

@@ -34,7 +34,7 @@ public:
     void clear();
 
     /// The next to send; nothing if none waits.
-    std::optional<Outgoing> take();
+    std::optional<Outgoing> pop();
     [[nodiscard]] bool empty() const { return texts_.empty() && messages_.empty(); }
     [[nodiscard]] std::size_t texts() const { return texts_.size(); }
 

@@ -434,7 +434,7 @@ bool FoxgloveServer::Engine::send(lws* wsi) {
     for (std::size_t turn = 0; turn < kTurn && !client.is_leaving; turn += kFragment) {
         if (!client.sending) {
             const std::lock_guard hold(lock);
-            client.sending = client.queue.take();
+            client.sending = client.queue.pop();
             client.sent = 0;
         }
         if (!client.sending) return true;
@@ -530,7 +530,7 @@ bool FoxgloveServer::publish(const std::string& topic, double stamp, const Bytes
     return all_took_it;
 }
 
-std::vector<std::string> FoxgloveServer::take_notices() {
+std::vector<std::string> FoxgloveServer::pop_notices() {
     const std::lock_guard hold(engine_->lock);
     return std::exchange(engine_->notices, {});
 }

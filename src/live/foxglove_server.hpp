@@ -41,7 +41,7 @@ public:
     [[nodiscard]] std::string url() const;  ///< such as "ws://127.0.0.1:8765"
     [[nodiscard]] std::size_t clients() const;
     /// Problems since the last call that the user should know of: web pages that were refused.
-    std::vector<std::string> take_notices();
+    std::vector<std::string> pop_notices();
 
 private:
     struct Engine;

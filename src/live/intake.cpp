@@ -81,7 +81,7 @@ void Intake::drop_clouds(SteadyTime now) {
     }
 }
 
-std::optional<LiveScan> Intake::take(double wait) {
+std::optional<LiveScan> Intake::pop(double wait) {
     const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(wait);
     while (true) {
         read_poses();
@@ -376,14 +376,14 @@ std::string Intake::poses_text() const {
 }
 
 void Intake::tell(std::string text) {
-    constexpr std::size_t kMost = 20;  // between two calls of take_notices()
+    constexpr std::size_t kMost = 20;  // between two calls of pop_notices()
     // A fault that every scan has is said once.
     if (text == last_told_ || notices_.size() >= kMost) return;
     last_told_ = text;
     notices_.push_back(std::move(text));
 }
 
-std::vector<std::string> Intake::take_notices() { return std::exchange(notices_, {}); }
+std::vector<std::string> Intake::pop_notices() { return std::exchange(notices_, {}); }
 
 IntakeCounters Intake::counters() const {
     const std::lock_guard hold(lock_);

@@ -65,12 +65,12 @@ public:
     void put(const io::Topic& topic, bool is_static, const Bytes& message);
 
     /// The next scan, in the order of arrival; waits for at most `wait` [s].
-    std::optional<LiveScan> take(double wait);
+    std::optional<LiveScan> pop(double wait);
 
     [[nodiscard]] IntakeCounters counters() const;
     [[nodiscard]] PoseOrigin origin() const { return origin_; }
     /// What the user should know of, a sentence each, since the last call.
-    std::vector<std::string> take_notices();
+    std::vector<std::string> pop_notices();
     /// Where poses come from, and if they are missing why, as a sentence.
     [[nodiscard]] std::string poses_text() const;
     /// Why the last scan without a pose had none.
@@ -109,7 +109,7 @@ private:
     IntakeCounters counters_;
     std::optional<SteadyTime> last_cloud_;
 
-    // Members of the caller of take().
+    // Members of the caller of pop().
     io::FrameTree frames_;
     std::map<std::string, io::PoseTopic> topics_;  // keys: names
     std::map<std::string, double> newest_stamps_;  // [s], of frames, topics and clouds

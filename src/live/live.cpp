@@ -60,12 +60,12 @@ public:
         if (now < next_) return;
         next_ = now + (settled ? std::chrono::milliseconds(1000) : std::chrono::milliseconds(200));
         subscriptions_.update();
-        take_parameters();
-        tell(bus_.take_notices());
-        if (foxglove_ != nullptr) tell(foxglove_->take_notices());
-        tell(subscriptions_.take_notices());
-        tell(intake_.take_notices());
-        tell(session_.take_notices());
+        use_parameters();
+        tell(bus_.pop_notices());
+        if (foxglove_ != nullptr) tell(foxglove_->pop_notices());
+        tell(subscriptions_.pop_notices());
+        tell(intake_.pop_notices());
+        tell(session_.pop_notices());
         const Figures figures = figures_now();
         watch_input(figures);
         watch_poses(figures);
@@ -103,8 +103,8 @@ private:
     }
     static void warn(const std::string& text) { fmt::print(stderr, "warning: {}\n", text); }
 
-    void take_parameters() {
-        for (const auto& [key, value] : bus_.take_parameters()) {
+    void use_parameters() {
+        for (const auto& [key, value] : bus_.pop_parameters()) {
             try {
                 change(config_, key, value);
                 session_.set_map(config_.output.map_rate, config_.output.map_radius);
@@ -211,7 +211,7 @@ int live(Bus& bus, const LiveOptions& o, LiveConfig config) {
             continue;
         }
         constexpr double kMoment = 0.05;  // [s]
-        if (auto scan = intake.take(kMoment)) session.push(std::move(*scan));
+        if (auto scan = intake.pop(kMoment)) session.push(std::move(*scan));
     }
     bus.stop();  // before what receives its messages goes
     session.stop();

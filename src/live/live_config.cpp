@@ -20,7 +20,7 @@ void check_prefix(const LiveConfig& config) {
     }
 }
 
-void take_domain_of_environment(LiveConfig& config) {
+void use_domain_of_environment(LiveConfig& config) {
     const char* const domain = std::getenv("ROS_DOMAIN_ID");
     if (domain == nullptr || *domain == '\0') return;
     try {
@@ -54,7 +54,7 @@ LiveConfig load_live_config(const app::ConfigOptions& options,
                             const std::vector<std::pair<std::string, std::string>>& parameters) {
     LiveConfig config;
     config.filter = preset(options.preset);
-    take_domain_of_environment(config);
+    use_domain_of_environment(config);
     std::vector<app::Assignment> assignments;
     for (const auto& [key, value] : parameters) {
         assignments.push_back({key, value, "parameter " + key});

@@ -75,9 +75,9 @@ void Session::fail(std::exception_ptr error) {
 }
 
 OnlineCallbacks Session::callbacks() {
-    return {.instant = [this](const Verdict& verdict) { take_instant(verdict); },
+    return {.instant = [this](const Verdict& verdict) { add_instant(verdict); },
             .settled = {},
-            .notice = [this](const Notice& notice) { take_notice(notice); }};
+            .notice = [this](const Notice& notice) { add_notice(notice); }};
 }
 
 void Session::push(LiveScan scan) {
@@ -95,7 +95,7 @@ void Session::push(LiveScan scan) {
     filter_->push(std::move(core));
 }
 
-void Session::take_instant(const Verdict& verdict) {
+void Session::add_instant(const Verdict& verdict) {
     std::shared_ptr<LiveScan> scan;
     {
         const std::lock_guard hold(lock_);
@@ -117,11 +117,11 @@ void Session::take_instant(const Verdict& verdict) {
 }
 
 /// The scan of all notices but those of new maps gets no verdict.
-void Session::take_notice(const Notice& notice) {
+void Session::add_notice(const Notice& notice) {
     const std::lock_guard hold(lock_);
     const bool new_map = notice.kind == NoticeKind::jump || notice.kind == NoticeKind::restart;
     if (!new_map) pending_.erase(notice.index);
-    constexpr std::size_t kMost = 20;  // between two calls of take_notices()
+    constexpr std::size_t kMost = 20;  // between two calls of pop_notices()
     // Dropped scans are counted; a line for each would fill the log when the log helps least.
     if (notice.kind == NoticeKind::dropped || notices_.size() >= kMost) return;
     notices_.push_back(fmt::format("scan {}: {}", notice.index, notice.text));
@@ -234,7 +234,7 @@ OdometryState Session::odometry() const {
     return odometry_;
 }
 
-std::vector<std::string> Session::take_notices() {
+std::vector<std::string> Session::pop_notices() {
     const std::lock_guard hold(lock_);
     return std::exchange(notices_, {});
 }

@@ -31,7 +31,7 @@ struct OdometryState {
     TrackStatus last = TrackStatus::good;
 };
 
-/// push(), the getters and take_notices() have one caller; threads of its own do the rest.
+/// push(), the getters and pop_notices() have one caller; threads of its own do the rest.
 class Session {
 public:
     /// `recorder` may be null. All must outlive this object.
@@ -54,7 +54,7 @@ public:
     [[nodiscard]] std::uint64_t published() const { return published_; }
     /// Judged scans that were neither published nor recorded, because publishing is too slow.
     [[nodiscard]] std::uint64_t unpublished() const { return unpublished_; }
-    std::vector<std::string> take_notices();
+    std::vector<std::string> pop_notices();
 
 private:
     struct Work {
@@ -66,8 +66,8 @@ private:
         Scan scan;
     };
     OnlineCallbacks callbacks();
-    void take_instant(const Verdict& verdict);
-    void take_notice(const Notice& notice);
+    void add_instant(const Verdict& verdict);
+    void add_notice(const Notice& notice);
     void put(Work work);
     void publish_work();
     void publish(Work& work);

@@ -42,7 +42,7 @@ public:
     void update();
 
     [[nodiscard]] const std::string& cloud() const { return cloud_; }  ///< empty: none yet
-    std::vector<std::string> take_notices() { return std::exchange(notices_, {}); }
+    std::vector<std::string> pop_notices() { return std::exchange(notices_, {}); }
 
 private:
     void choose_cloud(const UsableTopics& topics);

@@ -87,18 +87,18 @@ void ScanQueue::add(QueuedScan waiting) {
     waiting_.insert(place, std::move(waiting));
 }
 
-QueuedScan ScanQueue::pop() {
+QueuedScan ScanQueue::remove_oldest() {
     QueuedScan oldest = std::move(waiting_.front());
     waiting_.pop_front();
     return oldest;
 }
 
-QueuedScan ScanQueue::take() {
-    QueuedScan oldest = pop();
+QueuedScan ScanQueue::pop() {
+    QueuedScan oldest = remove_oldest();
     taken_ = {oldest.run, oldest.scan.stamp, oldest.scan.T_world_sensor};
     return oldest;
 }
 
-QueuedScan ScanQueue::drop() { return pop(); }
+QueuedScan ScanQueue::drop() { return remove_oldest(); }
 
 }  // namespace dynamic_filter

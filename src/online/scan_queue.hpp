@@ -25,7 +25,7 @@ struct QueuedScan {
 
 class ScanQueue {
 public:
-    /// The reason why the scan cannot be taken; empty if it can.
+    /// The reason why the scan cannot be added; empty if it can.
     [[nodiscard]] std::optional<Notice> refusal(const Scan& scan) const;
 
     /// Inserts a scan that is not refused. If its stamp is more than 1 s older than the newest one,
@@ -35,14 +35,14 @@ public:
 
     /// Returns the scan with the oldest stamp.
     /// To judge it: scans with older stamps are late from now on.
-    QueuedScan take();
+    QueuedScan pop();
     QueuedScan drop();  ///< to make room
 
     [[nodiscard]] std::size_t size() const { return waiting_.size(); }
 
 private:
     [[nodiscard]] bool restarts(double stamp) const;
-    QueuedScan pop();
+    QueuedScan remove_oldest();
 
     std::deque<QueuedScan> waiting_;
     std::uint64_t run_ = 0;

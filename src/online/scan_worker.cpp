@@ -98,7 +98,7 @@ std::optional<QueuedScan> ScanWorker::next() {
     if (stopping_) return std::nullopt;
     busy_ = true;
     changed_.notify_all();  // there is room in the queue
-    return queue_.take();
+    return queue_.pop();
 }
 
 void ScanWorker::judge(QueuedScan& next) {

@@ -39,16 +39,16 @@ bool is_here(std::string_view host, std::uint16_t port) {
 
 HttpRequest parse_request(std::string_view head) {
     HttpRequest request;
-    std::string_view line = take(head, "\r\n");
-    const std::string_view method = take(line, " ");
-    std::string_view target = take(line, " ");
+    std::string_view line = pop_until(head, "\r\n");
+    const std::string_view method = pop_until(line, " ");
+    std::string_view target = pop_until(line, " ");
     if (!line.starts_with("HTTP/1.") || !target.starts_with("/")) return request;
     request.method = method;
-    request.path = decoded(take(target, "?"));
+    request.path = decoded(pop_until(target, "?"));
     request.query = target;
     while (!head.empty()) {
-        std::string_view value = take(head, "\r\n");
-        const std::string name = lower(take(value, ":"));
+        std::string_view value = pop_until(head, "\r\n");
+        const std::string name = lower(pop_until(value, ":"));
         value = trimmed(value);
         if (name == "host") request.host = lower(value);
         if (name == "origin") request.origin = lower(value);
@@ -74,7 +74,7 @@ int refusal_of(const HttpRequest& request, std::uint16_t port, std::size_t body_
     if (!is_here(request.host, port)) return 403;
     std::string_view origin = request.origin;
     if (origin.empty()) return 0;
-    take(origin, "://");
+    pop_until(origin, "://");
     return is_here(origin, port) ? 0 : 403;
 }
 

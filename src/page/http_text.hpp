@@ -10,7 +10,7 @@
 namespace dynamic_filter::app {
 
 /// Up to the separator, which is taken away, too.
-inline std::string_view take(std::string_view& text, std::string_view separator) {
+inline std::string_view pop_until(std::string_view& text, std::string_view separator) {
     const std::size_t at = std::min(text.find(separator), text.size());
     const std::string_view taken = text.substr(0, at);
     text.remove_prefix(std::min(at + separator.size(), text.size()));

@@ -76,7 +76,7 @@ std::size_t marker_of(std::string_view page) {
 
 /// Takes the contents of the first such element out of the page, and puts `instead` for the whole
 /// element.
-std::string take_element(std::string& page, const std::string& tag, const std::string& instead) {
+std::string replace_element(std::string& page, const std::string& tag, const std::string& instead) {
     const std::string open = "<" + tag + ">", close = "</" + tag + ">";
     const std::size_t begin = page.find(open), end = page.find(close, begin);
     if (begin == std::string::npos || end == std::string::npos)
@@ -124,8 +124,8 @@ SharedPage shared_page() {
     shared.before = page.substr(0, at + kMarker.size());
     shared.after = page.substr(at + kMarker.size());
     shared.style =
-        take_element(shared.before, "style", "<link rel=\"stylesheet\" href=\"viewer.css\">");
-    shared.script = take_element(shared.after, "script", "<script src=\"viewer.js\"></script>");
+        replace_element(shared.before, "style", "<link rel=\"stylesheet\" href=\"viewer.css\">");
+    shared.script = replace_element(shared.after, "script", "<script src=\"viewer.js\"></script>");
     return shared;
 }
 

@@ -12,7 +12,7 @@
 #include "geometry/pose.hpp"
 #include "page/sampling.hpp"
 #include "page/shown.hpp"
-#include "recording/frames.hpp"
+#include "recording/scans.hpp"
 
 namespace dynamic_filter::app {
 

@@ -8,7 +8,7 @@
 #include "formats/label_files.hpp"
 #include "geometry/verdict_code.hpp"
 #include "page/sampling.hpp"
-#include "recording/frames.hpp"
+#include "recording/scans.hpp"
 
 namespace dynamic_filter::app {
 
@@ -20,7 +20,7 @@ std::uint8_t code_at(const Labels& labels, std::size_t i) {
 }
 
 /// Chooses about `most` measured points of a scan at random. Up to half of them are dynamic.
-std::vector<std::uint32_t> drawn(const io::FullScan& frame, const Labels& labels, std::size_t scan,
+std::vector<std::uint32_t> drawn(const io::FullScan& full, const Labels& labels, std::size_t scan,
                                  std::size_t most) {
     const auto moving =
         static_cast<double>(std::count(labels.begin(), labels.end(), Label::dynamic));
@@ -32,7 +32,7 @@ std::vector<std::uint32_t> drawn(const io::FullScan& frame, const Labels& labels
     std::vector<std::uint32_t> chosen;
     for (std::size_t i = 0; i < labels.size(); ++i) {
         const double share = labels[i] == Label::dynamic ? share_of_moving : share_of_others;
-        if (is_sampled(scan, i, share) && is_measured(frame.points[i])) {
+        if (is_sampled(scan, i, share) && is_measured(full.points[i])) {
             chosen.push_back(static_cast<std::uint32_t>(i));
         }
     }
@@ -40,22 +40,22 @@ std::vector<std::uint32_t> drawn(const io::FullScan& frame, const Labels& labels
 }
 
 /// About `most` points of one scan. `intensity`: of all its points, or empty.
-std::vector<ShownPoint> draw(const ViewInput& in, std::size_t row, const io::FullScan& frame,
+std::vector<ShownPoint> draw(const ViewInput& in, std::size_t row, const io::FullScan& full,
                              const Labels& labels, const std::vector<double>& intensity,
                              const Eigen::Vector3d& origin, std::size_t most) {
     const std::size_t index = in.scans[row].index;
-    const auto chosen = drawn(frame, labels, index, most);
-    Scan scan{{}, frame.T_world_sensor, frame.stamp, index};
-    for (const std::uint32_t i : chosen) scan.points.push_back(frame.points[i]);
+    const auto chosen = drawn(full, labels, index, most);
+    Scan scan{{}, full.T_world_sensor, full.stamp, index};
+    for (const std::uint32_t i : chosen) scan.points.push_back(full.points[i]);
     const auto places = in.voxels_of(scan);
-    Pose T_page_sensor = frame.T_world_sensor;
+    Pose T_page_sensor = full.T_world_sensor;
     T_page_sensor.translation() -= origin;
     const Labels instant = in.instant(index);
     std::vector<ShownPoint> points;
     for (std::size_t k = 0; k < chosen.size(); ++k) {
         const std::uint32_t i = chosen[k];
         const auto verdict = static_cast<std::uint8_t>(
-            verdict_code(labels[i]) | code_at(frame.truth, i) << 2 | code_at(instant, i) << 4);
+            verdict_code(labels[i]) | code_at(full.truth, i) << 2 | code_at(instant, i) << 4);
         points.push_back({(T_page_sensor * scan.points[k].cast<double>()).cast<float>(),
                           intensity.empty() ? 0.0F : static_cast<float>(intensity[i]),
                           static_cast<std::uint32_t>(row), verdict, places[k]});
@@ -103,19 +103,18 @@ Shown collect(const ViewInput& in, const Eigen::Vector3d& origin) {
     Shown shown{.map = ThinnedCloud(kMapPoints)};
     shown.frame_of_scan.assign(n, -1);
     std::vector<Drawn> drawn(in.recording.size());
-    const auto draw_both = [&](std::size_t i, MaybeFrame& maybe) {
+    const auto draw_both = [&](std::size_t i, MaybeScan& maybe) {
         const Labels labels = io::read_labels(io::label_file(in.labels, io::stem(in.recording, i)));
         const std::size_t row = row_of[i];
         const auto intensity = in.recording.info().intensity_is_truth
                                    ? std::vector<double>{}
-                                   : intensities(maybe.frame->cloud);
+                                   : intensities(maybe.scan->cloud);
         drawn[i].has_intensity = !intensity.empty();
-        drawn[i].map = draw(in, row, *maybe.frame, labels, intensity, origin, for_map);
-        if (is_frame(i))
-            drawn[i].frame = draw(in, row, *maybe.frame, labels, {}, origin, for_frame);
+        drawn[i].map = draw(in, row, *maybe.scan, labels, intensity, origin, for_map);
+        if (is_frame(i)) drawn[i].frame = draw(in, row, *maybe.scan, labels, {}, origin, for_frame);
     };
-    const auto use = [&](std::size_t i, MaybeFrame& maybe) {
-        if (!maybe.frame) return true;  // it was readable a moment ago; the page can do without
+    const auto use = [&](std::size_t i, MaybeScan& maybe) {
+        if (!maybe.scan) return true;  // it was readable a moment ago; the page can do without
         const Drawn points = std::exchange(drawn[i], {});
         shown.has_intensity |= points.has_intensity;
         shown.map.add(points.map);
@@ -126,7 +125,7 @@ Shown collect(const ViewInput& in, const Eigen::Vector3d& origin) {
         }
         return true;
     };
-    for_each_frame(in.recording, scans, draw_both, use);
+    for_each_scan(in.recording, scans, draw_both, use);
     shown.frame_begin.push_back(static_cast<std::uint32_t>(shown.frames.size()));
     return shown;
 }

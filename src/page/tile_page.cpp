@@ -92,7 +92,7 @@ void add_positions(const TilePoints& points, const std::vector<std::size_t>& ord
 unsigned drives_of(const TilePoints& points, std::size_t i) {
     unsigned count = 0;
     for (std::size_t word = 0; word < points.words; ++word)
-        count += static_cast<unsigned>(std::popcount(points.sessions[i * points.words + word]));
+        count += static_cast<unsigned>(std::popcount(points.drives[i * points.words + word]));
     return count;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// The page of one tile of a city.
+/// The page of one tile of a map.
 #pragma once
 
 #include "formats/voxel_map/map_index.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// A tile from above, for the overview of a city.
+/// A tile from above, for the overview of a map.
 #pragma once
 
 #include <cstdint>

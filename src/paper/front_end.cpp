@@ -30,7 +30,7 @@ Thinner thin_static(const Window& window, const std::vector<Labels>& labels, dou
 Submap assemble(const Window& window, const std::vector<Labels>& labels, double voxel_size) {
     std::vector<Pose> poses;
     for (const Scan& scan : window.scans) poses.push_back(scan.T_world_sensor);
-    return {mean_pose(poses), thin_static(window, labels, voxel_size).take()};
+    return {mean_pose(poses), thin_static(window, labels, voxel_size).moved_points()};
 }
 
 /// Beam pattern measured on the first scans that have measured points.
@@ -64,7 +64,7 @@ void FrontEnd::revert(const Window& window, std::vector<Labels>& labels) const {
         revert_by_visibility(window, images(window, scale), margin_of(c),
                              static_cast<float>(config_.map.voxel_size), labels);
     } else if (c.reverting == Reverting::map) {
-        const Points points = thin_static(window, labels, config_.map.voxel_size).take();
+        const Points points = thin_static(window, labels, config_.map.voxel_size).moved_points();
         const NeighborGrid static_map(points, static_cast<float>(c.revert_radius));
         revert_by_map(window, static_map, c, labels);
     }

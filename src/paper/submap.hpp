@@ -29,7 +29,7 @@ public:
     explicit Thinner(float voxel_size) : inverse_cell_(2.0F / voxel_size) {}
     /// Adds the points of a scan that have the label `kept` [map frame].
     void add(const Points& points, const Labels& labels, Label kept);
-    Points take() { return std::move(points_); }
+    Points moved_points() { return std::move(points_); }
     [[nodiscard]] const Points& points() const { return points_; }
 
 private:

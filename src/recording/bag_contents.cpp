@@ -11,7 +11,7 @@ namespace dynamic_filter::io {
 
 namespace {
 
-void take(BagContents& contents, const Message& message) {
+void add(BagContents& contents, const Message& message) {
     switch (kind_of(message.topic.type)) {
         case MessageKind::cloud:
         case MessageKind::livox: {
@@ -63,7 +63,7 @@ BagContents contents_of(const Bag& bag) {
     std::string first;
     const auto defects = bag.for_each([&](const Message& message) {
         try {
-            take(contents, message);
+            add(contents, message);
         } catch (const Malformed& error) {
             if (malformed++ == 0) first = message.topic.name + ": " + error.what();
             scans = scans || is_scan(message.topic);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// The result of one pass over a bag: the clouds and the poses of each topic, and the tree of
+/// The result of one reading of a bag: the clouds and the poses of each topic, and the tree of
 /// frames.
 #pragma once
 

@@ -9,7 +9,7 @@
 
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
-#include "recording/frames.hpp"
+#include "recording/scans.hpp"
 
 namespace dynamic_filter::app {
 

@@ -26,20 +26,20 @@ struct Column {
 
 }  // namespace
 
-io::Cloud layout_of(const io::FullScan& frame, bool in_world) {
+io::Cloud layout_of(const io::FullScan& scan, bool in_world) {
     constexpr double kFar = 1e4;  // [m]
-    const bool far = !in_world && frame.T_world_sensor.translation().norm() > kFar;
+    const bool far = !in_world && scan.T_world_sensor.translation().norm() > kFar;
     io::Cloud layout;
-    for (const io::Field& field : frame.cloud.fields) {
+    for (const io::Field& field : scan.cloud.fields) {
         const bool widen = far && is_coordinate(field);
         io::add_field(layout, field.name, widen ? io::FieldType::f64 : field.type, field.count);
     }
     return layout;
 }
 
-std::vector<std::byte> world_records(const io::FullScan& frame, const io::Cloud& layout) {
-    const io::Cloud& cloud = frame.cloud;
-    std::vector<std::byte> records(frame.points.size() * layout.point_bytes);
+std::vector<std::byte> world_records(const io::FullScan& scan, const io::Cloud& layout) {
+    const io::Cloud& cloud = scan.cloud;
+    std::vector<std::byte> records(scan.points.size() * layout.point_bytes);
     std::vector<Column> columns;
     for (std::size_t f = 0; f < layout.fields.size(); ++f) {
         const io::Field &in = cloud.fields[f], &out = layout.fields[f];
@@ -47,8 +47,8 @@ std::vector<std::byte> world_records(const io::FullScan& frame, const io::Cloud&
                            is_coordinate(out) ? out.name[0] - 'x' : -1,
                            out.type == io::FieldType::f64});
     }
-    for (std::size_t i = 0; i < frame.points.size(); ++i) {
-        const Eigen::Vector3d world = frame.T_world_sensor * frame.points[i].cast<double>();
+    for (std::size_t i = 0; i < scan.points.size(); ++i) {
+        const Eigen::Vector3d world = scan.T_world_sensor * scan.points[i].cast<double>();
         const std::byte* const from = cloud.data.data() + i * cloud.point_bytes;
         std::byte* const to = records.data() + i * layout.point_bytes;
         for (const Column& column : columns) {

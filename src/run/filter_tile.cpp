@@ -15,9 +15,9 @@
 #include "dynamic_filter/writers.hpp"
 #include "geometry/pose.hpp"
 #include "geometry/voxel.hpp"
-#include "recording/frames.hpp"
+#include "recording/scans.hpp"
+#include "run/cut.hpp"
 #include "run/label_store.hpp"
-#include "run/piece.hpp"
 #include "run/tile_file.hpp"
 #include "run/tile_map.hpp"
 
@@ -33,8 +33,8 @@ using ScanGroup = std::vector<ScanOfDrive>;
 std::vector<ScanGroup> groups_of(const Plan& plan, const std::vector<ScanOfDrive>& scans) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, ScanGroup> groups;
     for (const ScanOfDrive& scan : scans) {
-        const std::uint32_t part = plan.drives[scan.drive].scans[scan.scan].part;
-        groups[part == 0 ? std::pair(0U, 0U) : std::pair(scan.drive, part)].push_back(scan);
+        const std::uint32_t stretch = plan.drives[scan.drive].scans[scan.scan].stretch;
+        groups[stretch == 0 ? std::pair(0U, 0U) : std::pair(scan.drive, stretch)].push_back(scan);
     }
     std::vector<ScanGroup> result;
     for (auto& [key, group] : groups) result.push_back(std::move(group));
@@ -43,8 +43,8 @@ std::vector<ScanGroup> groups_of(const Plan& plan, const std::vector<ScanOfDrive
 
 /// The final verdict on the points of a scan in and around the tile.
 struct Seen {
-    Piece piece;
-    Verdict verdict;                    // on the points of the piece
+    Cut cut;
+    Verdict verdict;                    // on the points of the cut
     std::vector<std::uint32_t> voxels;  // of these points; kNoVoxel outside of the tile
 };
 
@@ -68,7 +68,7 @@ struct TileRun {
     bool look_again(DynamicFilter& filter, const ScanGroup& scans) const;
     bool decide(const DynamicFilter& filter, const ScanGroup& scans,
                 const std::vector<std::size_t>& numbers, const LabelStore& instants);
-    [[nodiscard]] Seen look(const DynamicFilter& filter, const io::FullScan& frame,
+    [[nodiscard]] Seen look(const DynamicFilter& filter, const io::FullScan& scan,
                             std::size_t number) const;
     void score(const Pose& T_world_sensor, const Seen& seen, const Labels& instant);
     bool score_near(const ScanGroup& scans, const std::vector<std::size_t>& numbers,
@@ -99,7 +99,7 @@ Eigen::Vector3d TileRun::scoring_origin() const {
     return nearby_origin(corner, eval::kVoxelSize);
 }
 
-/// Calls use(number, scan, frame) for the scans in order; `prepare` (number, frame) runs in
+/// Calls use(number, scan) for the scans in order; `prepare` (number, scan) runs in
 /// parallel before. False if it was interrupted.
 bool each_scan(const Job& job, const ScanGroup& group, const std::vector<std::size_t>& numbers,
                const std::function<void(std::size_t, io::FullScan&)>& prepare,
@@ -113,14 +113,14 @@ bool each_scan(const Job& job, const ScanGroup& group, const std::vector<std::si
             number_of[scans.back()] = numbers[begin];
         }
         const io::Recording& recording = job.drives[drive].recording;
-        for_each_frame(
+        for_each_scan(
             recording, scans,
-            [&](std::size_t i, MaybeFrame& maybe) {
-                if (prepare) prepare(number_of.at(i), *maybe.frame);
+            [&](std::size_t i, MaybeScan& maybe) {
+                if (prepare) prepare(number_of.at(i), *maybe.scan);
             },
-            [&](std::size_t i, MaybeFrame& maybe) {
-                if (!maybe.frame) throw changed_in_use(recording, i, maybe.error);
-                use(number_of.at(i), *maybe.frame);
+            [&](std::size_t i, MaybeScan& maybe) {
+                if (!maybe.scan) throw changed_in_use(recording, i, maybe.error);
+                use(number_of.at(i), *maybe.scan);
                 return !interrupted();
             });
         if (interrupted()) return false;
@@ -147,16 +147,16 @@ std::vector<std::vector<std::size_t>> inside_by_drive(const ScanGroup& group,
     return drives;
 }
 
-/// First pass: every scan goes through the filter.
+/// First reading: every scan goes through the filter.
 bool TileRun::filter(DynamicFilter& filter, const ScanGroup& scans, LabelStore& instants) const {
     std::uint32_t drive = scans.front().drive;
-    return each_scan(job, scans, all_of(scans), {}, [&](std::size_t number, io::FullScan& frame) {
+    return each_scan(job, scans, all_of(scans), {}, [&](std::size_t number, io::FullScan& scan) {
         if (std::exchange(drive, scans[number].drive) != scans[number].drive) filter.begin_drive();
-        instants.put(number, filter.push(take_scan(frame, number)).labels);
+        instants.put(number, filter.push(moved_scan(scan, number)).labels);
     });
 }
 
-/// Between the passes: all drives but the last one observe what only later ones found.
+/// Between the readings: all drives but the last one observe what only later ones found.
 bool TileRun::look_again(DynamicFilter& filter, const ScanGroup& scans) const {
     std::vector<std::size_t> earlier, drive_of;  // drives are counted from 0 within the group
     for (std::size_t n = 0; n < scans.size() && scans[n].drive != scans.back().drive; ++n) {
@@ -164,43 +164,43 @@ bool TileRun::look_again(DynamicFilter& filter, const ScanGroup& scans) const {
         drive_of.push_back(n == 0 ? 0 : drive_of.back() + (begins ? 1 : 0));
         earlier.push_back(n);
     }
-    return each_scan(job, scans, earlier, {}, [&](std::size_t number, io::FullScan& frame) {
-        filter.look_again(drive_of[number], take_scan(frame, number));
+    return each_scan(job, scans, earlier, {}, [&](std::size_t number, io::FullScan& scan) {
+        filter.look_again(drive_of[number], moved_scan(scan, number));
     });
 }
 
-Seen TileRun::look(const DynamicFilter& filter, const io::FullScan& frame,
+Seen TileRun::look(const DynamicFilter& filter, const io::FullScan& scan,
                    std::size_t number) const {
-    Seen seen{.piece = cut(frame, work.tile, job.plan.cell), .verdict = {}, .voxels = {}};
+    Seen seen{.cut = cut_of(scan, work.tile, job.plan.cell), .verdict = {}, .voxels = {}};
     seen.verdict =
-        filter.verdict({seen.piece.points, frame.T_world_sensor, frame.stamp, number}, seen.voxels);
+        filter.verdict({seen.cut.points, scan.T_world_sensor, scan.stamp, number}, seen.voxels);
     for (std::size_t i = 0; i < seen.voxels.size(); ++i) {
-        if (!seen.piece.inside[i]) seen.voxels[i] = kNoVoxel;
+        if (!seen.cut.inside[i]) seen.voxels[i] = kNoVoxel;
     }
     return seen;
 }
 
-/// Second pass, of one drive: final verdicts on the points inside.
+/// Second reading, of one drive: final verdicts on the points inside.
 bool TileRun::decide(const DynamicFilter& filter, const ScanGroup& scans,
                      const std::vector<std::size_t>& numbers, const LabelStore& instants) {
     std::vector<Seen> seen(scans.size());
     LabelStore finals(folder);
-    const auto prepare = [&](std::size_t number, io::FullScan& frame) {
-        seen[number] = look(filter, frame, number);
+    const auto prepare = [&](std::size_t number, io::FullScan& scan) {
+        seen[number] = look(filter, scan, number);
     };
-    const auto use = [&](std::size_t number, io::FullScan& frame) {
+    const auto use = [&](std::size_t number, io::FullScan& scan) {
         const Seen one = std::exchange(seen[number], {});
-        const Labels instant = labels_of(one.piece, instants.get(number));
+        const Labels instant = labels_of(one.cut, instants.get(number));
         const auto& [index, labels, probability, stays, tracked] = one.verdict;
         PointVerdicts inside;
         for (std::size_t i = 0; i < labels.size(); ++i) {
-            if (!one.piece.inside[i]) continue;
+            if (!one.cut.inside[i]) continue;
             inside.push_back({labels[i], instant[i], !stays.empty() && stays[i]});
         }
         verdicts.add(scans[number], inside);
         sightings.add(scans[number], one.voxels);
-        if (frame.truth.empty()) return;
-        score(frame.T_world_sensor, one, instant);
+        if (scan.truth.empty()) return;
+        score(scan.T_world_sensor, one, instant);
         finals.put(number, labels);
     };
     if (!each_scan(job, scans, numbers, prepare, use)) return false;
@@ -209,21 +209,21 @@ bool TileRun::decide(const DynamicFilter& filter, const ScanGroup& scans,
 
 void TileRun::score(const Pose& T_world_sensor, const Seen& seen, const Labels& instant) {
     if (!scorer) scorer.emplace(eval::kVoxelSize, 2);
-    scorer->add(labelled_inside(seen.piece, T_world_sensor, scoring_origin()),
+    scorer->add(labelled_inside(seen.cut, T_world_sensor, scoring_origin()),
                 std::array<const Labels*, 2>{&seen.verdict.labels, &instant});
 }
 
-/// Third pass, with ground truth: which removed points lie near one that stays.
+/// Third reading, with ground truth: which removed points lie near one that stays.
 bool TileRun::score_near(const ScanGroup& scans, const std::vector<std::size_t>& numbers,
                          const LabelStore& finals, const LabelStore& instants) {
     std::vector<std::vector<Points>> near(scans.size());
-    const auto prepare = [&](std::size_t number, io::FullScan& frame) {
-        if (frame.truth.empty()) return;
-        const Piece piece = cut(frame, work.tile, job.plan.cell);
+    const auto prepare = [&](std::size_t number, io::FullScan& scan) {
+        if (scan.truth.empty()) return;
+        const Cut cut = cut_of(scan, work.tile, job.plan.cell);
         const Labels final = finals.get(number);
-        const Labels instant = labels_of(piece, instants.get(number));
+        const Labels instant = labels_of(cut, instants.get(number));
         near[number] =
-            scorer->near_removed(labelled_inside(piece, frame.T_world_sensor, scoring_origin()),
+            scorer->near_removed(labelled_inside(cut, scan.T_world_sensor, scoring_origin()),
                                  std::array<const Labels*, 2>{&final, &instant});
     };
     const auto use = [&](std::size_t number, io::FullScan&) {

@@ -22,7 +22,7 @@
 #include "online/scan_worker.hpp"
 #include "page/page.hpp"
 #include "page/run_view.hpp"
-#include "recording/frames.hpp"
+#include "recording/scans.hpp"
 #include "run/label_store.hpp"
 #include "run/scored_scans.hpp"
 #include "run/write_scans.hpp"
@@ -90,7 +90,7 @@ void push(Whole& whole, Scan scan) {
         return;
     }
     whole.queue.add({.scan = std::move(scan), .reply = nullptr});
-    QueuedScan next = whole.queue.take();
+    QueuedScan next = whole.queue.pop();
     const bool restarts = std::exchange(whole.run, next.run) != next.run;
     whole.keep(whole.maps.judge(std::move(next.scan), restarts));
     whole.maps.catch_up();
@@ -114,7 +114,7 @@ void reject(Whole& whole, std::size_t i, const std::string& why) {
 }
 
 /// Puts the filter's notices about scans into the summary.
-void take_notices(Whole& whole) {
+void add_notices(Whole& whole) {
     for (const Notice& notice : whole.notices) {
         const std::string line =
             fmt::format("{}: {}", io::stem(whole.recording, notice.index), notice.text);
@@ -141,7 +141,7 @@ void keep_pace(const Whole& whole, Clock::time_point start, double stamp) {
 }
 
 /// The poses that were found or refined are the recording's from now on.
-void take_poses(Whole& whole) {
+void use_poses(Whole& whole) {
     const auto was_tracked = [](const auto& tracked) { return tracked.has_value(); };
     if (std::none_of(whole.tracked.begin(), whole.tracked.end(), was_tracked)) return;
     whole.recording = io::with_poses(whole.recording, whole.tracked);
@@ -155,33 +155,33 @@ void filter_scans(Whole& whole) {
     whole.tracked.resize(whole.recording.size());
     std::vector<io::Field> fields;
     std::optional<Clock::time_point> start;
-    const auto use = [&](std::size_t i, MaybeFrame& maybe) {
+    const auto use = [&](std::size_t i, MaybeScan& maybe) {
         if (!start) start = Clock::now();
-        if (!maybe.frame) {
+        if (!maybe.scan) {
             reject(whole, i, maybe.error);
-        } else if (!fields.empty() && maybe.frame->cloud.fields != fields) {
+        } else if (!fields.empty() && maybe.scan->cloud.fields != fields) {
             reject(whole, i, io::kOtherFields);
         } else {
-            if (fields.empty()) fields = maybe.frame->cloud.fields;
+            if (fields.empty()) fields = maybe.scan->cloud.fields;
             whole.accepted[i] = true;
-            if (!maybe.frame->truth_fault.empty()) {
-                whole.summary.notes.push_back(maybe.frame->truth_fault +
+            if (!maybe.scan->truth_fault.empty()) {
+                whole.summary.notes.push_back(maybe.scan->truth_fault +
                                               "; the scan is filtered, but not scored");
             }
-            keep_pace(whole, *start, maybe.frame->stamp);
+            keep_pace(whole, *start, maybe.scan->stamp);
             if (whole.live) {
-                whole.live->feed().expect(maybe.frame->points, maybe.frame->T_world_sensor,
-                                          maybe.frame->stamp, i);
+                whole.live->feed().expect(maybe.scan->points, maybe.scan->T_world_sensor,
+                                          maybe.scan->stamp, i);
             }
-            push(whole, take_scan(*maybe.frame, i));
+            push(whole, moved_scan(*maybe.scan, i));
         }
         progress.advance();
         return !(whole.summary.interrupted = interrupted());
     };
-    for_each_frame(whole.recording, all_scans(whole.recording), {}, use);
+    for_each_scan(whole.recording, all_scans(whole.recording), {}, use);
     finish(whole);
-    take_notices(whole);
-    take_poses(whole);
+    add_notices(whole);
+    use_poses(whole);
     const bool none =
         std::find(whole.accepted.begin(), whole.accepted.end(), true) == whole.accepted.end();
     if (none && !whole.summary.interrupted) {
@@ -189,12 +189,12 @@ void filter_scans(Whole& whole) {
     }
 }
 
-void note(Whole& whole, std::size_t i, const io::FullScan& frame, const Labels& labels,
+void note(Whole& whole, std::size_t i, const io::FullScan& scan, const Labels& labels,
           const Labels& instant) {
-    ScanNote note = note_of(labels, instant, frame.truth);
+    ScanNote note = note_of(labels, instant, scan.truth);
     note.index = i;
-    note.position = frame.T_world_sensor.translation();
-    note.stamp = frame.stamp;
+    note.position = scan.T_world_sensor.translation();
+    note.stamp = scan.stamp;
     whole.summary.count(labels);
     whole.scan_notes.push_back(note);
 }
@@ -207,18 +207,18 @@ void write_results(Whole& whole) {
         whole.scorer.emplace(eval::kVoxelSize, 2);
         whole.scoring_origin = scoring_origin(whole.recording, eval::kVoxelSize);
     }
-    const auto decide = [&](std::size_t i, const io::FullScan& frame) {
-        return whole.maps.verdict({frame.points, frame.T_world_sensor, frame.stamp, i});
+    const auto decide = [&](std::size_t i, const io::FullScan& scan) {
+        return whole.maps.verdict({scan.points, scan.T_world_sensor, scan.stamp, i});
     };
-    const auto use = [&](std::size_t i, const io::FullScan& frame, const Verdict& verdict) {
+    const auto use = [&](std::size_t i, const io::FullScan& scan, const Verdict& verdict) {
         const Labels instant = whole.instant.get(i);
-        if (whole.scorer && !frame.truth.empty()) {
-            whole.scorer->add(labelled(frame, whole.scoring_origin),
+        if (whole.scorer && !scan.truth.empty()) {
+            whole.scorer->add(labelled(scan, whole.scoring_origin),
                               std::array<const Labels*, 2>{&verdict.labels, &instant});
         }
-        note(whole, i, frame, verdict.labels, instant);
+        note(whole, i, scan, verdict.labels, instant);
         if (whole.live) {
-            whole.live->feed().corrected(i, frame.points, verdict.labels);
+            whole.live->feed().corrected(i, scan.points, verdict.labels);
         }
         progress.advance();
     };
@@ -231,24 +231,24 @@ void write_results(Whole& whole) {
 void score(Whole& whole) {
     const auto folder = whole.output.path() / "labels";
     std::vector<std::vector<Points>> near(whole.recording.size());
-    const auto find = [&](std::size_t i, MaybeFrame& maybe) {
-        if (maybe.frame->truth.empty()) return;
+    const auto find = [&](std::size_t i, MaybeScan& maybe) {
+        if (maybe.scan->truth.empty()) return;
         const Labels labels = io::read_labels(io::label_file(folder, io::stem(whole.recording, i)));
         const Labels instant = whole.instant.get(i);
-        near[i] = whole.scorer->near_removed(labelled(*maybe.frame, whole.scoring_origin),
+        near[i] = whole.scorer->near_removed(labelled(*maybe.scan, whole.scoring_origin),
                                              std::array<const Labels*, 2>{&labels, &instant});
     };
-    const auto use = [&](std::size_t i, MaybeFrame&) {
+    const auto use = [&](std::size_t i, MaybeScan&) {
         if (!near[i].empty()) whole.scorer->add_near(std::exchange(near[i], {}));
         return true;  // half of it would be wrong scores; a second interruption kills
     };
-    for_each_frame(whole.recording, accepted_scans(whole), find, use);
+    for_each_scan(whole.recording, accepted_scans(whole), find, use);
     whole.summary.scores = whole.scorer->scores(0);
     whole.summary.instant_scores = whole.scorer->scores(1);
 }
 
 /// What the filter holds, and how fast its stages were.
-void take_contents(Whole& whole) {
+void read_contents(Whole& whole) {
     RunSummary& s = whole.summary;
     s.contents = whole.maps.contents();
     const StageTimes times = whole.maps.times();
@@ -332,7 +332,7 @@ void write_page(Whole& whole, const Json& metrics) {
 
 void write_reports(Whole& whole) {
     const std::filesystem::path& folder = whole.output.path();
-    take_contents(whole);
+    read_contents(whole);
     const Json metrics = metrics_of(whole.summary, whole.recording.info().losses);
     write_page(whole, metrics);
     io::write_file(folder / "metrics.json", text_of(metrics));

@@ -10,7 +10,7 @@
 #include "dynamic_filter/check.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/parallel.hpp"
-#include "recording/frames.hpp"
+#include "recording/scans.hpp"
 #include "run/run_state.hpp"
 #include "settings/config_file.hpp"
 

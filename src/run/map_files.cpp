@@ -14,13 +14,13 @@ void MapFiles::begin(const io::FullScan& first) {
     dynamic_.emplace(folder_ / "dynamic_points.pcd", layout_.fields, layout_.point_bytes);
 }
 
-MapFiles::Records MapFiles::records_of(const io::FullScan& frame, const Verdict& verdict) const {
+MapFiles::Records MapFiles::records_of(const io::FullScan& scan, const Verdict& verdict) const {
     const std::size_t bytes = layout_.point_bytes;
-    const auto all = in_world_ ? frame.cloud.data : world_records(frame, layout_);
+    const auto all = in_world_ ? scan.cloud.data : world_records(scan, layout_);
     Records records;
     records.still.reserve(all.size());
     for (std::size_t i = 0; i < verdict.labels.size(); ++i) {
-        if (!is_measured(frame.points[i])) continue;
+        if (!is_measured(scan.points[i])) continue;
         const auto* const record = all.data() + i * bytes;
         const bool stays = !verdict.stays.empty() && verdict.stays[i];
         const Kept kept = where(verdict.labels[i], stays, keep_unknown_);
@@ -36,9 +36,9 @@ void MapFiles::append(const Records& records) {
     dynamic_->append(records.dynamic);
 }
 
-void MapFiles::append(const io::FullScan& frame, const Verdict& verdict) {
-    if (!still_) begin(frame);
-    append(records_of(frame, verdict));
+void MapFiles::append(const io::FullScan& scan, const Verdict& verdict) {
+    if (!still_) begin(scan);
+    append(records_of(scan, verdict));
 }
 
 void MapFiles::commit() {

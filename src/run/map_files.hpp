@@ -10,12 +10,12 @@
 namespace dynamic_filter::app {
 
 /// static_map.pcd and dynamic_points.pcd: the original records, x y z in the world frame. The
-/// fields are those of the first frame; far from the world's origin, where a float is coarse, x y z
+/// fields are those of the first scan; far from the world's origin, where a float is coarse, x y z
 /// become float64. What is no measurement (not finite, at the sensor) is no point of a map. Single
 /// caller; records_of() may run in several threads after begin().
 class MapFiles {
 public:
-    /// What one frame adds to the two files.
+    /// What one scan adds to the two files.
     struct Records {
         std::vector<std::byte> still, dynamic;
     };
@@ -23,13 +23,13 @@ public:
     MapFiles(std::filesystem::path folder, bool keep_unknown, bool in_world)
         : folder_(std::move(folder)), keep_unknown_(keep_unknown), in_world_(in_world) {}
 
-    /// Takes the fields of the first frame, and opens the files.
+    /// Reads the fields of the first scan, and opens the files.
     void begin(const io::FullScan& first);
-    /// Splits the points of a frame. Points with Verdict::stays belong to the static map.
-    [[nodiscard]] Records records_of(const io::FullScan& frame, const Verdict& verdict) const;
+    /// Splits the points of a scan. Points with Verdict::stays belong to the static map.
+    [[nodiscard]] Records records_of(const io::FullScan& scan, const Verdict& verdict) const;
     void append(const Records& records);
-    /// Begins if need be, and appends the records of this frame.
-    void append(const io::FullScan& frame, const Verdict& verdict);
+    /// Begins if need be, and appends the records of this scan.
+    void append(const io::FullScan& scan, const Verdict& verdict);
     void commit();
 
 private:

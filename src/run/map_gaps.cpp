@@ -43,7 +43,7 @@ std::vector<Gaps> read_gaps(const std::filesystem::path& folder) {
     if (!std::filesystem::exists(file)) return scans;
     const std::string bytes = io::read_file(file);
     std::size_t at = 0;
-    const auto take = [&] {
+    const auto next_number = [&] {
         std::uint32_t value = 0;
         if (bytes.size() - at < sizeof value) {
             throw InputError(file, "", "ends too early; run again with --overwrite");
@@ -54,9 +54,9 @@ std::vector<Gaps> read_gaps(const std::filesystem::path& folder) {
     };
     while (at < bytes.size()) {
         Gaps& gaps = scans.emplace_back();
-        for (std::uint32_t n = take(); n > 0; --n) {
-            const std::uint32_t first = take();
-            gaps.emplace_back(first, take());
+        for (std::uint32_t n = next_number(); n > 0; --n) {
+            const std::uint32_t first = next_number();
+            gaps.emplace_back(first, next_number());
         }
     }
     return scans;

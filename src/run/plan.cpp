@@ -15,7 +15,7 @@
 #include "dynamic_filter/check.hpp"
 #include "dynamic_filter/error.hpp"
 #include "geometry/voxel.hpp"
-#include "recording/frames.hpp"
+#include "recording/scans.hpp"
 #include "tracking/pose_jump.hpp"
 
 namespace dynamic_filter::app {
@@ -63,10 +63,10 @@ void add_around(const Eigen::Vector3d& world, const PlaneCell& cell, double edge
     if (dx != 0 && dy != 0) add({cell.x + dx, cell.y + dy});
 }
 
-Extent extent_of(const io::FullScan& frame, double voxel_size) {
+Extent extent_of(const io::FullScan& full, double voxel_size) {
     const double edge = cell_edge(voxel_size);
     Extent extent;
-    each_measured(frame, [&](std::size_t, const Eigen::Vector3d& world) {
+    each_measured(full, [&](std::size_t, const Eigen::Vector3d& world) {
         const PlaneCell cell = cell_at(world, edge);
         if (extent.cells.empty() || extent.cells.back() != cell) extent.cells.push_back(cell);
         add_around(world, cell, edge, extent.around);
@@ -92,29 +92,29 @@ public:
         drive_.rejected.push_back(fmt::format("{}: {}", io::stem(recording_, i), why));
     }
 
-    void take(std::size_t i, const io::FullScan& frame, const Extent& extent) {
-        if (!fields_.empty() && frame.cloud.fields != fields_) {
+    void add(std::size_t i, const io::FullScan& full, const Extent& extent) {
+        if (!fields_.empty() && full.cloud.fields != fields_) {
             reject(i, io::kOtherFields);
             return;
         }
-        if (fields_.empty()) fields_ = frame.cloud.fields;
-        const StampedPose now{frame.T_world_sensor, frame.stamp};
+        if (fields_.empty()) fields_ = full.cloud.fields;
+        const StampedPose now{full.T_world_sensor, full.stamp};
         if (is_repeated(now)) {
             reject(i, "it has the stamp and the pose of the scan before");
             return;
         }
-        if (!begin_part(i, now)) return;
-        if (!frame.truth_fault.empty()) {
-            drive_.notes.push_back(frame.truth_fault + "; the scan is filtered, but not scored");
+        if (!begin_stretch(i, now)) return;
+        if (!full.truth_fault.empty()) {
+            drive_.notes.push_back(full.truth_fault + "; the scan is filtered, but not scored");
         }
         PlannedScan& scan = drive_.scans[i];
         scan.is_used = true;
-        scan.part = part_;
-        scan.position = frame.T_world_sensor.translation();
+        scan.stretch = stretch_;
+        scan.position = full.T_world_sensor.translation();
         cells_.insert(cells_.end(), extent.cells.begin(), extent.cells.end());
         cells_.insert(cells_.end(), extent.around.begin(), extent.around.end());
         counts_.push_back({i, extent.cells.size(), extent.around.size()});
-        drive_.most_points = std::max(drive_.most_points, frame.points.size());
+        drive_.most_points = std::max(drive_.most_points, full.points.size());
         before_last_ = std::exchange(last_, now);
     }
 
@@ -140,7 +140,7 @@ private:
                last_->T_world_sensor.matrix() == now.T_world_sensor.matrix();
     }
     /// False if the scan comes too late.
-    bool begin_part(std::size_t i, const StampedPose& now) {
+    bool begin_stretch(std::size_t i, const StampedPose& now) {
         const std::string name = io::stem(recording_, i);
         if (last_ && now.stamp < last_->stamp) {
             if (now.stamp >= last_->stamp - kRestart) {
@@ -150,18 +150,18 @@ private:
             drive_.notes.push_back(name +
                                    ": stamps went back by more than a second; scans are not "
                                    "compared with those before");
-            next_part();
+            next_stretch();
         } else if (const auto jump = pose_jump(before_last_, last_, now)) {
             drive_.notes.push_back(
                 fmt::format("{}: the pose is {:.0f} m from where the previous poses lead; scans "
                             "are not compared with those before",
                             name, *jump));
-            next_part();
+            next_stretch();
         }
         return true;
     }
-    void next_part() {
-        ++part_;
+    void next_stretch() {
+        ++stretch_;
         before_last_ = last_ = std::nullopt;
     }
 
@@ -169,7 +169,7 @@ private:
     PlannedDrive& drive_;
     std::vector<io::Field> fields_;
     std::optional<StampedPose> before_last_, last_;
-    std::uint32_t part_ = 0;
+    std::uint32_t stretch_ = 0;
     std::vector<PlaneCell> cells_;  // of all scans, one after the other
     std::vector<Counts> counts_;
 };
@@ -196,13 +196,13 @@ void scan_drive(const Drive& drive, double voxel_size, PlannedDrive& planned, Vo
     planned.scans.resize(drive.recording.size());
     ScanGate gate(drive.recording, planned);
     std::vector<Extent> extents(drive.recording.size());
-    const auto measure = [&](std::size_t i, MaybeFrame& maybe) {
-        extents[i] = extent_of(*maybe.frame, voxel_size);
+    const auto measure = [&](std::size_t i, MaybeScan& maybe) {
+        extents[i] = extent_of(*maybe.scan, voxel_size);
     };
-    const auto use = [&](std::size_t i, MaybeFrame& maybe) {
+    const auto use = [&](std::size_t i, MaybeScan& maybe) {
         const Extent extent = std::exchange(extents[i], {});
-        if (maybe.frame) {
-            gate.take(i, *maybe.frame, extent);
+        if (maybe.scan) {
+            gate.add(i, *maybe.scan, extent);
             if (planned.scans[i].is_used) sample.add(extent.cells, extent.sampled);
         } else {
             gate.reject(i, maybe.error);
@@ -210,7 +210,7 @@ void scan_drive(const Drive& drive, double voxel_size, PlannedDrive& planned, Vo
         progress.advance();
         return !interrupted();
     };
-    for_each_frame(drive.recording, all_scans(drive.recording), measure, use);
+    for_each_scan(drive.recording, all_scans(drive.recording), measure, use);
     gate.finish();
     if (used_scans(planned).empty() && !interrupted()) {
         throw InputError(drive.recording.info().root, "",
@@ -304,7 +304,7 @@ std::vector<std::size_t> used_scans(const PlannedDrive& drive) {
 }
 
 void cut_into_tiles(Plan& plan, const Config& config) {
-    const std::vector<Tile> tiles = cut(plan.voxels, plan.most_voxels);
+    const std::vector<Tile> tiles = tiles_of(plan.voxels, plan.most_voxels);
     const TileLookup lookup(tiles);
     plan.tiles.clear();
     for (const Tile& tile : tiles) plan.tiles.push_back({.tile = tile, .scans = {}, .inside = {}});

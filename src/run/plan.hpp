@@ -11,13 +11,13 @@
 
 #include "dynamic_filter/settings.hpp"
 #include "recording/drives.hpp"
-#include "run/layout.hpp"
+#include "run/tiles.hpp"
 
 namespace dynamic_filter::app {
 
 struct PlannedScan {
-    bool is_used = false;    ///< false: it was rejected
-    std::uint32_t part = 0;  ///< of the drive: a jump of the poses begins the next part
+    bool is_used = false;       ///< false: it was rejected
+    std::uint32_t stretch = 0;  ///< of the drive: a jump of the poses begins the next one
     Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] of the sensor, in the world
     std::vector<PlaneCell> cells;                        ///< in which it has points, ascending
     std::vector<PlaneCell> around;  ///< others that have points in their halo, ascending

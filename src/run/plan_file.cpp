@@ -30,19 +30,19 @@ std::vector<T> from_blob(const PlanJson& json) {
 
 PlanJson json_of(const PlannedDrive& drive) {
     std::vector<std::uint8_t> used;
-    std::vector<std::uint32_t> parts, counts, counts_around;
+    std::vector<std::uint32_t> stretches, counts, counts_around;
     std::vector<double> positions;
     std::vector<PlaneCell> cells, around;
     for (const PlannedScan& scan : drive.scans) {
         used.push_back(scan.is_used ? 1 : 0);
-        parts.push_back(scan.part);
+        stretches.push_back(scan.stretch);
         for (const double x : scan.position) positions.push_back(x);
         counts.push_back(static_cast<std::uint32_t>(scan.cells.size()));
         counts_around.push_back(static_cast<std::uint32_t>(scan.around.size()));
         cells.insert(cells.end(), scan.cells.begin(), scan.cells.end());
         around.insert(around.end(), scan.around.begin(), scan.around.end());
     }
-    PlanJson json{{"used", blob(used)},           {"parts", blob(parts)},
+    PlanJson json{{"used", blob(used)},           {"parts", blob(stretches)},
                   {"positions", blob(positions)}, {"counts", blob(counts)},
                   {"cells", blob(cells)},         {"counts_around", blob(counts_around)},
                   {"around", blob(around)},       {"rejected", drive.rejected},
@@ -67,7 +67,7 @@ PlannedDrive drive_of(const PlanJson& json) {
         drive.sweep = Sweep{.clockwise = sweep[0], .seam = sweep[1], .duration = sweep[2]};
     }
     const auto used = from_blob<std::uint8_t>(json.at("used"));
-    const auto parts = from_blob<std::uint32_t>(json.at("parts"));
+    const auto stretches = from_blob<std::uint32_t>(json.at("parts"));
     const auto counts = from_blob<std::uint32_t>(json.at("counts"));
     const auto positions = from_blob<double>(json.at("positions"));
     const auto counts_around = from_blob<std::uint32_t>(json.at("counts_around"));
@@ -77,7 +77,7 @@ PlannedDrive drive_of(const PlanJson& json) {
     for (std::size_t i = 0; i < used.size(); ++i) {
         const auto end = next + counts[i], end_around = next_around + counts_around[i];
         drive.scans.push_back({.is_used = used[i] != 0,
-                               .part = parts[i],
+                               .stretch = stretches[i],
                                .position = Eigen::Vector3d(&positions[3 * i]),
                                .cells = {next, end},
                                .around = {next_around, end_around}});

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "dynamic_filter/error.hpp"
-#include "recording/frames.hpp"
+#include "recording/scans.hpp"
 
 namespace dynamic_filter::app {
 
@@ -24,13 +24,13 @@ void refuse_other_count(const io::Recording& recording, std::size_t i, std::size
 
 }  // namespace
 
-eval::LabelledScan labelled(const io::FullScan& frame, const Eigen::Vector3d& origin,
+eval::LabelledScan labelled(const io::FullScan& full, const Eigen::Vector3d& origin,
                             const RangeLimits& limits) {
-    eval::LabelledScan scan{shifted_world(frame, origin), frame.truth, {}};
-    for (std::size_t p = 0; p < frame.points.size(); ++p) {
-        const double range = frame.points[p].cast<double>().norm();
+    eval::LabelledScan scan{shifted_world(full, origin), full.truth, {}};
+    for (std::size_t p = 0; p < full.points.size(); ++p) {
+        const double range = full.points[p].cast<double>().norm();
         const bool is_scored =
-            is_measured(frame.points[p]) && range >= limits.min && range <= limits.max;
+            is_measured(full.points[p]) && range >= limits.min && range <= limits.max;
         if (!is_scored) scan.truth[p] = Label::unknown;
     }
     return scan;
@@ -42,9 +42,9 @@ eval::ScanSource scan_source(const io::Recording& recording, const Eigen::Vector
     return [&recording, origin, limits,
             labels_of = std::move(labels_of)](std::size_t i) -> std::optional<eval::LabelledScan> {
         try {
-            const io::FullScan frame = recording.read(i);
-            if (frame.truth.empty()) return std::nullopt;
-            eval::LabelledScan scan = labelled(frame, origin, limits);
+            const io::FullScan full = recording.read(i);
+            if (full.truth.empty()) return std::nullopt;
+            eval::LabelledScan scan = labelled(full, origin, limits);
             if (labels_of) {
                 auto labels = labels_of(i);
                 if (!labels) return std::nullopt;

@@ -11,9 +11,9 @@
 
 namespace dynamic_filter::app {
 
-/// A frame with ground truth as the scores take it, without a verdict. Points outside of `limits`
+/// A scan with ground truth as the scores take it, without a verdict. Points outside of `limits`
 /// get an unknown truth, so that every score leaves them out.
-eval::LabelledScan labelled(const io::FullScan& frame, const Eigen::Vector3d& origin,
+eval::LabelledScan labelled(const io::FullScan& scan, const Eigen::Vector3d& origin,
                             const RangeLimits& limits = {});
 
 /// For the scores: scans with ground truth, verdicts from `labels_of` (may be empty).

@@ -16,7 +16,7 @@ namespace dynamic_filter::app {
 /// Which scans and drives had points in each voxel. Scans come in order. Single caller.
 class Sightings {
 public:
-    explicit Sightings(std::size_t drives) : words_(session_words(drives)) {}
+    explicit Sightings(std::size_t drives) : words_(drive_words(drives)) {}
     void add(const ScanOfDrive& scan, const std::vector<std::uint32_t>& voxels);
 
     [[nodiscard]] std::size_t voxels() const { return seen_; }  ///< number of voxels with points

@@ -7,7 +7,7 @@
 #include "dynamic_filter/file.hpp"
 #include "dynamic_filter/writers.hpp"
 #include "formats/label_files.hpp"
-#include "recording/frames.hpp"
+#include "recording/scans.hpp"
 #include "run/map_files.hpp"
 #include "run/map_gaps.hpp"
 
@@ -29,23 +29,23 @@ void write_scans(const io::Recording& recording, const std::vector<std::size_t>&
     std::vector<Verdict> verdicts(recording.size());
     std::vector<MapFiles::Records> records(recording.size());
     std::vector<Gaps> gaps(recording.size());
-    const auto decide = [&](std::size_t i, MaybeFrame& maybe) {
-        const io::FullScan& frame = *maybe.frame;
-        verdicts[i] = results.decide(i, frame);
+    const auto decide = [&](std::size_t i, MaybeScan& maybe) {
+        const io::FullScan& scan = *maybe.scan;
+        verdicts[i] = results.decide(i, scan);
         io::write_labels(io::label_file(labels, io::stem(recording, i)), verdicts[i].labels,
                          io::Durable::contents);
         if (with_maps) {
-            records[i] = maps.records_of(frame, verdicts[i]);
-            gaps[i] = gaps_of(frame.points);
+            records[i] = maps.records_of(scan, verdicts[i]);
+            gaps[i] = gaps_of(scan.points);
         }
     };
-    const auto use = [&](std::size_t i, MaybeFrame& maybe) {
-        if (!maybe.frame) throw changed_in_use(recording, i, maybe.error);
+    const auto use = [&](std::size_t i, MaybeScan& maybe) {
+        if (!maybe.scan) throw changed_in_use(recording, i, maybe.error);
         if (with_maps) maps.append(std::exchange(records[i], {}));
-        results.use(i, *maybe.frame, std::exchange(verdicts[i], {}));
+        results.use(i, *maybe.scan, std::exchange(verdicts[i], {}));
         return true;  // what is filtered is written even after an interruption; a second one kills
     };
-    for_each_frame(recording, scans, decide, use);
+    for_each_scan(recording, scans, decide, use);
     io::sync_folder(labels);
     maps.commit();
     std::vector<Gaps> of_scans;

@@ -13,9 +13,9 @@
 #include "dynamic_filter/file.hpp"
 #include "dynamic_filter/parallel.hpp"
 #include "formats/voxel_map/map_index.hpp"
-#include "page/city_report.hpp"
+#include "page/map_page.hpp"
 #include "page/page.hpp"
-#include "recording/frames.hpp"
+#include "recording/scans.hpp"
 #include "run/run.hpp"
 #include "run/run_state.hpp"
 #include "run/tile_file.hpp"
@@ -54,7 +54,7 @@ Tiles open_tiles(const Job& job, const TileFolders& folders) {
 
 /// The verdict on a scan, put together from the tiles in which it has points.
 Verdict verdict_of(const Job& job, const Tiles& tiles, const ScanOfDrive& scan,
-                   const io::FullScan& frame) {
+                   const io::FullScan& full) {
     struct Open {
         std::uint32_t tile;
         PointVerdicts verdicts;
@@ -65,12 +65,12 @@ Verdict verdict_of(const Job& job, const Tiles& tiles, const ScanOfDrive& scan,
         open.push_back({.tile = t, .verdicts = tiles.readers[t]->read(scan)});
     }
     Verdict verdict{.index = scan.scan,
-                    .labels = Labels(frame.points.size(), Label::unknown),
+                    .labels = Labels(full.points.size(), Label::unknown),
                     .probability = {}};
-    if (job.config.map.time == MapTime::latest) verdict.stays.resize(frame.points.size());
+    if (job.config.map.time == MapTime::latest) verdict.stays.resize(full.points.size());
     std::optional<PlaneCell> last;
     Open* in = nullptr;
-    each_measured(frame, [&](std::size_t i, const Eigen::Vector3d& world) {
+    each_measured(full, [&](std::size_t i, const Eigen::Vector3d& world) {
         const PlaneCell cell = cell_at(world, job.plan.cell);
         if (last != cell) {
             last = cell;
@@ -115,8 +115,8 @@ RunSummary write_drive(const Job& job, const Tiles& tiles, std::uint32_t number,
     summary.rejected = planned.rejected;
     summary.notes = planned.notes;
     summary.warnings = planned.warnings;
-    const auto decide = [&](std::size_t i, const io::FullScan& frame) {
-        return verdict_of(job, tiles, {number, static_cast<std::uint32_t>(i)}, frame);
+    const auto decide = [&](std::size_t i, const io::FullScan& full) {
+        return verdict_of(job, tiles, {number, static_cast<std::uint32_t>(i)}, full);
     };
     const auto use = [&](std::size_t, const io::FullScan&, const Verdict& verdict) {
         summary.count(verdict.labels);
@@ -170,21 +170,21 @@ void write_map(const Job& job, const Tiles& tiles, const TileFolders& folders, b
 }
 
 /// Where the drives went, for the report: a place every few metres.
-std::vector<DriveTrack> tracks_of(const Job& job) {
+std::vector<DrivePath> paths_of(const Job& job) {
     constexpr double kApart = 5.0;  // [m]
-    std::vector<DriveTrack> tracks;
+    std::vector<DrivePath> paths;
     for (std::size_t d = 0; d < job.drives.size(); ++d) {
-        DriveTrack track{.name = job.drives[d].name, .positions = {}};
+        DrivePath path{.name = job.drives[d].name, .positions = {}};
         const PlannedDrive& planned = job.plan.drives[d];
         for (const std::size_t i : used_scans(planned)) {
             const Eigen::Vector3d& position = planned.scans[i].position;
             const bool is_near =
-                !track.positions.empty() && (position - track.positions.back()).norm() < kApart;
-            if (!is_near) track.positions.push_back(position);
+                !path.positions.empty() && (position - path.positions.back()).norm() < kApart;
+            if (!is_near) path.positions.push_back(position);
         }
-        tracks.push_back(std::move(track));
+        paths.push_back(std::move(path));
     }
-    return tracks;
+    return paths;
 }
 
 /// The run as a whole.
@@ -258,7 +258,7 @@ std::string write_reports(const Job& job, const Totals& totals,
     if (several) io::write_file(folder / "metrics.json", text_of(metrics));
     if (o.report && !viewer_page().empty()) {
         // Without the timing, so that the pages are the same however the work was shared out.
-        write_city_report(folder, metrics, nullptr, tracks_of(job));
+        write_map_page(folder, metrics, nullptr, paths_of(job));
         clock.finish("report");
     }
     Json timing = timing_of(totals.scans, clock, o.threads);

@@ -22,7 +22,7 @@ std::function<double(double)> until(double time) {
 struct Places {
     std::vector<Vector2d> taken;
 
-    Vector2d take(const std::function<Vector2d()>& draw, double room) {
+    Vector2d choose(const std::function<Vector2d()>& draw, double room) {
         Vector2d p = draw();
         for (int attempt = 0; attempt < 200; ++attempt, p = draw()) {
             const bool vacant = std::none_of(taken.begin(), taken.end(), [&](const Vector2d& q) {
@@ -43,7 +43,7 @@ struct Station {
     /// A place to stand outside the way of the robot: at the edge, at the wall, or between the
     /// pillars.
     Vector2d spot() {
-        return places.take(
+        return places.choose(
             [&]() -> Vector2d {
                 const int strip = random.below(3);
                 const double x = random.uniform(-half_length + 8.0, half_length - 8.0);
@@ -61,7 +61,7 @@ struct Station {
         return q;
     }
     Vector2d behind_exit(double side) {
-        return places.take(
+        return places.choose(
             [&] {
                 return Vector2d{side * random.uniform(exit_from + 1.5, exit_until - 0.6),
                                 random.uniform(-3.6, 0.6)};
@@ -69,7 +69,7 @@ struct Station {
             0.6);
     }
     Vector2d in_train(double door) {
-        return places.take(
+        return places.choose(
             [&] {
                 return Vector2d{door + random.uniform(-2.4, 2.4),
                                 random.uniform(train_y - 0.8, train_y + 0.3)};
@@ -102,7 +102,7 @@ std::vector<Waypoint> getting_on(Station& station) {
     const std::vector<double> all = doors();
     const double door =
         all[static_cast<std::size_t>(station.random.below(static_cast<int>(all.size())))];
-    const Vector2d spot = station.places.take(
+    const Vector2d spot = station.places.choose(
         [&]() -> Vector2d {
             const double side = station.side();
             return {door + side * station.random.uniform(1.1, 3.4),
@@ -173,7 +173,7 @@ std::vector<Waypoint> passing(Station& station) {
 
 /// Adds two or three people who talk, and later leave together.
 void add_group(std::vector<Walker>& walkers, int size, int company, Station& station) {
-    const Vector2d middle = station.places.take(
+    const Vector2d middle = station.places.choose(
         [&]() -> Vector2d {
             const double row = pillars * static_cast<double>(station.random.below(6) - 3);
             return {row + station.random.uniform(6.0, 7.2), station.random.uniform(-0.3, 0.3)};

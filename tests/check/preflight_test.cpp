@@ -155,9 +155,9 @@ TEST_F(Check, NamesMotionThatIsStillInTheScans) {
 }
 
 TEST_F(Check, NamesPointsInTheWorldAndMergedSensors) {
-    const auto in_world = write_copy([](const FullScan& frame) {
-        Points points = frame.points;
-        for (Point& p : points) p = (frame.T_world_sensor * p.cast<double>()).cast<float>();
+    const auto in_world = write_copy([](const FullScan& full) {
+        Points points = full.points;
+        for (Point& p : points) p = (full.T_world_sensor * p.cast<double>()).cast<float>();
         return points;
     });
     const Recording world = open_recording(in_world->path());
@@ -182,19 +182,19 @@ TEST_F(Check, NamesPointsInTheWorldAndMergedSensors) {
     expect_only(check_recording(open_recording(benchmark.path()), Depth::quick),
                 "but this format has them in the world's", "--format folder");
 
-    const auto merged = write_copy([](const FullScan& frame) {
-        Points points = frame.points;
+    const auto merged = write_copy([](const FullScan& full) {
+        Points points = full.points;
         const Eigen::Isometry3f other =
             Eigen::Translation3f(1.2F, 0.5F, -0.3F) * Eigen::AngleAxisf(0.02F, Point::UnitZ());
-        for (const Point& p : frame.points) points.push_back(other * p);
+        for (const Point& p : full.points) points.push_back(other * p);
         return points;
     });
     expect_only(check_recording(open_recording(merged->path()), Depth::thorough), "merged", "one");
 }
 
 TEST_F(Check, NamesPointsInMillimetres) {
-    const auto copy = write_copy([](const FullScan& frame) {
-        Points points = frame.points;
+    const auto copy = write_copy([](const FullScan& full) {
+        Points points = full.points;
         for (Point& p : points) p *= 1000.0F;
         return points;
     });
@@ -372,7 +372,7 @@ TEST_F(Check, NamesScansWhoseNamesAreInNoOrderOfTime) {
 }
 
 TEST_F(Check, ListsTheScansThatARunRejects) {
-    const auto copy = write_copy([](const FullScan& frame) { return frame.points; });
+    const auto copy = write_copy([](const FullScan& full) { return full.points; });
     const auto scan = [&](const char* name) { return copy->path() / "velodyne" / name; };
     std::filesystem::resize_file(scan("000007.bin"), 1001);
     std::filesystem::resize_file(scan("000058.bin"), 0);

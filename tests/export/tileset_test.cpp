@@ -108,7 +108,7 @@ TEST_F(Tileset, LeavesHoldEveryVoxelWithAllItSays) {
         for (std::size_t i = 0; i < points.size(); ++i) {
             EXPECT_LT((positions[i] - points.positions[i]).norm(), 1e-5);
             EXPECT_EQ(scans[i], static_cast<float>(points.scans[i]));
-            EXPECT_EQ(words[i], points.sessions[2 * i + 1]);
+            EXPECT_EQ(words[i], points.drives[2 * i + 1]);
         }
     }
 }

@@ -23,7 +23,7 @@ void look(Evidence& e, Sight sight, unsigned weight = 1, bool hit = false) {
 
 /// 'o' occupied, 'O' and hit, '-' free with a beam through the voxel, '=' without, '.' weakly free,
 /// ' ' unknown.
-void take_in(Evidence& e, std::string_view sights) {
+void observe(Evidence& e, std::string_view sights) {
     for (const char c : sights) {
         const Sight sight = c == 'o' || c == 'O' ? Sight::occupied
                             : c == '-'           ? Sight::passed
@@ -36,7 +36,7 @@ void take_in(Evidence& e, std::string_view sights) {
 Evidence after(std::string_view sights) {
     Evidence e;
     e.n_own = 1;
-    take_in(e, sights);
+    observe(e, sights);
     return e;
 }
 
@@ -154,7 +154,7 @@ TEST(DynamicScore, IsTheSameHoweverLongTheSameGoesOn) {
         std::vector<float> scores;
         for (const int times : {10, 100, 1000}) {
             Evidence e;
-            for (int i = 0; i < times; ++i) take_in(e, traffic);
+            for (int i = 0; i < times; ++i) observe(e, traffic);
             scores.push_back(score(e));
         }
         EXPECT_NEAR(scores[1], scores[0], 0.03F) << traffic;

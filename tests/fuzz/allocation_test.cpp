@@ -15,7 +15,7 @@
 #include "dynamic_filter/writers.hpp"
 #include "fuzz/failing_new.hpp"
 #include "paper/pipeline.hpp"
-#include "recording/frames.hpp"
+#include "recording/scans.hpp"
 #include "support/room.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -165,9 +165,9 @@ TEST(Allocation, ReadingScansSurvivesEveryFailure) {
     std::iota(all.begin(), all.end(), std::size_t{0});
     expect_survives([&] {
         std::string bytes;
-        app::for_each_frame(recording, all, {}, [&](std::size_t, app::MaybeFrame& maybe) {
-            if (!maybe.frame) throw Error(maybe.error);  // it says that memory is short
-            bytes += bytes_of(maybe.frame->cloud);
+        app::for_each_scan(recording, all, {}, [&](std::size_t, app::MaybeScan& maybe) {
+            if (!maybe.scan) throw Error(maybe.error);  // it says that memory is short
+            bytes += bytes_of(maybe.scan->cloud);
             return true;
         });
         return bytes;

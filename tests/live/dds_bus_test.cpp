@@ -179,7 +179,7 @@ TEST_F(TwoBuses, MembersMayBeCalledFromManyThreads) {
         (void)b.lost();
         (void)b.seen();
         (void)a.is_wanted("/points");
-        (void)b.take_notices();
+        (void)b.pop_notices();
     });
     EXPECT_TRUE(eventually([&] { return received > 100; }));
     done = true;

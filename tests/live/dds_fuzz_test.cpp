@@ -124,9 +124,9 @@ struct DdsFuzz : testing::Test {
         auto readings = std::make_shared<Readings>();
         bus.subscribe(topic, {.reliable = reliable, .latched = reliable, .depth = 100000},
                       [readings](const io::Topic& from, const Bytes& message) {
-                          (void)take_largest_allocation();
+                          (void)pop_largest_allocation();
                           const bool readable = is_readable(from, *message);
-                          const double memory = static_cast<double>(take_largest_allocation()) /
+                          const double memory = static_cast<double>(pop_largest_allocation()) /
                                                 static_cast<double>(message->size() + 100);
                           const std::lock_guard hold(readings->lock);
                           ++readings->messages;

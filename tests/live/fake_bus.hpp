@@ -41,8 +41,8 @@ public:
     }
     void stop() override { stopped = true; }
     [[nodiscard]] std::uint64_t lost() const override { return 0; }
-    std::vector<std::string> take_notices() override { return {}; }
-    std::vector<std::pair<std::string, std::string>> take_parameters() override { return {}; }
+    std::vector<std::string> pop_notices() override { return {}; }
+    std::vector<std::pair<std::string, std::string>> pop_parameters() override { return {}; }
 
     [[nodiscard]] std::vector<Bytes> published(const std::string& topic) const {
         const std::lock_guard hold(lock_);

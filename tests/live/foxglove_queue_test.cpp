@@ -13,7 +13,7 @@ Outgoing message(std::uint32_t subscription, std::size_t size, const std::string
 /// The heads of all that waits, in the order in which they are sent.
 std::string all(FoxgloveQueue& queue) {
     std::string heads;
-    while (const auto next = queue.take()) heads += next->head;
+    while (const auto next = queue.pop()) heads += next->head;
     EXPECT_TRUE(queue.empty());
     return heads;
 }

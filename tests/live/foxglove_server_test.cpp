@@ -297,10 +297,10 @@ TEST_F(Server, StrangeWebPagesAreRefusedAndReported) {
             client()->ask(WebSocketClient::handshake("Origin: https://evil.example\r\n"));
         EXPECT_TRUE(answer.starts_with("HTTP/1.1 403 ")) << answer;
     }
-    const auto notices = server.take_notices();
+    const auto notices = server.pop_notices();
     ASSERT_EQ(notices.size(), 1U);
     EXPECT_NE(notices[0].find("https://evil.example"), std::string::npos);
-    EXPECT_TRUE(server.take_notices().empty());
+    EXPECT_TRUE(server.pop_notices().empty());
     EXPECT_TRUE(client()->open("Origin: http://localhost:8080\r\n"));
     EXPECT_TRUE(client()->open("Origin: https://app.foxglove.dev\r\n"));
     FoxgloveServer own(io::MessageEncoding::cdr, {.port = 0, .origins = {"https://robot.example"}});

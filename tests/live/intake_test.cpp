@@ -52,10 +52,10 @@ struct IntakeOf {
         intake.emplace(config);
     }
     Intake* operator->() { return &*intake; }
-    std::optional<LiveScan> take() { return intake->take(0.5); }
+    std::optional<LiveScan> pop() { return intake->pop(0.5); }
     std::string notices() {
         std::string all;
-        for (const std::string& notice : intake->take_notices()) all += notice + "\n";
+        for (const std::string& notice : intake->pop_notices()) all += notice + "\n";
         return all;
     }
 };
@@ -66,7 +66,7 @@ TEST(Intake, PosesAreInterpolatedBetweenThoseAroundTheScan) {
     intake->put(kTf, false, link("map", "base", at(10.0), 100.0));
     intake->put(kPoints, false, cloud_at(100.25));
     intake->put(kTf, false, link("map", "base", at(20.0), 100.5));
-    const auto scan = intake.take();
+    const auto scan = intake.pop();
     ASSERT_TRUE(scan);
     EXPECT_TRUE(scan->has_pose);
     EXPECT_NEAR(scan->T_world_sensor.translation().x(), 15.5, 1e-9);
@@ -81,9 +81,9 @@ TEST(Intake, AScanWaitsForALatePose) {
     IntakeOf intake("input.wait", "5");
     intake->put(kTf, false, link("map", "lidar", at(0.0), 99.9));
     intake->put(kPoints, false, cloud_at(100.0));
-    EXPECT_FALSE(intake->take(0.05)) << "the pose after it is not there yet";
+    EXPECT_FALSE(intake->pop(0.05)) << "the pose after it is not there yet";
     intake->put(kTf, false, link("map", "lidar", at(2.0), 100.1));
-    const auto scan = intake.take();
+    const auto scan = intake.pop();
     ASSERT_TRUE(scan);
     EXPECT_NEAR(scan->T_world_sensor.translation().x(), 1.0, 1e-6);
 }
@@ -92,9 +92,9 @@ TEST(Intake, AScanWaitsForTheSecondTransform) {
     IntakeOf intake("input.wait", "5");
     intake->put(kTf, false, link("map", "lidar", at(1.0), 100.0));
     intake->put(kPoints, false, cloud_at(100.0));
-    EXPECT_FALSE(intake->take(0.05)) << "it is not known yet whether the frame moves";
+    EXPECT_FALSE(intake->pop(0.05)) << "it is not known yet whether the frame moves";
     intake->put(kTf, false, link("map", "lidar", at(2.0), 100.1));
-    const auto scan = intake.take();
+    const auto scan = intake.pop();
     ASSERT_TRUE(scan);
     EXPECT_NEAR(scan->T_world_sensor.translation().x(), 1.0, 1e-6);
 }
@@ -102,19 +102,19 @@ TEST(Intake, AScanWaitsForTheSecondTransform) {
 TEST(Intake, ScansWithoutPosesAreCountedAndExplained) {
     IntakeOf intake("input.pose", "/tf");
     intake->put(kPoints, false, cloud_at(100.0));
-    EXPECT_FALSE(intake.take());
+    EXPECT_FALSE(intake.pop());
     EXPECT_NE(intake->poses_text().find("does not know the frame 'lidar'"), std::string::npos);
 
     intake->put(kTfStatic, true, link("base", "lidar", at(0.5), 0.0));
     intake->put(kPoints, false, cloud_at(100.1));
-    EXPECT_FALSE(intake.take());
+    EXPECT_FALSE(intake.pop());
     EXPECT_NE(intake->poses_text().find("nothing between them moves"), std::string::npos)
         << intake->poses_text();
 
     intake->put(kTf, false, link("map", "base", at(0.0), 5000.0));
     intake->put(kTf, false, link("map", "base", at(0.0), 5000.1));
     intake->put(kPoints, false, cloud_at(100.2));
-    EXPECT_FALSE(intake.take());
+    EXPECT_FALSE(intake.pop());
     EXPECT_NE(intake->poses_text().find("clocks differ"), std::string::npos)
         << intake->poses_text();
     EXPECT_EQ(intake->counters().without_pose, 3U);
@@ -127,7 +127,7 @@ TEST(Intake, ATopicOfPosesServesWhereThereIsNoTf) {
     intake->put(kOdometry, false, odometry("odom", "lidar", 1.0, 10.0));
     intake->put(kOdometry, false, odometry("odom", "lidar", 2.0, 10.2));
     intake->put(kPoints, false, cloud_at(10.1));
-    const auto scan = intake.take();
+    const auto scan = intake.pop();
     ASSERT_TRUE(scan);
     EXPECT_NEAR(scan->T_world_sensor.translation().x(), 1.5, 1e-6);
     EXPECT_EQ(intake->origin(), PoseOrigin::topic);
@@ -139,7 +139,7 @@ TEST(Intake, PointsInTheFrameOfTheWorldAreBroughtToTheSensor) {
     intake->put(kOdometry, false, odometry("odom", "body", 1.0, 10.0));
     intake->put(kOdometry, false, odometry("odom", "body", 1.0, 10.2));
     intake->put(kPoints, false, cloud_at(10.1, "odom"));
-    const auto scan = intake.take();
+    const auto scan = intake.pop();
     ASSERT_TRUE(scan);
     EXPECT_NEAR(scan->points[0].x(), 0.0F, 1e-5F);
     EXPECT_EQ(scan->frame, "odom");
@@ -150,7 +150,7 @@ TEST(Intake, OwnOdometryBeginsIfNoPoseComes) {
     std::optional<LiveScan> scan;
     for (int i = 0; i < 200 && !scan; ++i) {
         intake->put(kPoints, false, cloud_at(100.0 + 0.1 * i));
-        scan = intake->take(0.1);
+        scan = intake->pop(0.1);
     }
     ASSERT_TRUE(scan);
     EXPECT_FALSE(scan->has_pose);
@@ -163,7 +163,7 @@ TEST(Intake, TheRootOfTfIsKeptForTheOwnOdometry) {
     intake->put(kTf, false, link("odom", "lidar", at(3.0), 100.0));
     intake->put(kTf, false, link("odom", "lidar", at(5.0), 100.2));
     intake->put(kPoints, false, cloud_at(100.1));
-    const auto scan = intake.take();
+    const auto scan = intake.pop();
     ASSERT_TRUE(scan);
     EXPECT_FALSE(scan->has_pose);
     EXPECT_EQ(scan->root, "odom");
@@ -178,7 +178,7 @@ TEST(Intake, AClockThatIsSetBackForgetsPosesOfTheOldTime) {
             intake->put(kTf, false, link("map", "lidar", at(t), t));
         }
         intake->put(kPoints, false, cloud_at(from + 0.55));
-        return intake.take();
+        return intake.pop();
     };
     ASSERT_TRUE(drive(5000.0));
     const auto back = drive(1400.0);
@@ -203,7 +203,7 @@ TEST(Intake, FaultyMessagesAreCountedAndDoNoHarm) {
     intake->put(kPoints, false, shared(negative));
     intake->put(kTf, false, shared({std::byte{0}}));
     intake->put(kPoints, false, cloud_at(1.0));
-    EXPECT_TRUE(intake.take());
+    EXPECT_TRUE(intake.pop());
     EXPECT_EQ(intake->counters().malformed, 4U);
     EXPECT_EQ(intake->counters().other_malformed, 1U);
     EXPECT_EQ(intake->counters().taken, 1U);
@@ -216,7 +216,7 @@ TEST(Intake, MemoryIsBoundedWhenNobodyTakes) {
         intake->put(kTf, false, link("map", "frame" + std::to_string(i), at(0.0), 1.0));
     }
     std::uint64_t taken = 0;
-    while (intake->take(0.0)) ++taken;
+    while (intake->pop(0.0)) ++taken;
     const IntakeCounters counters = intake->counters();
     EXPECT_EQ(counters.received, 1000U);
     EXPECT_EQ(counters.overrun, 1000U - taken);
@@ -239,7 +239,7 @@ TEST(Intake, MotionIsUndoneByThePosesDuringTheScan) {
         intake->put(kTf, false, link("map", "lidar", at(10.0 * (t - 10.0)), t));
     }
     intake->put(kPoints, false, shared(io::cloud_message(cloud, 10.0, "lidar", kCdr)));
-    const auto scan = intake.take();
+    const auto scan = intake.pop();
     ASSERT_TRUE(scan);
     EXPECT_TRUE(scan->times.empty());
     EXPECT_NEAR(scan->points[0].x(), 5.0F, 1e-3F);

@@ -21,6 +21,6 @@ void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace dynamic_filter::live {
 
-std::size_t take_largest_allocation() { return std::exchange(largest, 0); }
+std::size_t pop_largest_allocation() { return std::exchange(largest, 0); }
 
 }  // namespace dynamic_filter::live

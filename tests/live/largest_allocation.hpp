@@ -7,6 +7,6 @@
 namespace dynamic_filter::live {
 
 /// [bytes] The largest allocation of this thread since the last call.
-std::size_t take_largest_allocation();
+std::size_t pop_largest_allocation();
 
 }  // namespace dynamic_filter::live

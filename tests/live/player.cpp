@@ -72,7 +72,7 @@ struct Heard {
     std::map<std::int64_t, Labels> verdicts;  // only for --check
 };
 
-void take_labels(Heard& heard, bool keep, const io::Topic& topic, const Bytes& message) {
+void count_labels(Heard& heard, bool keep, const io::Topic& topic, const Bytes& message) {
     const auto now = Clock::now();
     const io::CloudMessage cloud = io::read_cloud_message(*message, topic);
     const std::lock_guard hold(heard.lock);
@@ -104,10 +104,9 @@ std::size_t differing_labels(const Options& o, const Heard& heard) {
     DynamicFilter filter{Config{}};
     std::size_t differing = 0;
     for (std::size_t i = 0; i < recording.size(); ++i) {
-        io::FullScan frame = recording.read(i);
-        const auto own =
-            filter.push({std::move(frame.points), frame.T_world_sensor, frame.stamp, i});
-        const auto stamp = io::to_nanoseconds(frame.stamp);
+        io::FullScan full = recording.read(i);
+        const auto own = filter.push({std::move(full.points), full.T_world_sensor, full.stamp, i});
+        const auto stamp = io::to_nanoseconds(full.stamp);
         const auto heard_at =
             std::find_if(heard.verdicts.begin(), heard.verdicts.end(),
                          [&](const auto& v) { return std::abs(v.first - stamp) < 1000; });
@@ -152,7 +151,7 @@ int play(Bus& bus, const Options& o) {
     const Quality reliable{.reliable = true, .latched = false, .depth = 10};
     bus.subscribe({relays ? o.answer : o.prefix + "/labels", "sensor_msgs/PointCloud2", encoding},
                   reliable, [&](const io::Topic& topic, const Bytes& message) {
-                      take_labels(heard, o.check, topic, message);
+                      count_labels(heard, o.check, topic, message);
                   });
     if (o.all) {
         const auto count = [&](const io::Topic& topic, const Bytes&) {

@@ -115,7 +115,7 @@ TEST(Session, ScansOfAnOlderTimeBeginANewMapAndAreNamed) {
     running.push_all(6);
     running.session->stop();
     EXPECT_EQ(running.session->published(), 12U);
-    const auto notices = running.session->take_notices();
+    const auto notices = running.session->pop_notices();
     ASSERT_EQ(notices.size(), 1U);
     EXPECT_NE(notices[0].find("a new map begins"), std::string::npos);
 }

@@ -97,7 +97,7 @@ TEST(Subscriptions, AsMuchIsAskedForAsAllPublishersOffer) {
     robot.subscriptions->update();
     EXPECT_FALSE(robot.bus.subscribed.at("/points").reliable);
     EXPECT_EQ(robot.bus.subscriptions.at("/points"), 2U);
-    EXPECT_EQ(robot.subscriptions->take_notices().size(), 1U);
+    EXPECT_EQ(robot.subscriptions->pop_notices().size(), 1U);
     robot.bus.others = {clouds("/points")};
     robot.subscriptions->update();
     EXPECT_EQ(robot.bus.subscriptions.at("/points"), 2U) << "best effort fits all";

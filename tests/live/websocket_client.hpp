@@ -55,7 +55,7 @@ public:
         while (heard_.find("\r\n\r\n") == std::string::npos && hear()) {
         }
         const std::size_t end = heard_.find("\r\n\r\n");
-        return end == std::string::npos ? "" : take(end + 4);
+        return end == std::string::npos ? "" : read(end + 4);
     }
     /// True if the server takes the connection.
     bool open(const std::string& more = "") {
@@ -88,9 +88,9 @@ public:
             std::size_t size = width == 0 ? second : 0;
             for (std::size_t i = 0; i < width; ++i) size = size << 8U | byte(2 + i);
             if (!need(2 + width + size)) return {};
-            take(2 + width);
+            read(2 + width);
             const int kind = static_cast<int>(first & 0x0FU);
-            const std::string payload = take(size);
+            const std::string payload = read(size);
             if (kind == 9 || kind == 10) continue;
             if (kind != 0) message.kind = kind;
             message.payload += payload;
@@ -119,7 +119,7 @@ private:
         }
         return true;
     }
-    std::string take(std::size_t size) {
+    std::string read(std::size_t size) {
         std::string bytes = heard_.substr(taken_, size);
         taken_ += size;
         if (taken_ == heard_.size()) {

@@ -27,13 +27,13 @@ std::optional<NoticeKind> refused(const ScanQueue& queue, const Scan& s) {
 TEST(ScanQueue, GivesScansInTheOrderOfTheirStamps) {
     ScanQueue queue;
     for (const double stamp : {0.3, 0.1, 0.4, 0.2}) add(queue, scan(stamp));
-    for (const double stamp : {0.1, 0.2, 0.3, 0.4}) EXPECT_EQ(queue.take().scan.stamp, stamp);
+    for (const double stamp : {0.1, 0.2, 0.3, 0.4}) EXPECT_EQ(queue.pop().scan.stamp, stamp);
 }
 
 TEST(ScanQueue, WhatIsOlderThanAScanInWorkIsLate) {
     ScanQueue queue;
     add(queue, scan(0.2));
-    queue.take();
+    queue.pop();
     EXPECT_EQ(refused(queue, scan(0.1)), NoticeKind::late);
     EXPECT_FALSE(refused(queue, scan(0.3)));
 }
@@ -50,9 +50,9 @@ TEST(ScanQueue, TheSameStampTwiceIsADuplicateButForAnotherSensor) {
     add(queue, scan(0.1));
     EXPECT_EQ(refused(queue, scan(0.1)), NoticeKind::duplicate);
     add(queue, scan(0.1, 0.5));  // another pose at the same time: another sensor
-    queue.take();
+    queue.pop();
     EXPECT_EQ(refused(queue, scan(0.1)), NoticeKind::duplicate);
-    queue.take();
+    queue.pop();
     EXPECT_EQ(refused(queue, scan(0.1, 0.5)), NoticeKind::duplicate);
 }
 
@@ -62,13 +62,13 @@ TEST(ScanQueue, StampsThatGoBackByMoreThanASecondBeginAnew) {
     add(queue, scan(100.1));
     add(queue, scan(3.0));
     add(queue, scan(3.1));
-    const QueuedScan first = queue.take();
+    const QueuedScan first = queue.pop();
     EXPECT_EQ(first.scan.stamp, 100.0);
-    EXPECT_EQ(queue.take().run, first.run);
-    const QueuedScan anew = queue.take();
+    EXPECT_EQ(queue.pop().run, first.run);
+    const QueuedScan anew = queue.pop();
     EXPECT_EQ(anew.scan.stamp, 3.0);
     EXPECT_EQ(anew.run, first.run + 1);
-    EXPECT_EQ(queue.take().run, anew.run);
+    EXPECT_EQ(queue.pop().run, anew.run);
     EXPECT_EQ(refused(queue, scan(3.05)), NoticeKind::late);
 }
 

@@ -75,19 +75,19 @@ protected:
         std::filesystem::create_directories(folder_ / "labels_out");
         recording_ = io::open_recording(folder_.path());
         for (std::size_t i = 0; i < recording_.size(); ++i) {
-            io::FullScan frame = recording_.read(i);
-            filter_.push({frame.points, frame.T_world_sensor, frame.stamp, i});
+            io::FullScan full = recording_.read(i);
+            filter_.push({full.points, full.T_world_sensor, full.stamp, i});
         }
         filter_.finish();
         for (std::size_t i = 0; i < recording_.size(); ++i) {
-            const io::FullScan frame = recording_.read(i);
+            const io::FullScan full = recording_.read(i);
             const Labels labels =
-                filter_.verdict({frame.points, frame.T_world_sensor, frame.stamp, i}).labels;
+                filter_.verdict({full.points, full.T_world_sensor, full.stamp, i}).labels;
             io::write_labels(folder_ / ("labels_out/" + io::stem(recording_, i) + ".label"),
                              labels);
             ScanNote note = note_of(labels, instant_.get(i), {});
             note.index = i;
-            note.position = frame.T_world_sensor.translation();
+            note.position = full.T_world_sensor.translation();
             notes_.push_back(note);
         }
     }

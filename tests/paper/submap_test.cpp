@@ -55,7 +55,7 @@ TEST(Thinner, KeepsTheFirstKeptPointOfEveryHalfVoxel) {
         }
     }
     EXPECT_EQ(thinner.points(), expected);
-    EXPECT_EQ(thinner.take(), expected);
+    EXPECT_EQ(thinner.moved_points(), expected);
 }
 
 TEST(Thinner, NeverChangesWhichVoxelsAreOwned) {

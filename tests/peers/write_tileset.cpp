@@ -38,7 +38,7 @@ void print_tile(const MapTile& tile, const TilePoints& points) {
         std::vector<double> bytes;
         for (std::size_t i = 0; i < points.size(); ++i)
             for (unsigned shift = 0; shift < 32; shift += 8)
-                bytes.push_back(points.sessions[i * points.words + word] >> shift & 255U);
+                bytes.push_back(points.drives[i * points.words + word] >> shift & 255U);
         print(tile.name, word == 0 ? "sessions_0" : "sessions_1", bytes);
     }
 }

@@ -79,11 +79,11 @@ TEST_F(BagScansTest, PosesComeThroughTheFramesAtTheStampOfTheScan) {
     ASSERT_EQ(recording.size(), 5U);
     EXPECT_TRUE(has_note(recording, "'lidar' in 'map'"));
     for (std::size_t i = 0; i < 5; ++i) {
-        const FullScan frame = recording.read(i);
-        EXPECT_NEAR(frame.stamp, stamp(i), 1e-6);
+        const FullScan full = recording.read(i);
+        EXPECT_NEAR(full.stamp, stamp(i), 1e-6);
         const Eigen::Vector3d expected(100.0 + 0.1 * static_cast<double>(i), 0, 1.5);
-        EXPECT_TRUE(frame.T_world_sensor.translation().isApprox(expected, 1e-6));
-        EXPECT_FLOAT_EQ(frame.points[0].x(), 5.0F + static_cast<float>(i));
+        EXPECT_TRUE(full.T_world_sensor.translation().isApprox(expected, 1e-6));
+        EXPECT_FLOAT_EQ(full.points[0].x(), 5.0F + static_cast<float>(i));
         EXPECT_EQ(stem(recording, i), "00000" + std::to_string(i));
     }
 }
@@ -111,9 +111,9 @@ TEST_F(BagScansTest, PointsInTheFrameOfTheOdometryAreTakenBack) {
     drive("camera_init", "body");
     const Recording recording = opened();
     EXPECT_TRUE(recording.info().points_in_world);
-    const FullScan frame = recording.read(2);
-    EXPECT_NEAR(frame.T_world_sensor.translation().x(), 0.2, 1e-6);
-    EXPECT_NEAR(frame.points[0].x(), 7.0 - 0.2, 1e-5);
+    const FullScan full = recording.read(2);
+    EXPECT_NEAR(full.T_world_sensor.translation().x(), 0.2, 1e-6);
+    EXPECT_NEAR(full.points[0].x(), 7.0 - 0.2, 1e-5);
 }
 
 TEST_F(BagScansTest, TopicsToChooseFromAreNamed) {

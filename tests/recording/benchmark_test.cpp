@@ -15,10 +15,10 @@ TEST_F(BenchmarkTest, PosesAndTruthAreInTheFiles) {
     EXPECT_EQ(recording.info().layout, "benchmark");
     EXPECT_TRUE(recording.info().T_world_sensor.empty());
     EXPECT_TRUE(recording.info().intensity_is_truth);
-    const FullScan frame = recording.read(1);
-    EXPECT_EQ(frame.T_world_sensor.translation().x(), 2.0);
-    EXPECT_EQ(frame.points, (Points{{8, 0, 0}, {-2, 5, 0}}));
-    EXPECT_EQ(positions(frame.cloud)[0].x(), 10.0F);
+    const FullScan scan = recording.read(1);
+    EXPECT_EQ(scan.T_world_sensor.translation().x(), 2.0);
+    EXPECT_EQ(scan.points, (Points{{8, 0, 0}, {-2, 5, 0}}));
+    EXPECT_EQ(positions(scan.cloud)[0].x(), 10.0F);
     EXPECT_EQ(recording.read(0).truth, (Labels{Label::dynamic, Label::static_}));
 }
 

@@ -10,12 +10,12 @@ TEST_F(RecordingTest, ScanPoseStampAndTruth) {
     put_bins("velodyne", 2);
     put_labels(2);
     data.put("poses.txt", kitti_rows(2));
-    const FullScan frame = open().read(1);
-    EXPECT_EQ(frame.points, (Points{{1, 2, 3}, {4, 5, 6}}));
-    EXPECT_EQ(frame.T_world_sensor.translation().x(), 1.0);
-    EXPECT_DOUBLE_EQ(frame.stamp, 0.1);
-    EXPECT_EQ(frame.truth, (Labels{Label::dynamic, Label::static_}));
-    EXPECT_EQ(column(frame.cloud, "intensity"), (std::vector<double>{0.5, 0.5}));
+    const FullScan scan = open().read(1);
+    EXPECT_EQ(scan.points, (Points{{1, 2, 3}, {4, 5, 6}}));
+    EXPECT_EQ(scan.T_world_sensor.translation().x(), 1.0);
+    EXPECT_DOUBLE_EQ(scan.stamp, 0.1);
+    EXPECT_EQ(scan.truth, (Labels{Label::dynamic, Label::static_}));
+    EXPECT_EQ(column(scan.cloud, "intensity"), (std::vector<double>{0.5, 0.5}));
 }
 
 TEST_F(RecordingTest, UnusableScansAreRejectedOneByOne) {
@@ -43,9 +43,9 @@ TEST_F(RecordingTest, TruthThatDoesNotFitTakesNothingFromItsScan) {
     const Recording recording = open();
     EXPECT_EQ(recording.read(0).truth_fault, "");
     for (const std::size_t i : {1U, 2U}) {
-        const FullScan frame = recording.read(i);
-        EXPECT_EQ(frame.points, (Points{{1, 2, 3}, {4, 5, 6}}));
-        EXPECT_TRUE(frame.truth.empty());
+        const FullScan scan = recording.read(i);
+        EXPECT_EQ(scan.points, (Points{{1, 2, 3}, {4, 5, 6}}));
+        EXPECT_TRUE(scan.truth.empty());
     }
     EXPECT_HAS(recording.read(1).truth_fault, "3 labels but 2 points");
     EXPECT_HAS(recording.read(1).truth_fault, "000001.label");

@@ -140,7 +140,7 @@ struct Ros1 : testing::Test {
     }
     static bool notices_contain(const std::string& text) {
         static std::vector<std::string> said;
-        for (const std::string& notice : bus->take_notices()) said.push_back(notice);
+        for (const std::string& notice : bus->pop_notices()) said.push_back(notice);
         return std::any_of(said.begin(), said.end(), [&](const std::string& notice) {
             return notice.find(text) != std::string::npos;
         });
@@ -168,7 +168,7 @@ struct Ros1 : testing::Test {
         bus = std::make_unique<Ros1Bus>(
             std::map<std::string, std::string>{{"__name", "filter"}, {"points", "/peer/points"}},
             std::vector<std::string>{"map.rate"}, 10.0);
-        first_parameters = bus->take_parameters();
+        first_parameters = bus->pop_parameters();
         bus->advertise(cloud_topic("/filter/raw"), {.depth = 10});
         bus->advertise(cloud_topic("/filter/cloud"), {.latched = true});
     }
@@ -258,9 +258,9 @@ TEST_F(Ros1, ParametersComeAtTheStartAndWatchedOnesWhenTheyChange) {
     set_parameter("/filter/bus/topic", "/other");
     set_parameter("/filter/map/rate", 2);
     std::vector<std::pair<std::string, std::string>> changed;
-    ASSERT_TRUE(eventually([&] { return !(changed = bus->take_parameters()).empty(); }));
+    ASSERT_TRUE(eventually([&] { return !(changed = bus->pop_parameters()).empty(); }));
     EXPECT_EQ(changed, decltype(changed)({{"map.rate", "2"}}));
-    EXPECT_TRUE(bus->take_parameters().empty());
+    EXPECT_TRUE(bus->pop_parameters().empty());
 }
 
 TEST_F(Ros1, ReceivesWhatRosbagPlays) {

@@ -13,22 +13,22 @@ namespace map_files_test {
 
 /// x y z in the given type and a ring per point; points (i, 0, 0).
 template <class T>
-io::FullScan frame_of(io::FieldType type, std::size_t points) {
-    io::FullScan frame;
-    for (const char* axis : {"x", "y", "z"}) io::add_field(frame.cloud, axis, type);
-    io::add_field(frame.cloud, "ring", io::FieldType::u16);
+io::FullScan scan_of(io::FieldType type, std::size_t points) {
+    io::FullScan scan;
+    for (const char* axis : {"x", "y", "z"}) io::add_field(scan.cloud, axis, type);
+    io::add_field(scan.cloud, "ring", io::FieldType::u16);
     for (std::size_t i = 0; i < points; ++i) {
         const T xyz[3] = {static_cast<T>(i + 1), 0, 0};
         const auto ring = static_cast<std::uint16_t>(100 + i);
         const auto* bytes = reinterpret_cast<const std::byte*>(xyz);
-        frame.cloud.data.insert(frame.cloud.data.end(), bytes, bytes + sizeof xyz);
+        scan.cloud.data.insert(scan.cloud.data.end(), bytes, bytes + sizeof xyz);
         bytes = reinterpret_cast<const std::byte*>(&ring);
-        frame.cloud.data.insert(frame.cloud.data.end(), bytes, bytes + sizeof ring);
-        frame.points.emplace_back(static_cast<float>(i + 1), 0.0F, 0.0F);
+        scan.cloud.data.insert(scan.cloud.data.end(), bytes, bytes + sizeof ring);
+        scan.points.emplace_back(static_cast<float>(i + 1), 0.0F, 0.0F);
     }
-    frame.T_world_sensor.translation() = Eigen::Vector3d(10, 20, 30);
-    frame.T_world_sensor.linear() = Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitZ()).matrix();
-    return frame;
+    scan.T_world_sensor.translation() = Eigen::Vector3d(10, 20, 30);
+    scan.T_world_sensor.linear() = Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitZ()).matrix();
+    return scan;
 }
 
 Verdict with(Labels labels) { return {.labels = std::move(labels), .probability = {}}; }
@@ -37,7 +37,7 @@ template <class T>
 void expect_split(io::FieldType type) {
     const test::TemporaryFolder folder;
     MapFiles maps(folder.path(), true, false);
-    maps.append(frame_of<T>(type, 4),
+    maps.append(scan_of<T>(type, 4),
                 with({Label::static_, Label::dynamic, Label::unknown, Label::static_}));
     maps.commit();
     const io::Cloud still = io::read_cloud(folder / "static_map.pcd");
@@ -58,11 +58,11 @@ TEST(MapFiles, KeepOriginalPointsWithAllFieldsInTheWorldFrame) {
 TEST(MapFiles, LeaveOutUnknownIfAskedAndPointsThatAreNotFinite) {
     const test::TemporaryFolder folder;
     MapFiles maps(folder.path(), false, false);
-    io::FullScan frame = frame_of<float>(io::FieldType::f32, 3);
-    frame.points[0].x() = std::numeric_limits<float>::quiet_NaN();
-    maps.append(frame, with({Label::static_, Label::unknown, Label::static_}));
-    frame.points[2].setZero();
-    maps.append(frame, with({Label::static_, Label::unknown, Label::static_}));
+    io::FullScan scan = scan_of<float>(io::FieldType::f32, 3);
+    scan.points[0].x() = std::numeric_limits<float>::quiet_NaN();
+    maps.append(scan, with({Label::static_, Label::unknown, Label::static_}));
+    scan.points[2].setZero();
+    maps.append(scan, with({Label::static_, Label::unknown, Label::static_}));
     maps.commit();
     EXPECT_EQ(io::read_cloud(folder / "static_map.pcd").size(), 1U);
     EXPECT_EQ(io::read_cloud(folder / "dynamic_points.pcd").size(), 0U);
@@ -73,7 +73,7 @@ TEST(MapFiles, WhatStaysBelongsToTheStaticMap) {
     MapFiles maps(folder.path(), true, false);
     Verdict verdict = with({Label::static_, Label::dynamic, Label::dynamic});
     verdict.stays = {false, true, false};
-    maps.append(frame_of<float>(io::FieldType::f32, 3), verdict);
+    maps.append(scan_of<float>(io::FieldType::f32, 3), verdict);
     maps.commit();
     const io::Cloud still = io::read_cloud(folder / "static_map.pcd");
     EXPECT_EQ(io::values(still, *still.find("ring")), (std::vector<double>{100, 101}));
@@ -83,9 +83,9 @@ TEST(MapFiles, WhatStaysBelongsToTheStaticMap) {
 TEST(MapFiles, FarFromTheOriginCoordinatesAreDoubles) {
     const test::TemporaryFolder folder;
     MapFiles maps(folder.path(), true, false);
-    io::FullScan frame = frame_of<float>(io::FieldType::f32, 2);
-    frame.T_world_sensor.translation() = Eigen::Vector3d(5e5, 5e6 + 0.125, 30);
-    maps.append(frame, with({Label::static_, Label::static_}));
+    io::FullScan scan = scan_of<float>(io::FieldType::f32, 2);
+    scan.T_world_sensor.translation() = Eigen::Vector3d(5e5, 5e6 + 0.125, 30);
+    maps.append(scan, with({Label::static_, Label::static_}));
     maps.commit();
     const io::Cloud still = io::read_cloud(folder / "static_map.pcd");
     EXPECT_NEAR(io::values(still, *still.find("y"))[1], 5e6 + 2.125, 1e-6);
@@ -95,17 +95,17 @@ TEST(MapFiles, FarFromTheOriginCoordinatesAreDoubles) {
 TEST(MapFiles, RecordsInTheWorldFrameArePassedOnUnchanged) {
     const test::TemporaryFolder folder;
     MapFiles maps(folder.path(), true, true);
-    const io::FullScan frame = frame_of<float>(io::FieldType::f32, 3);
-    maps.append(frame, with(Labels(3, Label::static_)));
+    const io::FullScan scan = scan_of<float>(io::FieldType::f32, 3);
+    maps.append(scan, with(Labels(3, Label::static_)));
     maps.commit();
-    EXPECT_EQ(io::read_cloud(folder / "static_map.pcd").data, frame.cloud.data);
+    EXPECT_EQ(io::read_cloud(folder / "static_map.pcd").data, scan.cloud.data);
 }
 
 TEST(MapFiles, LeaveNothingWithoutCommit) {
     const test::TemporaryFolder folder;
     {
         MapFiles maps(folder.path(), true, false);
-        maps.append(frame_of<float>(io::FieldType::f32, 1), with({Label::static_}));
+        maps.append(scan_of<float>(io::FieldType::f32, 1), with({Label::static_}));
     }
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }

@@ -85,9 +85,9 @@ TEST(Plan, TheVoxelsAreEstimatedWell) {
 TEST(Plan, AJumpOfThePosesBeginsAnotherPart) {
     const Planned p(20, 1.0, 1'000'000, 10);
     const auto& scans = p.plan.drives[0].scans;
-    EXPECT_EQ(scans[9].part, 0U);
-    EXPECT_EQ(scans[10].part, 1U);
-    EXPECT_EQ(scans[19].part, 1U);
+    EXPECT_EQ(scans[9].stretch, 0U);
+    EXPECT_EQ(scans[10].stretch, 1U);
+    EXPECT_EQ(scans[19].stretch, 1U);
     const auto& notes = p.plan.drives[0].notes;
     EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
         return note.find("500 m from where the previous poses lead") != std::string::npos;
@@ -143,7 +143,7 @@ TEST(Plan, IsTheSameWhenReadBack) {
     EXPECT_EQ(read.drives[0].warnings, p.plan.drives[0].warnings);
     EXPECT_EQ(used_scans(read.drives[0]).size(), 39U);
     EXPECT_EQ(read.drives[0].most_points, p.plan.drives[0].most_points);
-    EXPECT_EQ(read.drives[0].scans[31].part, 1U);
+    EXPECT_EQ(read.drives[0].scans[31].stretch, 1U);
     EXPECT_EQ(read.drives[0].scans[31].position, p.plan.drives[0].scans[31].position);
     EXPECT_THROW(read_plan(p.folder / "plan", "another run", p.config), ConfigError);
 }

@@ -10,7 +10,7 @@ COVERED = {  # test -> the units that it covers
     "commands/command_test.cpp": "check/motion commands/check commands/cleaning commands/compare commands/config commands/convert "
         "commands/demo commands/evaluate commands/info commands/main commands/odometry commands/options commands/picture commands/render commands/run "
         "commands/serve commands/shared_options commands/simulate draw/animation draw/canvas export/bag export/benchmark "
-        "export/convert_map export/kitti export/one_cloud export/outputs export/sink recording/frames "
+        "export/convert_map export/kitti export/one_cloud export/outputs export/sink recording/scans "
         "recording/world_records run/run run/filter_whole run/run_state run/scored_scans run/summary run/write_scans",
     "export/tileset_test.cpp": "export/glb",
     "formats/clouds/cloud_test.cpp": "formats/clouds/bin",

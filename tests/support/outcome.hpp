@@ -26,14 +26,14 @@ struct Outcome {
 inline Outcome run(const std::vector<RoomScan>& scans, const Config& config) {
     Maps maps(config, {.horizon = 0.0, .max_bytes = 0});
     Outcome result;
-    const auto take = [&](Maps::Judged judged) {
+    const auto add = [&](Maps::Judged judged) {
         for (Verdict& v : judged.instant) result.instant.push_back(std::move(v));
     };
     for (const RoomScan& s : scans) {
-        take(maps.judge(s.scan, false));
+        add(maps.judge(s.scan, false));
         maps.catch_up();
     }
-    take(maps.finish());
+    add(maps.finish());
     for (const RoomScan& s : scans) result.final.push_back(maps.verdict(s.scan));
     result.submaps = maps.contents().observers;
     return result;

@@ -20,7 +20,7 @@ struct SampleVoxel {
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
     float probability = 0.0F;
     std::uint32_t scans = 0;
-    std::vector<std::uint32_t> sessions;
+    std::vector<std::uint32_t> drives;
 };
 
 /// Height of the houses at a place [m]; 0 on streets, which lie 40 m apart.
@@ -52,10 +52,10 @@ inline std::vector<SampleVoxel> sample_voxels(const MapTile& tile, std::size_t d
                 SampleVoxel v{{px, py, middle(z + 0.02 * px)}, 0.9F, 0, {}};
                 v.scans = static_cast<std::uint32_t>(5.0 + std::abs(px) + 2.0 * z);
                 v.probability = 0.6F + 0.4F * static_cast<float>(v.scans % 10) / 10.0F;
-                v.sessions.resize(words);
+                v.drives.resize(words);
                 const std::size_t drive = static_cast<std::size_t>(std::abs(px) / 40.0) % drives;
                 for (const std::size_t d : {drive, (drive + 1) % drives})
-                    v.sessions[d / 32] |= 1U << d % 32;
+                    v.drives[d / 32] |= 1U << d % 32;
                 voxels.push_back(v);
             }
         }
@@ -76,7 +76,7 @@ inline io::Cloud sample_cloud(const std::vector<SampleVoxel>& voxels, std::size_
         std::memcpy(record, voxel.position.data(), 24);
         std::memcpy(record + 24, &voxel.probability, 4);
         std::memcpy(record + 28, &voxel.scans, 4);
-        std::memcpy(record + 32, voxel.sessions.data(), 4 * words);
+        std::memcpy(record + 32, voxel.drives.data(), 4 * words);
     }
     return cloud;
 }

@@ -22,9 +22,9 @@ struct McapRecord {
     McapOpcode opcode{};
     std::span<const std::byte> content;
 };
-McapRecord take_mcap_record(ByteReader& in) {
+McapRecord read_mcap_record(ByteReader& in) {
     const auto opcode = static_cast<McapOpcode>(in.number<std::uint8_t>());
-    return {opcode, in.take(in.number<std::uint64_t>())};
+    return {opcode, in.read(in.number<std::uint64_t>())};
 }
 
 struct ChunkRecord {
@@ -35,13 +35,13 @@ struct ChunkRecord {
 };
 ChunkRecord parse_chunk(std::span<const std::byte> content) {
     ByteReader in(content);
-    in.take(16);  // skips the first and the last time
+    in.read(16);  // skips the first and the last time
     ChunkRecord chunk;
     chunk.size = in.number<std::uint64_t>();
     chunk.crc = in.number<std::uint32_t>();
     chunk.compression = in.text();
     const auto stored = in.number<std::uint64_t>();
-    chunk.bytes = in.take(std::min<std::uint64_t>(stored, in.left()));
+    chunk.bytes = in.read(std::min<std::uint64_t>(stored, in.left()));
     return chunk;
 }
 
@@ -51,12 +51,12 @@ public:
     McapReader(const UseMessage& use, std::vector<Defect>& defects)
         : use_(use), defects_(defects) {}
 
-    void take(const McapRecord& record, std::uint64_t chunk, std::uint64_t offset) {
+    void use(const McapRecord& record, std::uint64_t chunk, std::uint64_t offset) {
         try {
             ByteReader in(record.content);
-            if (record.opcode == McapOpcode::schema) take_schema(in);
-            if (record.opcode == McapOpcode::channel) take_channel(in);
-            if (record.opcode == McapOpcode::message) take_message(in, chunk, offset);
+            if (record.opcode == McapOpcode::schema) add_schema(in);
+            if (record.opcode == McapOpcode::channel) add_channel(in);
+            if (record.opcode == McapOpcode::message) use_message(in, chunk, offset);
         } catch (const Malformed& error) {
             defects_.push_back({fmt::format("a record at byte {}: {}", offset, error.what())});
         }
@@ -69,11 +69,11 @@ public:
     }
 
 private:
-    void take_schema(ByteReader& in) {
+    void add_schema(ByteReader& in) {
         const auto id = in.number<std::uint16_t>();
         schemas_[id] = std::string(in.text());
     }
-    void take_channel(ByteReader& in) {
+    void add_channel(ByteReader& in) {
         const auto id = in.number<std::uint16_t>();
         const auto schema = in.number<std::uint16_t>();
         const std::string name(in.text()), encoding(in.text());
@@ -84,17 +84,17 @@ private:
             id, Topic{name, plain_type(found->second),
                       encoding == "cdr" ? MessageEncoding::cdr : MessageEncoding::ros1});
     }
-    void take_message(ByteReader& in, std::uint64_t chunk, std::uint64_t offset) {
+    void use_message(ByteReader& in, std::uint64_t chunk, std::uint64_t offset) {
         const auto id = in.number<std::uint16_t>();
         const auto channel = topics_.find(id);
-        in.take(4);  // sequence
+        in.read(4);  // sequence
         const auto recorded = static_cast<std::int64_t>(in.number<std::uint64_t>());
-        in.take(8);  // time of publishing
+        in.read(8);  // time of publishing
         if (channel == topics_.end()) {
             if (!others_.contains(id)) ++unannounced_;
             return;
         }
-        use_({channel->second, recorded, chunk, offset, in.take(in.left())});
+        use_({channel->second, recorded, chunk, offset, in.read(in.left())});
     }
 
     const UseMessage& use_;
@@ -118,7 +118,7 @@ public:
     std::vector<Defect> for_each(const UseMessage& use) const override {
         std::vector<Defect> defects;
         McapReader reader(use, defects);
-        take_summary(reader);
+        read_summary(reader);
         std::uint64_t at = kMcapMagic.size();
         while (true) {
             if (file().size() - at < kRecordHead) {
@@ -139,9 +139,9 @@ public:
             if (wanted) {
                 const auto content = file().read(at + kRecordHead, std::min(length, there));
                 if (opcode == McapOpcode::chunk) {
-                    take_chunk(content, at, reader, defects);
+                    use_chunk(content, at, reader, defects);
                 } else {
-                    reader.take({opcode, content}, kNoChunk, at);
+                    reader.use({opcode, content}, kNoChunk, at);
                 }
             }
             if (length > there) break;
@@ -156,9 +156,9 @@ private:
                                       std::uint64_t offset) const override {
         constexpr std::size_t kBeforeData = 22;
         ByteReader record(bytes, static_cast<std::size_t>(offset));
-        ByteReader in(take_mcap_record(record).content);
-        in.take(kBeforeData);
-        const auto data = in.take(in.left());
+        ByteReader in(read_mcap_record(record).content);
+        in.read(kBeforeData);
+        const auto data = in.read(in.left());
         return {data.begin(), data.end()};
     }
 
@@ -176,7 +176,7 @@ private:
 
     /// Reads schemas and channels from the summary, which repeats them; so those of damaged chunks
     /// are known, too.
-    void take_summary(McapReader& reader) const {
+    void read_summary(McapReader& reader) const {
         constexpr std::uint64_t kFooterBytes = kRecordHead + 20, kCrcBytes = 4;
         constexpr std::uint64_t kEnd = kFooterBytes + kMcapMagic.size();
         // Limit, because the summary is optional.
@@ -193,17 +193,17 @@ private:
         try {
             ByteReader in({bytes.data(), end - start});
             while (in.left() > 0) {
-                const McapRecord record = take_mcap_record(in);
+                const McapRecord record = read_mcap_record(in);
                 const bool wanted =
                     record.opcode == McapOpcode::schema || record.opcode == McapOpcode::channel;
-                if (wanted) reader.take(record, kNoChunk, start);
+                if (wanted) reader.use(record, kNoChunk, start);
             }
         } catch (const Malformed&) {
         }
     }
 
-    static void take_chunk(std::span<const std::byte> content, std::uint64_t at, McapReader& reader,
-                           std::vector<Defect>& defects) {
+    static void use_chunk(std::span<const std::byte> content, std::uint64_t at, McapReader& reader,
+                          std::vector<Defect>& defects) {
         const auto note = [&](const std::string& what) {
             defects.push_back({fmt::format("the chunk at byte {} {}", at, what)});
         };
@@ -219,11 +219,11 @@ private:
             ByteReader in(inner.bytes);
             while (in.left() > 0) {
                 const std::size_t offset = in.at();
-                const McapRecord record = take_mcap_record(in);
+                const McapRecord record = read_mcap_record(in);
                 if (record.opcode == McapOpcode::chunk) {
                     note("holds another chunk, which is left out: chunks do not nest");
                 } else {
-                    reader.take(record, at, offset);
+                    reader.use(record, at, offset);
                 }
             }
         } catch (const Malformed& error) {

@@ -54,24 +54,24 @@ struct Rosbag1Record {
         return static_cast<Rosbag1Opcode>(header.number<std::uint8_t>("op"));
     }
 };
-Rosbag1Record take_rosbag1_record(ByteReader& in) {
+Rosbag1Record read_rosbag1_record(ByteReader& in) {
     const auto head = in.block();
     const auto length = in.number<std::uint32_t>();
     const bool whole = length <= in.left();
-    return {Header(head), in.take(whole ? length : in.left()), whole};
+    return {Header(head), in.read(whole ? length : in.left()), whole};
 }
 
 class Rosbag1Reader {
 public:
     explicit Rosbag1Reader(const UseMessage& use) : use_(use) {}
 
-    void take(const Rosbag1Record& record, std::uint64_t chunk, std::uint64_t offset) {
+    void use(const Rosbag1Record& record, std::uint64_t chunk, std::uint64_t offset) {
         if (!record.whole) throw Malformed("is cut off");
         const Rosbag1Opcode opcode = record.opcode();
         if (opcode == Rosbag1Opcode::bag_header)
             index_at_ = record.header.number<std::uint64_t>("index_pos");
-        if (opcode == Rosbag1Opcode::connection) take_connection(record);
-        if (opcode == Rosbag1Opcode::message) take_message(record, chunk, offset);
+        if (opcode == Rosbag1Opcode::connection) add_connection(record);
+        if (opcode == Rosbag1Opcode::message) use_message(record, chunk, offset);
     }
 
     /// Adds the defects that show only at the end of the file; `size` is its size.
@@ -91,13 +91,13 @@ public:
     }
 
 private:
-    void take_connection(const Rosbag1Record& record) {
+    void add_connection(const Rosbag1Record& record) {
         const Header connection(record.data);
         topics_.try_emplace(record.header.number<std::uint32_t>("conn"),
                             Topic{std::string(record.header.text("topic")),
                                   std::string(connection.text("type")), MessageEncoding::ros1});
     }
-    void take_message(const Rosbag1Record& record, std::uint64_t chunk, std::uint64_t offset) {
+    void use_message(const Rosbag1Record& record, std::uint64_t chunk, std::uint64_t offset) {
         const auto topic = topics_.find(record.header.number<std::uint32_t>("conn"));
         if (topic == topics_.end()) {
             ++unannounced_;
@@ -130,16 +130,16 @@ public:
     std::vector<Defect> for_each(const UseMessage& use) const override {
         std::vector<Defect> defects;
         Rosbag1Reader reader(use);
-        take_index(reader);
+        read_index(reader);
         for (std::uint64_t at = kRosbag1Magic.size(); at < file().size();) {
             try {
                 const auto bytes = record_at(at);
                 ByteReader in(bytes);
-                const Rosbag1Record record = take_rosbag1_record(in);
+                const Rosbag1Record record = read_rosbag1_record(in);
                 if (record.opcode() == Rosbag1Opcode::chunk) {
-                    take_chunk(record, at, reader, defects);
+                    use_chunk(record, at, reader, defects);
                 } else {
-                    reader.take(record, kNoChunk, at);
+                    reader.use(record, kNoChunk, at);
                 }
                 at += bytes.size();
             } catch (const Malformed& error) {  // the start of the next record is then not known
@@ -155,7 +155,7 @@ private:
     std::vector<std::byte> message_in(std::span<const std::byte> bytes,
                                       std::uint64_t offset) const override {
         ByteReader in(bytes, static_cast<std::size_t>(offset));
-        const auto data = take_rosbag1_record(in).data;
+        const auto data = read_rosbag1_record(in).data;
         return {data.begin(), data.end()};
     }
 
@@ -172,18 +172,18 @@ private:
 
     /// Reads the connections from the index, which repeats them; so those of damaged chunks are
     /// known, too.
-    void take_index(Rosbag1Reader& reader) const {
+    void read_index(Rosbag1Reader& reader) const {
         try {
             const auto head = record_at(kRosbag1Magic.size());
             ByteReader first(head);
-            const Rosbag1Record header = take_rosbag1_record(first);
+            const Rosbag1Record header = read_rosbag1_record(first);
             for (auto at = header.header.number<std::uint64_t>("index_pos");
                  at > 0 && at < file().size();) {
                 const auto bytes = record_at(at);
                 ByteReader in(bytes);
-                const Rosbag1Record record = take_rosbag1_record(in);
+                const Rosbag1Record record = read_rosbag1_record(in);
                 if (record.opcode() != Rosbag1Opcode::connection) return;
-                reader.take(record, kNoChunk, at);
+                reader.use(record, kNoChunk, at);
                 at += bytes.size();
             }
         } catch (const Malformed&) {  // ignored, because the index is optional
@@ -198,11 +198,11 @@ private:
     std::vector<std::byte> read_chunk(std::uint64_t at) const override {
         const auto bytes = record_at(at);
         ByteReader in(bytes);
-        return content_of(take_rosbag1_record(in)).bytes;
+        return content_of(read_rosbag1_record(in)).bytes;
     }
 
-    static void take_chunk(const Rosbag1Record& chunk, std::uint64_t at, Rosbag1Reader& reader,
-                           std::vector<Defect>& defects) {
+    static void use_chunk(const Rosbag1Record& chunk, std::uint64_t at, Rosbag1Reader& reader,
+                          std::vector<Defect>& defects) {
         const auto note = [&](const std::string& what) {
             defects.push_back({fmt::format("the chunk at byte {} {}", at, what)});
         };
@@ -212,7 +212,7 @@ private:
             ByteReader in(content.bytes);
             while (in.left() > 0) {
                 const std::size_t offset = in.at();
-                reader.take(take_rosbag1_record(in), at, offset);
+                reader.use(read_rosbag1_record(in), at, offset);
             }
         } catch (const Malformed& error) {
             note(error.what());

@@ -163,12 +163,12 @@ private:
     void find_extra_fields() {
         ByteReader reader(bytes_.first(header_.begin), header_size_);
         for (std::uint32_t i = 0; i < records_; ++i) {
-            reader.take(2);
+            reader.read(2);
             const std::string_view user = reader.text(std::uint64_t{16});
             const auto id = reader.number<std::uint16_t>();
             const auto length = reader.number<std::uint16_t>();
-            reader.take(32);
-            const auto record = reader.take(length);
+            reader.read(32);
+            const auto record = reader.read(length);
             if (id == las_extra_id && user.substr(0, user.find('\0')) == las_spec) {
                 return add_extra_fields(record);  // a second record would describe the same bytes
             }
@@ -178,7 +178,7 @@ private:
     void add_extra_fields(std::span<const std::byte> record) {
         std::size_t at = format_bytes[format_];
         for (ByteReader entries(record); entries.left() >= las_extra_bytes;) {
-            at += add_extra_field(ByteReader(entries.take(las_extra_bytes)), at);
+            at += add_extra_field(ByteReader(entries.read(las_extra_bytes)), at);
         }
         if (at > header_.record_bytes) {
             throw Malformed(fmt::format("Extra Bytes need {} bytes a point, which has {}", at,
@@ -189,11 +189,11 @@ private:
     /// Adds an extra field; returns the number of bytes that it takes in a point.
     std::size_t add_extra_field(ByteReader entry, std::size_t at) {
         constexpr std::uint8_t has_scale = 8, has_offset = 16;
-        entry.take(2);
+        entry.read(2);
         const auto code = entry.number<std::uint8_t>();
         const auto options = entry.number<std::uint8_t>();
         const std::string name = name_of(entry.text(std::uint64_t{32}));
-        entry.take(4 + 3 * 24);         // reserved bytes; no-data, minimum and maximum values
+        entry.read(4 + 3 * 24);         // reserved bytes; no-data, minimum and maximum values
         if (code == 0) return options;  // bytes without a defined type
         if (code > 3 * las_extra_types.size()) {
             throw Malformed(
@@ -233,7 +233,7 @@ private:
 
     /// Returns `at`. Throws if the file ends before it.
     [[nodiscard]] std::size_t skip_to(std::size_t at) const {
-        return ByteReader(bytes_).take(at).size();
+        return ByteReader(bytes_).read(at).size();
     }
 
     std::span<const std::byte> bytes_;

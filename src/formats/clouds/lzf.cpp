@@ -17,14 +17,14 @@ public:
 
     bool run() {
         while (in_ < input_.size()) {
-            const std::size_t control = take();
+            const std::size_t control = next_byte();
             if (!(control < 32 ? literal(control + 1) : repeat(control))) return false;
         }
         return out_ == output_.size();
     }
 
 private:
-    std::size_t take() { return std::to_integer<std::size_t>(input_[in_++]); }
+    std::size_t next_byte() { return std::to_integer<std::size_t>(input_[in_++]); }
 
     bool literal(std::size_t length) {
         if (length > input_.size() - in_ || length > output_.size() - out_) return false;
@@ -38,10 +38,10 @@ private:
         std::size_t length = (control >> 5U) + 2;
         if (control >> 5U == 7) {  // the length continues in the next byte
             if (in_ == input_.size()) return false;
-            length += take();
+            length += next_byte();
         }
         if (in_ == input_.size()) return false;
-        const std::size_t back = ((control & 31U) << 8U) + take() + 1;
+        const std::size_t back = ((control & 31U) << 8U) + next_byte() + 1;
         if (back > out_ || length > output_.size() - out_) return false;
         // Copies byte by byte, because source and target may overlap.
         for (; length > 0; --length, ++out_) output_[out_] = output_[out_ - back];

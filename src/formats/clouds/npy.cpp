@@ -35,7 +35,7 @@ std::string_view value_of(std::string_view dictionary, std::string_view key) {
     throw Malformed("the header has no " + quote(key));
 }
 
-void take_type(NpyHeader& header, std::string_view value) {
+void read_type(NpyHeader& header, std::string_view value) {
     if (value.starts_with('[')) {
         throw Malformed(
             "a structured array is not read; save a plain one with x y z [intensity] as columns");
@@ -53,7 +53,7 @@ void take_type(NpyHeader& header, std::string_view value) {
     header.big_endian = code[0] == '>';
 }
 
-void take_shape(NpyHeader& header, std::string_view value) {
+void read_shape(NpyHeader& header, std::string_view value) {
     const std::size_t end = value.find(')');
     if (!value.starts_with('(') || end == std::string_view::npos) {
         throw Malformed("the header's 'shape' is no tuple");
@@ -76,7 +76,7 @@ NpyHeader parse_header(std::span<const std::byte> bytes) {
     ByteReader reader(bytes);
     if (reader.text(6) != "\x93NUMPY") throw Malformed("does not begin as .npy files do");
     const auto version = reader.number<std::uint8_t>();
-    reader.take(1);
+    reader.read(1);
     if (version < 1 || version > 3) {
         throw Malformed(fmt::format("version {} of .npy is unknown; 1 to 3 are read", version));
     }
@@ -85,12 +85,12 @@ NpyHeader parse_header(std::span<const std::byte> bytes) {
     const std::string_view dictionary = reader.text(length);
     NpyHeader header;
     header.begin = reader.at();
-    take_type(header, value_of(dictionary, "descr"));
+    read_type(header, value_of(dictionary, "descr"));
     if (!value_of(dictionary, "fortran_order").starts_with("False")) {
         throw Malformed(
             "an array in Fortran order is not read; save numpy.ascontiguousarray of it");
     }
-    take_shape(header, value_of(dictionary, "shape"));
+    read_shape(header, value_of(dictionary, "shape"));
     return header;
 }
 
@@ -121,7 +121,7 @@ Cloud read_npy(const std::filesystem::path& file) {
                          fmt::format("ends after {} of {} points of {} bytes; it is truncated",
                                      present, header.rows, cloud.point_bytes));
     }
-    take_rows(cloud, columns, header.rows, std::move(bytes), header.begin);
+    read_rows(cloud, columns, header.rows, std::move(bytes), header.begin);
     if (header.big_endian) swap_bytes(cloud);
     return cloud;
 }

@@ -33,7 +33,7 @@ void read_binary_body(Cloud& cloud, const PcdHeader& header, Bytes&& bytes, cons
                          fmt::format("ends after {} of {} points of {} bytes; it is truncated",
                                      present, header.points, stride));
     }
-    take_rows(cloud, header.columns, header.points, std::move(bytes), lines.offset());
+    read_rows(cloud, header.columns, header.points, std::move(bytes), lines.offset());
 }
 
 /// The two sizes before a compressed body, and the body.
@@ -79,7 +79,7 @@ void read_compressed_body(Cloud& cloud, const PcdHeader& header, const Bytes& by
                                      "to the {} declared",
                                      packed.stream.size(), packed.expanded));
     }
-    take_columns(cloud, columns, header.points, *block);
+    read_columns(cloud, columns, header.points, *block);
 }
 
 }  // namespace

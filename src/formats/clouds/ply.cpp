@@ -85,7 +85,7 @@ void read_binary_body(Cloud& cloud, const PlyHeader& header, Bytes&& bytes, cons
                          fmt::format("ends after {} of {} points of {} bytes; it is truncated",
                                      present, header.points, stride));
     }
-    take_rows(cloud, header.columns, header.points, std::move(bytes), walker.at());
+    read_rows(cloud, header.columns, header.points, std::move(bytes), walker.at());
     if (header.format == PlyFormat::big) swap_bytes(cloud);
 }
 

@@ -103,7 +103,7 @@ void read_line(const std::vector<Column>& columns, const Lines& lines, std::byte
     std::uint64_t seen = 0;
     for (const Column& column : columns) {
         for (std::uint32_t i = 0; i < column.count; ++i, ++seen) {
-            const std::string_view token = take_token(rest);
+            const std::string_view token = next_token(rest);
             if (token.empty()) {
                 lines.fail("has " + std::to_string(seen) + " values; the header promises " +
                            std::to_string(values_per_line(columns)));
@@ -115,7 +115,7 @@ void read_line(const std::vector<Column>& columns, const Lines& lines, std::byte
             to += size_of(column.type);
         }
     }
-    if (!take_token(rest).empty()) {
+    if (!next_token(rest).empty()) {
         lines.fail("has more values than the " + std::to_string(seen) + " the header promises");
     }
 }
@@ -183,7 +183,7 @@ void read_ascii(Cloud& cloud, const std::vector<Column>& columns, std::uint64_t 
     }
 }
 
-void take_rows(Cloud& cloud, const std::vector<Column>& columns, std::size_t points,
+void read_rows(Cloud& cloud, const std::vector<Column>& columns, std::size_t points,
                std::vector<std::byte>&& bytes, std::size_t offset) {
     const std::size_t stride = record_bytes(columns);
     // Without padding, the bytes of the file are those of the cloud.
@@ -208,7 +208,7 @@ void take_rows(Cloud& cloud, const std::vector<Column>& columns, std::size_t poi
     }
 }
 
-void take_columns(Cloud& cloud, const std::vector<Column>& columns, std::size_t points,
+void read_columns(Cloud& cloud, const std::vector<Column>& columns, std::size_t points,
                   std::span<const std::byte> block) {
     if (points == 0) return;
     cloud.data.resize(points * cloud.point_bytes);

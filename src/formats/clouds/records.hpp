@@ -35,12 +35,12 @@ void read_ascii(Cloud& cloud, const std::vector<Column>& columns, std::uint64_t 
                 Lines& lines);
 
 /// Reads whole records from `offset`; `bytes` must contain all of them.
-void take_rows(Cloud& cloud, const std::vector<Column>& columns, std::size_t points,
+void read_rows(Cloud& cloud, const std::vector<Column>& columns, std::size_t points,
                std::vector<std::byte>&& bytes, std::size_t offset);
 
 /// Reads the first column of all points, then the second column of all points, and so on; `block`
 /// must contain all of them.
-void take_columns(Cloud& cloud, const std::vector<Column>& columns, std::size_t points,
+void read_columns(Cloud& cloud, const std::vector<Column>& columns, std::size_t points,
                   std::span<const std::byte> block);
 
 /// Reverses the byte order of all values, for big-endian files.

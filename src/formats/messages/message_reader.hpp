@@ -21,9 +21,9 @@ public:
     MessageReader(std::span<const std::byte> data, MessageEncoding encoding)
         : in_(data), cdr_(encoding == MessageEncoding::cdr) {
         if (!cdr_) return;
-        in_.take(1);
+        in_.read(1);
         const auto kind = in_.number<std::uint8_t>();  // 0, 1: plain; 6, 7: plain, version 2
-        in_.take(2);
+        in_.read(2);
         if (kind != 0 && kind != 1 && kind != 6 && kind != 7) {
             throw Malformed("is CDR of a kind that is not read (" + std::to_string(kind) + ")");
         }
@@ -34,7 +34,7 @@ public:
     template <class T>
     T number() {
         align(sizeof(T));
-        const auto bytes = in_.take(sizeof(T));
+        const auto bytes = in_.read(sizeof(T));
         std::byte copy[sizeof(T)];
         if (big_endian_) {
             std::reverse_copy(bytes.begin(), bytes.end(), copy);
@@ -44,12 +44,12 @@ public:
         return little_endian<T>(copy);
     }
     std::string text() {
-        std::string_view raw = as_text(in_.take(number<std::uint32_t>()));
+        std::string_view raw = as_text(in_.read(number<std::uint32_t>()));
         if (cdr_ && raw.ends_with('\0')) raw.remove_suffix(1);
         return std::string(raw);
     }
     /// The bytes of a uint8 array.
-    std::span<const std::byte> bytes() { return in_.take(number<std::uint32_t>()); }
+    std::span<const std::byte> bytes() { return in_.read(number<std::uint32_t>()); }
     /// Number of the elements that follow. Throws if the message is too short for them, at
     /// `least_bytes` per element.
     std::uint32_t count(std::size_t least_bytes) {
@@ -66,7 +66,7 @@ private:
         if (!cdr_) return;
         constexpr std::size_t kHead = 4;  // alignment is counted from the end of this header
         const std::size_t step = std::min(size, most_aligned_), at = in_.at() - kHead;
-        in_.take((step - at % step) % step);
+        in_.read((step - at % step) % step);
     }
 
     ByteReader in_;

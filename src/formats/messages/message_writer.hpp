@@ -41,7 +41,7 @@ public:
         number(static_cast<std::uint32_t>(data.size()));
         out_.raw(data);
     }
-    std::vector<std::byte> take() { return std::move(out_.bytes); }
+    std::vector<std::byte> moved_bytes() { return std::move(out_.bytes); }
 
 private:
     ByteWriter out_;

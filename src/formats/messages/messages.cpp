@@ -14,7 +14,7 @@
 namespace dynamic_filter::io {
 namespace {
 
-MessageHeader take_header(MessageReader& in, MessageEncoding encoding) {
+MessageHeader read_header(MessageReader& in, MessageEncoding encoding) {
     if (encoding == MessageEncoding::ros1) in.number<std::uint32_t>();  // seq
     const std::int64_t seconds = encoding == MessageEncoding::ros1
                                      ? std::int64_t{in.number<std::uint32_t>()}
@@ -26,7 +26,7 @@ MessageHeader take_header(MessageReader& in, MessageEncoding encoding) {
             seconds * kSecond + nanoseconds};
 }
 
-Pose take_pose(MessageReader& in) {
+Pose read_pose(MessageReader& in) {
     std::array<double, 7> v{};
     for (double& value : v) value = in.number<double>();
     const Eigen::Quaterniond rotation(v[6], v[3], v[4], v[5]);
@@ -66,7 +66,7 @@ struct WireCloud {
     std::span<const std::byte> data;
 };
 
-WireCloud take_wire_cloud(MessageReader& in) {
+WireCloud read_wire_cloud(MessageReader& in) {
     WireCloud wire;
     wire.height = in.number<std::uint32_t>();
     wire.width = in.number<std::uint32_t>();
@@ -217,7 +217,7 @@ Cloud unpack_cloud(const WireCloud& wire) {
 }
 
 /// Reads livox_ros_driver/CustomMsg; offset_time [ns] is relative to the stamp.
-Cloud take_livox(MessageReader& in) {
+Cloud read_livox(MessageReader& in) {
     in.number<std::uint64_t>();  // timebase
     in.number<std::uint32_t>();  // number of points, repeated
     for (int i = 0; i < 4; ++i) in.number<std::uint8_t>();
@@ -262,17 +262,17 @@ MessageKind kind_of(const std::string& type) {
 
 MessageHeader read_header(const Message& message) {
     MessageReader in(message.data, message.topic.encoding);
-    return take_header(in, message.topic.encoding);
+    return read_header(in, message.topic.encoding);
 }
 
 CloudMessage read_cloud_message(std::span<const std::byte> data, const Topic& topic) {
     MessageReader in(data, topic.encoding);
-    CloudMessage message{take_header(in, topic.encoding), {}};
+    CloudMessage message{read_header(in, topic.encoding), {}};
     if (kind_of(topic.type) == MessageKind::livox) {
-        message.cloud = take_livox(in);
+        message.cloud = read_livox(in);
         return message;
     }
-    WireCloud wire = take_wire_cloud(in);
+    WireCloud wire = read_wire_cloud(in);
     repair(wire);
     check(wire);
     message.cloud = unpack_cloud(wire);
@@ -281,12 +281,12 @@ CloudMessage read_cloud_message(std::span<const std::byte> data, const Topic& to
 
 PoseMessage read_pose_message(const Message& message) {
     MessageReader in(message.data, message.topic.encoding);
-    MessageHeader header = take_header(in, message.topic.encoding);
+    MessageHeader header = read_header(in, message.topic.encoding);
     const bool has_child = kind_of(message.topic.type) == MessageKind::odometry;
     PoseMessage pose{header.stamp, std::move(header.frame), {}, {}};
     if (has_child) pose.child = in.text();
     if (pose.child.starts_with('/')) pose.child.erase(0, 1);
-    pose.T_parent_child = take_pose(in);
+    pose.T_parent_child = read_pose(in);
     return pose;
 }
 
@@ -295,11 +295,11 @@ std::vector<PoseMessage> read_transforms(const Message& message) {
     constexpr std::size_t kLeastTransform = 72;
     std::vector<PoseMessage> transforms;
     for (auto left = in.count(kLeastTransform); left > 0; --left) {
-        MessageHeader header = take_header(in, message.topic.encoding);
+        MessageHeader header = read_header(in, message.topic.encoding);
         std::string child = in.text();
         if (child.starts_with('/')) child.erase(0, 1);
         transforms.push_back(
-            {header.stamp, std::move(header.frame), std::move(child), take_pose(in)});
+            {header.stamp, std::move(header.frame), std::move(child), read_pose(in)});
     }
     return transforms;
 }

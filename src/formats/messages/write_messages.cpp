@@ -123,7 +123,7 @@ std::vector<std::byte> cloud_message(const Cloud& cloud, double stamp, const std
     out.number(point_step * width);
     out.bytes(without_wide_integers(cloud));
     out.number(static_cast<std::uint8_t>(is_dense(cloud) ? 1 : 0));
-    return out.take();
+    return out.moved_bytes();
 }
 
 std::vector<std::byte> transform_message(const std::string& parent, const std::string& child,
@@ -134,7 +134,7 @@ std::vector<std::byte> transform_message(const std::string& parent, const std::s
     put_header(out, stamp, parent);
     out.text(child);
     put_pose(out, T_parent_child);
-    return out.take();
+    return out.moved_bytes();
 }
 
 std::vector<std::byte> odometry_message(const std::string& parent, const std::string& child,
@@ -146,7 +146,7 @@ std::vector<std::byte> odometry_message(const std::string& parent, const std::st
     out.text(child);
     put_pose(out, T_parent_child);
     put_zeros(out, kCovariance + kTwist + kCovariance);
-    return out.take();
+    return out.moved_bytes();
 }
 
 std::vector<std::byte> pose_message(const std::string& frame, const Pose& pose, double stamp,
@@ -154,7 +154,7 @@ std::vector<std::byte> pose_message(const std::string& frame, const Pose& pose, 
     MessageWriter out(encoding);
     put_header(out, stamp, frame);
     put_pose(out, pose);
-    return out.take();
+    return out.moved_bytes();
 }
 
 std::vector<std::byte> path_message(const std::string& frame, const std::vector<double>& stamps,
@@ -166,7 +166,7 @@ std::vector<std::byte> path_message(const std::string& frame, const std::vector<
         put_header(out, stamps[i], frame);
         put_pose(out, poses[i]);
     }
-    return out.take();
+    return out.moved_bytes();
 }
 
 namespace {
@@ -215,7 +215,7 @@ std::vector<std::byte> boxes_message(const std::vector<BoxMarker>& boxes, double
     for (std::size_t i = 0; i < boxes.size(); ++i) {
         put_marker(out, boxes[i], static_cast<std::int32_t>(i + 1), stamp, frame);
     }
-    return out.take();
+    return out.moved_bytes();
 }
 
 std::vector<std::byte> diagnostics_message(const std::vector<DiagnosticStatus>& statuses,
@@ -234,7 +234,7 @@ std::vector<std::byte> diagnostics_message(const std::vector<DiagnosticStatus>& 
             out.text(value);
         }
     }
-    return out.take();
+    return out.moved_bytes();
 }
 
 }  // namespace dynamic_filter::io

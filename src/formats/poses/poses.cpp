@@ -119,8 +119,8 @@ PoseFile read_g2o(Lines& lines) {
     std::map<std::uint64_t, Pose> vertices;
     while (lines.next()) {
         std::string_view rest = lines.line();
-        if (take_token(rest) != "VERTEX_SE3:QUAT") continue;
-        const std::string_view token = take_token(rest);
+        if (next_token(rest) != "VERTEX_SE3:QUAT") continue;
+        const std::string_view token = next_token(rest);
         const auto id = parse_count(token);
         if (!id) lines.fail(quote(token) + " is no id of a vertex; expected plain digits");
         if (!vertices.emplace(*id, vertex_pose(numbers(rest, lines), lines)).second) {
@@ -192,7 +192,7 @@ Pose read_calib_tr(const std::filesystem::path& file) {
     Lines lines(text, file);
     while (lines.next()) {
         std::string_view rest = lines.line();
-        if (take_token(rest) != "Tr:") continue;
+        if (next_token(rest) != "Tr:") continue;
         const std::vector<double> row = numbers(rest, lines);
         if (row.size() != kitti_columns || !is_finite(row)) {
             lines.fail("Tr: needs 12 finite numbers, a 3x4 matrix row by row");

@@ -174,7 +174,7 @@ fs::path map_folder_of(const fs::path& path) {
     return path.filename() == kIndex ? path.parent_path() : path;
 }
 
-bool is_city_map(const fs::path& path) {
+bool is_tiled_map(const fs::path& path) {
     std::error_code ignored;
     if (fs::is_regular_file(path / "map" / kIndex, ignored)) return true;
     const fs::path file = path.filename() == kIndex ? path : path / kIndex;

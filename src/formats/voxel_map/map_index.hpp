@@ -61,9 +61,9 @@ TileSquare square_of(const MapIndex& index, const MapTile& tile);
 std::string tile_name(int level, std::int64_t x, std::int64_t y);
 
 /// Whether this is the output folder of a run over many drives, its map folder, or map/index.json.
-bool is_city_map(const std::filesystem::path& path);
+bool is_tiled_map(const std::filesystem::path& path);
 
-/// The map folder of whatever is_city_map() accepts.
+/// The map folder of whatever is_tiled_map() accepts.
 std::filesystem::path map_folder_of(const std::filesystem::path& path);
 
 /// Reads FOLDER/index.json. Throws InputError if it is missing, damaged, contradicts itself or is

@@ -34,7 +34,7 @@ const io::Field& field_of(const io::Cloud& cloud, const fs::path& file, const ch
 }
 
 template <class T>
-void take(const io::Cloud& cloud, const io::Field& field, std::vector<T>& values) {
+void read_column(const io::Cloud& cloud, const io::Field& field, std::vector<T>& values) {
     values.resize(cloud.size() * field.count);
     const std::size_t bytes = sizeof(T) * field.count;
     for (std::size_t i = 0; i < cloud.size(); ++i) {
@@ -43,14 +43,15 @@ void take(const io::Cloud& cloud, const io::Field& field, std::vector<T>& values
     }
 }
 
-void take_positions(const io::Cloud& cloud, const fs::path& file, TilePoints& points) {
+void read_positions(const io::Cloud& cloud, const fs::path& file, TilePoints& points) {
     points.positions.resize(cloud.size());
     constexpr std::array names = {"x", "y", "z"};
     for (int axis = 0; axis < 3; ++axis) {
         std::vector<double> column;
-        take(cloud,
-             field_of(cloud, file, names[static_cast<std::size_t>(axis)], io::FieldType::f64, 1),
-             column);
+        read_column(
+            cloud,
+            field_of(cloud, file, names[static_cast<std::size_t>(axis)], io::FieldType::f64, 1),
+            column);
         for (std::size_t i = 0; i < column.size(); ++i) points.positions[i][axis] = column[i];
     }
 }
@@ -77,19 +78,17 @@ void TilePoints::append(const TilePoints& other, std::size_t i) {
     positions.push_back(other.positions[i]);
     probability.push_back(other.probability[i]);
     scans.push_back(other.scans[i]);
-    const auto begin = other.sessions.begin() + static_cast<std::ptrdiff_t>(i * words);
-    sessions.insert(sessions.end(), begin, begin + static_cast<std::ptrdiff_t>(words));
+    const auto begin = other.drives.begin() + static_cast<std::ptrdiff_t>(i * words);
+    drives.insert(drives.end(), begin, begin + static_cast<std::ptrdiff_t>(words));
 }
 
-std::size_t session_words(std::size_t drives) {
-    return std::max<std::size_t>(1, (drives + 31) / 32);
-}
+std::size_t drive_words(std::size_t drives) { return std::max<std::size_t>(1, (drives + 31) / 32); }
 
 TilePoints read_tile(const fs::path& folder, const MapIndex& index, const MapTile& tile) {
     const fs::path file = folder / tile.file;
     if (tile.voxels == 0) {  // then there need not be a file
         TilePoints none;
-        none.words = session_words(index.drives.size());
+        none.words = drive_words(index.drives.size());
         return none;
     }
     const io::Cloud cloud = io::read_pcd(file);
@@ -100,12 +99,13 @@ TilePoints read_tile(const fs::path& folder, const MapIndex& index, const MapTil
                                      cloud.size(), tile.voxels));
     }
     TilePoints points;
-    points.words = session_words(index.drives.size());
-    take_positions(cloud, file, points);
-    take(cloud, field_of(cloud, file, "probability", io::FieldType::f32, 1), points.probability);
-    take(cloud, field_of(cloud, file, "scans", io::FieldType::u32, 1), points.scans);
-    take(cloud, field_of(cloud, file, "sessions", io::FieldType::u32, points.words),
-         points.sessions);
+    points.words = drive_words(index.drives.size());
+    read_positions(cloud, file, points);
+    read_column(cloud, field_of(cloud, file, "probability", io::FieldType::f32, 1),
+                points.probability);
+    read_column(cloud, field_of(cloud, file, "scans", io::FieldType::u32, 1), points.scans);
+    read_column(cloud, field_of(cloud, file, "sessions", io::FieldType::u32, points.words),
+                points.drives);
     check_places(points, index, tile, file);
     return points;
 }

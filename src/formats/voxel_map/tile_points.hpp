@@ -11,25 +11,25 @@
 
 namespace dynamic_filter::app {
 
-/// Voxels as columns; all but `sessions` have one entry each.
+/// Voxels as columns; all but `drives` have one entry each. In files their field is `sessions`.
 struct TilePoints {
     std::vector<Eigen::Vector3d> positions;  ///< [m] centres, in the world frame
     std::vector<float> probability;          ///< of being occupied
     std::vector<std::uint32_t> scans;        ///< with a point in it
-    std::vector<std::uint32_t> sessions;     ///< `words` per voxel: bits of the drives that saw it
+    std::vector<std::uint32_t> drives;       ///< `words` per voxel: bits of the drives that saw it
     std::size_t words = 1;                   ///< per voxel
 
     [[nodiscard]] std::size_t size() const { return positions.size(); }
     /// Whether drive `drive` saw voxel i occupied.
     [[nodiscard]] bool saw(std::size_t drive, std::size_t i) const {
-        return (sessions[i * words + drive / 32] >> (drive % 32) & 1U) != 0;
+        return (drives[i * words + drive / 32] >> (drive % 32) & 1U) != 0;
     }
     /// Appends voxel i of another tile with as many words.
     void append(const TilePoints& other, std::size_t i);
 };
 
 /// Words per voxel for so many drives.
-std::size_t session_words(std::size_t drives);
+std::size_t drive_words(std::size_t drives);
 
 /// Reads the file of a tile. Throws InputError if a field is missing or of another type, or if the
 /// file does not fit the index.

@@ -45,7 +45,7 @@ Rows read_rows(const fs::path& file) {
     while (lines.next()) {
         std::string_view rest = lines.line();
         if (is_blank_or_comment(trim(rest))) continue;
-        const std::string_view token = take_token(rest);
+        const std::string_view token = next_token(rest);
         const auto index = parse_count(token);
         if (!index) lines.fail(quote(token) + " is no number of a scan");
         const std::vector<double> v = read_numbers(rest, lines);

@@ -29,7 +29,7 @@ Submap read_data(const fs::path& file) {
     Submap submap;
     while (lines.next()) {
         std::string_view rest = lines.line();
-        const std::string_view key = take_token(rest);
+        const std::string_view key = next_token(rest);
         if (key == "T_world_origin:") {
             submap.T_world_origin = read_matrix(lines);
         } else if (key == "stamp:") {

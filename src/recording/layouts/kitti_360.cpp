@@ -40,7 +40,7 @@ Pose read_calibration(const fs::path& file, std::string_view name) {
     Lines lines(text, file);
     while (lines.next()) {
         std::string_view rest = trim(lines.line());
-        if (rest.empty() || (!name.empty() && take_token(rest) != name)) continue;
+        if (rest.empty() || (!name.empty() && next_token(rest) != name)) continue;
         const Pose pose = read_pose_row(rest, lines);
         if (!pose.matrix().allFinite()) lines.fail("has numbers that are not finite");
         return pose;
@@ -63,7 +63,7 @@ Trajectory read_trajectory(const fs::path& file) {
     Trajectory trajectory;
     while (lines.next()) {
         std::string_view rest = lines.line();
-        const std::string_view token = take_token(rest);
+        const std::string_view token = next_token(rest);
         if (token.empty()) continue;
         const auto number = parse_count(token);
         if (!number) lines.fail(quote(token) + " is no number of a scan");

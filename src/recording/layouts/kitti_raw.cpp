@@ -62,7 +62,7 @@ Pose read_T_velo_imu(const fs::path& file) {
     Rows34 rows = Rows34::Zero();
     while (lines.next()) {
         std::string_view rest = lines.line();
-        const std::string_view key = take_token(rest);
+        const std::string_view key = next_token(rest);
         if (key != "R:" && key != "T:") continue;
         std::vector<double>& numbers = key == "R:" ? R : T;
         numbers = read_numbers(rest, lines);

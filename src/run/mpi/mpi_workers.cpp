@@ -64,7 +64,7 @@ bool MpiWorkers::all_done(bool well) {
     return agreed_;
 }
 
-std::uint64_t MpiWorkers::take(std::uint64_t round) {
+std::uint64_t MpiWorkers::pop(std::uint64_t round) {
     // A process may be a round ahead of rank 0, so each round has a counter of its own.
     if (taken_.size() <= round) taken_.resize(round + 1);
     return failed_ ? kNone : taken_[round]++;
@@ -75,7 +75,7 @@ std::uint64_t MpiWorkers::ask() {
     agreed_ = false;
     if (rank_ == 0) {
         const std::scoped_lock lock(calls_);
-        return take(round_);
+        return pop(round_);
     }
     std::uint64_t task = kNone;
     MPI_Request answer = MPI_REQUEST_NULL;
@@ -133,7 +133,7 @@ bool MpiWorkers::answer_one() {
         failed_ = true;
         return true;
     }
-    const std::uint64_t task = take(round);
+    const std::uint64_t task = pop(round);
     MPI_Send(&task, 1, MPI_UINT64_T, status.MPI_SOURCE, kAnswer, all_);
     return true;
 }

@@ -37,7 +37,7 @@ private:
         int well, leaves;
     };
 
-    std::uint64_t take(std::uint64_t round);  ///< by rank 0, while calls_ is locked
+    std::uint64_t pop(std::uint64_t round);  ///< by rank 0, while calls_ is locked
     std::uint64_t ask();
     void tell_failure();
     Vote meet(Vote mine);

@@ -63,7 +63,7 @@ ChunkContent chunk_of(const Record& record) {
     EXPECT_EQ(reader.text(), "zstd");
     chunk.packed_bytes = reader.number<std::uint64_t>();
     EXPECT_EQ(chunk.packed_bytes, reader.left());
-    const Decompressed out = decompress("zstd", reader.take(reader.left()), size);
+    const Decompressed out = decompress("zstd", reader.read(reader.left()), size);
     EXPECT_TRUE(out.complete);
     chunk.plain = std::string(reinterpret_cast<const char*>(out.bytes.data()), out.bytes.size());
     EXPECT_EQ(crc_of(chunk.plain), crc);
@@ -211,7 +211,7 @@ TEST_F(McapWriterTest, TheIndexOfAChunkPointsToItsMessages) {
             EXPECT_EQ(message.opcode, kMessage);
             ByteReader content = inside(message);
             EXPECT_EQ(content.number<std::uint16_t>(), channel);
-            content.take(4);
+            content.read(4);
             EXPECT_EQ(content.number<std::uint64_t>(), time);
             entries.push_back(fmt::format("{} {}", channel, time));
         }

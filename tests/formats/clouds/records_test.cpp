@@ -19,7 +19,7 @@ std::vector<std::byte> to_bytes(const std::string& text) {
 TEST(Records, RowsLoseTheirPadding) {
     const std::string row = "pp" + floats({1.0F}) + "p" + bytes_of(2.0) + floats({3.0F}) + "pp";
     Cloud cloud = empty_cloud(padded, "f");
-    take_rows(cloud, padded, 2, to_bytes("head" + row + row + "tail"), 4);
+    read_rows(cloud, padded, 2, to_bytes("head" + row + row + "tail"), 4);
     EXPECT_EQ(cloud.size(), 2U);
     EXPECT_EQ(column(cloud, "x"), std::vector<double>(2, 1.0));
     EXPECT_EQ(column(cloud, "y"), std::vector<double>(2, 2.0));
@@ -30,7 +30,7 @@ TEST(Records, ColumnsBecomeRows) {
     const std::string block =
         "pppp" + floats({1, 10}) + "pp" + bytes_of(2.0) + bytes_of(20.0) + floats({3, 30}) + "pppp";
     Cloud cloud = empty_cloud(padded, "f");
-    take_columns(cloud, padded, 2, to_bytes(block));
+    read_columns(cloud, padded, 2, to_bytes(block));
     EXPECT_EQ(column(cloud, "x"), (std::vector<double>{1, 10}));
     EXPECT_EQ(column(cloud, "y"), (std::vector<double>{2, 20}));
     EXPECT_EQ(column(cloud, "z"), (std::vector<double>{3, 30}));

@@ -59,7 +59,7 @@ struct Wire {
         out.number(row_step);
         out.bytes(as_byte_span(data));
         out.number(std::uint8_t{1});
-        return out.take();
+        return out.moved_bytes();
     }
     [[nodiscard]] Cloud read() const {
         const Cloud cloud = read_cloud(bytes(MessageEncoding::ros1), MessageEncoding::ros1).cloud;
@@ -257,7 +257,7 @@ TEST(Livox, Points) {
             for (const float axis : {0.0F, 1.0F, 2.0F}) out.number(base + axis);
             for (const int value : {10, 20, 30}) out.number(static_cast<std::uint8_t>(value));
         }
-        const auto data = out.take();
+        const auto data = out.moved_bytes();
         for (const char* type : {"livox_ros_driver/CustomMsg", "livox_ros_driver2/CustomMsg"}) {
             const CloudMessage message = read_cloud_message(data, topic(type, encoding));
             EXPECT_EQ(message.header.frame, "livox_frame");
@@ -285,7 +285,7 @@ TEST(Transforms, SeveralInOneMessage) {
             out.text(child);
             for (const double value : {1.0, 2.0, 3.0, 0.0, 0.0, 1.0, 0.0}) out.number(value);
         }
-        const auto data = out.take();
+        const auto data = out.moved_bytes();
         const auto read = [&](std::size_t n) {
             return read_as("tf2_msgs/TFMessage", encoding, std::span(data).first(n),
                            read_transforms);

@@ -123,15 +123,15 @@ TEST(MapIndex, TheSideOfATileIsAPowerOfTwoOfVoxels) {
 
 TEST(MapIndex, IsFoundFromEachOfItsFolders) {
     const test::TemporaryFolder folder;
-    EXPECT_FALSE(is_city_map(folder.path()));
+    EXPECT_FALSE(is_tiled_map(folder.path()));
     folder.put("out/map/index.json", to_json(small_index()));
     folder.put("las/index.json", to_json(small_index()));
     for (const char* name : {"out", "out/map", "out/map/", "out/map/index.json"}) {
-        EXPECT_TRUE(is_city_map(folder / name)) << name;
+        EXPECT_TRUE(is_tiled_map(folder / name)) << name;
         EXPECT_EQ(read_map_index(map_folder_of(folder / name)), small_index()) << name;
     }
-    EXPECT_FALSE(is_city_map(folder / "las")) << "LAS tiles have an index, but are no map";
-    EXPECT_FALSE(is_city_map(folder / "nothing"));
+    EXPECT_FALSE(is_tiled_map(folder / "las")) << "LAS tiles have an index, but are no map";
+    EXPECT_FALSE(is_tiled_map(folder / "nothing"));
 }
 
 }  // namespace map_index_test

@@ -27,7 +27,7 @@ TEST(TilePoints, AreThoseOfTheFile) {
             EXPECT_EQ(points.probability[i], voxels[i].probability);
             EXPECT_EQ(points.scans[i], voxels[i].scans);
             for (std::size_t d = 0; d < drives; ++d)
-                EXPECT_EQ(points.saw(d, i), (voxels[i].sessions[d / 32] >> d % 32 & 1U) == 1U);
+                EXPECT_EQ(points.saw(d, i), (voxels[i].drives[d / 32] >> d % 32 & 1U) == 1U);
         }
     }
 }
@@ -84,7 +84,7 @@ TEST(TilePoints, ThinningKeepsOnePerCube) {
     EXPECT_LT(few.size(), points.size() / 2);
     EXPECT_EQ(thinned(points, kSampleVoxel).size(), points.size())
         << "a voxel is a cube of its own";
-    EXPECT_EQ(few.sessions.size(), few.size());
+    EXPECT_EQ(few.drives.size(), few.size());
 }
 
 }  // namespace tile_points_test

@@ -53,9 +53,9 @@ TEST_F(Nuscenes, OneScene) {
     EXPECT_DOUBLE_EQ(recording.info().T_world_sensor[0].translation().x(), 1.5);
     EXPECT_DOUBLE_EQ(recording.info().T_world_sensor[1].translation().x(),
                      1.5);  // half a turn about z
-    const FullScan frame = recording.read(0);
-    EXPECT_EQ(frame.points, (Points{{1, 2, 3}}));
-    EXPECT_EQ(column(frame.cloud, "ring"), std::vector<double>{5});
+    const FullScan scan = recording.read(0);
+    EXPECT_EQ(scan.points, (Points{{1, 2, 3}}));
+    EXPECT_EQ(column(scan.cloud, "ring"), std::vector<double>{5});
     EXPECT_HAS(error_of([&] { (void)recording.read(1); }), "multiple of 20");
 }
 

@@ -50,7 +50,8 @@ void compute(int milliseconds) {
 }
 
 /// Takes tasks with two threads until none is left.
-void take_all(Workers& workers, std::size_t count, const std::function<void(std::size_t)>& work) {
+void work_on_all(Workers& workers, std::size_t count,
+                 const std::function<void(std::size_t)>& work) {
     std::array<std::jthread, 2> threads;
     for (auto& thread : threads) {
         thread = std::jthread([&] {
@@ -71,9 +72,9 @@ int finish(Workers& workers, bool well) {
 
 /// Each of 40 tasks goes to somebody, in two rounds, between which no process waits for long.
 int all_tasks(Workers& workers) {
-    take_all(workers, 40, [](std::size_t) { rest(20); });
+    work_on_all(workers, 40, [](std::size_t) { rest(20); });
     if (finish(workers, true) != 0) return 1;
-    take_all(workers, 25, [](std::size_t) {});
+    work_on_all(workers, 25, [](std::size_t) {});
     return finish(workers, true);
 }
 
@@ -110,20 +111,20 @@ int one_says_no(Workers& workers) {
         rest(50);  // mpirun must nevertheless end with the code of this process
         return 3;
     }
-    take_all(workers, 100000, [](std::size_t) { rest(1); });
+    work_on_all(workers, 100000, [](std::size_t) { rest(1); });
     return finish(workers, true);
 }
 
 /// Rank 1 throws in the midst; nobody waits for it.
 int one_throws(Workers& workers) {
     if (workers.rank() == 1) throw std::runtime_error("rank 1 cannot read");
-    take_all(workers, 100000, [](std::size_t) { rest(1); });
+    work_on_all(workers, 100000, [](std::size_t) { rest(1); });
     return finish(workers, true);
 }
 
 /// Rank 0 throws while it merges, when the others wait for the end of that.
 int merge_throws(Workers& workers) {
-    take_all(workers, 10, [](std::size_t) {});
+    work_on_all(workers, 10, [](std::size_t) {});
     if (finish(workers, true) != 0) return 1;
     if (workers.rank() == 0) throw std::runtime_error("rank 0 cannot merge");
     return finish(workers, true);

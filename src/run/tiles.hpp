@@ -42,12 +42,12 @@ inline bool has_cell(const Eigen::Vector3d& world) {
     return world.cwiseAbs().maxCoeff() < kFarthest;
 }
 
-/// Calls use(i, world) for every point of the frame that was measured and has a cell, in order.
+/// Calls use(i, world) for every point of the scan that was measured and has a cell, in order.
 template <class Use>
-void each_measured(const io::FullScan& frame, const Use& use) {
-    for (std::size_t i = 0; i < frame.points.size(); ++i) {
-        if (!is_measured(frame.points[i])) continue;
-        const Eigen::Vector3d world = frame.T_world_sensor * frame.points[i].cast<double>();
+void each_measured(const io::FullScan& scan, const Use& use) {
+    for (std::size_t i = 0; i < scan.points.size(); ++i) {
+        if (!is_measured(scan.points[i])) continue;
+        const Eigen::Vector3d world = scan.T_world_sensor * scan.points[i].cast<double>();
         if (has_cell(world)) use(i, world);
     }
 }
@@ -77,7 +77,7 @@ Region region_of(const Tile& tile, double voxel_size, double height);
 /// Cuts an area into tiles: those of the top level are cut in four as long as they hold more than
 /// `most` voxels. If all cells together do not hold more, one tile is enough. `voxels`: number of
 /// voxels by cell. Tiles are in order; empty ones are left out.
-std::vector<Tile> cut(const std::map<PlaneCell, std::size_t>& voxels, std::size_t most);
+std::vector<Tile> tiles_of(const std::map<PlaneCell, std::size_t>& voxels, std::size_t most);
 
 /// Finds the tile of a cell.
 class TileLookup {

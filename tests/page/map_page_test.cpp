@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "page/city_report.hpp"
+#include "page/map_page.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,11 +11,11 @@
 #include "support/temporary_folder.hpp"
 
 namespace dynamic_filter::app {
-namespace city_report_test {
+namespace map_page_test {
 
 namespace fs = std::filesystem;
 
-class CityReport : public testing::Test {
+class MapPage : public testing::Test {
 protected:
     void SetUp() override {
         if (viewer_page().empty())
@@ -23,8 +23,8 @@ protected:
     }
     /// All files of the report.
     static std::map<std::string, std::string> report_of(const fs::path& out) {
-        write_city_report(out, {{"tiles", 19}}, nullptr,
-                          {{"drive_1", {{0, 0, 0}, {10, 0, 0}}}, {"drive_2", {}}});
+        write_map_page(out, {{"tiles", 19}}, nullptr,
+                       {{"drive_1", {{0, 0, 0}, {10, 0, 0}}}, {"drive_2", {}}});
         std::map<std::string, std::string> files{{"report.html", test::slurp(out / "report.html")}};
         for (const auto& entry : fs::directory_iterator(out / "report"))
             files[entry.path().filename()] = test::slurp(entry.path());
@@ -38,7 +38,7 @@ protected:
     test::TemporaryFolder folder_;
 };
 
-TEST_F(CityReport, HasAnOverviewAndAPageForEachTile) {
+TEST_F(MapPage, HasAnOverviewAndAPageForEachTile) {
     const MapIndex index = write_sample_map(folder_.path());
     auto files = report_of(folder_.path());
     EXPECT_EQ(files.size(), index.tiles.size() + 3);
@@ -61,7 +61,7 @@ TEST_F(CityReport, HasAnOverviewAndAPageForEachTile) {
     EXPECT_EQ(overview["scores"]["tiles"], 19);
 }
 
-TEST_F(CityReport, ThePagesOfTilesShareTheViewer) {
+TEST_F(MapPage, ThePagesOfTilesShareTheViewer) {
     write_sample_map(folder_.path());
     auto files = report_of(folder_.path());
     EXPECT_GT(files["viewer.js"].size(), 400'000U);
@@ -73,23 +73,23 @@ TEST_F(CityReport, ThePagesOfTilesShareTheViewer) {
     }
 }
 
-TEST_F(CityReport, TheSameMapGivesTheSameBytesInAnyFolder) {
+TEST_F(MapPage, TheSameMapGivesTheSameBytesInAnyFolder) {
     write_sample_map(folder_ / "a");
     write_sample_map(folder_ / "b");
     EXPECT_EQ(report_of(folder_ / "a"), report_of(folder_ / "b"));
 }
 
-TEST_F(CityReport, AMissingTileIsAnError) {
+TEST_F(MapPage, AMissingTileIsAnError) {
     write_sample_map(folder_.path());
     fs::remove(folder_ / "map/1_0_0.pcd");
     EXPECT_THROW(report_of(folder_.path()), InputError);
 }
 
-TEST_F(CityReport, AMapWithoutTilesHasAnOverview) {
+TEST_F(MapPage, AMapWithoutTilesHasAnOverview) {
     fs::create_directories(folder_ / "map");
     write_map_index(folder_ / "map", {});
     EXPECT_EQ(report_of(folder_.path()).size(), 3U);
 }
 
-}  // namespace city_report_test
+}  // namespace map_page_test
 }  // namespace dynamic_filter::app

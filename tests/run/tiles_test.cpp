@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "run/layout.hpp"
+#include "run/tiles.hpp"
 
 #include <gtest/gtest.h>
 
 #include "support/random.hpp"
 
 namespace dynamic_filter::app {
-namespace city_layout_test {
+namespace tiles_test {
 
 std::map<PlaneCell, std::size_t> street(int length, std::size_t each) {
     std::map<PlaneCell, std::size_t> voxels;
@@ -14,23 +14,23 @@ std::map<PlaneCell, std::size_t> street(int length, std::size_t each) {
     return voxels;
 }
 
-TEST(Layout, CellsAreRoundedDown) {
+TEST(Tiles, CellsAreRoundedDown) {
     EXPECT_EQ(cell_at({0.0, -0.1, 5.0}, 12.8), (PlaneCell{0, -1}));
     EXPECT_EQ(cell_at({12.9, -12.9, 5.0}, 12.8), (PlaneCell{1, -2}));
     EXPECT_EQ(tile_at({-1, 3}, 0), (Tile{.level = 0, .x = -1, .y = 1}));
     EXPECT_EQ(tile_at({-5, 3}, 1), (Tile{.level = 1, .x = -2, .y = 0}));
 }
 
-TEST(Layout, OneTileIsEnoughForWhatFits) {
-    const std::vector<Tile> tiles = cut(street(10, 5), 200);
+TEST(Tiles, OneTileIsEnoughForWhatFits) {
+    const std::vector<Tile> tiles = tiles_of(street(10, 5), 200);
     ASSERT_EQ(tiles.size(), 1U);
     EXPECT_TRUE(tiles.front().is_whole);
     EXPECT_EQ(name_of(tiles.front()), "all");
 }
 
-TEST(Layout, TilesHoldEveryCellOnceAndNoMoreThanAllowed) {
+TEST(Tiles, TilesHoldEveryCellOnceAndNoMoreThanAllowed) {
     const auto voxels = street(200, 7);
-    const std::vector<Tile> tiles = cut(voxels, 100);
+    const std::vector<Tile> tiles = tiles_of(voxels, 100);
     const TileLookup lookup(tiles);
     std::map<std::size_t, std::size_t> sums;
     for (const auto& [cell, count] : voxels) {
@@ -47,11 +47,11 @@ TEST(Layout, TilesHoldEveryCellOnceAndNoMoreThanAllowed) {
     EXPECT_FALSE(lookup.find({1000, 1000}));
 }
 
-TEST(Layout, TheSmallestTilesAreNotCutHoweverMuchTheyHold) {
-    for (const Tile& tile : cut(street(4, 1000), 10)) EXPECT_EQ(tile.level, 0);
+TEST(Tiles, TheSmallestTilesAreNotCutHoweverMuchTheyHold) {
+    for (const Tile& tile : tiles_of(street(4, 1000), 10)) EXPECT_EQ(tile.level, 0);
 }
 
-TEST(Layout, ARegionIsTheTileAndItsHalo) {
+TEST(Tiles, ARegionIsTheTileAndItsHalo) {
     const Region region = region_of({.level = 1, .x = -1, .y = 2}, 0.2, 3.0);
     const double side = 4 * 12.8;
     EXPECT_NEAR(region.origin.x(), -side, 1e-9);
@@ -61,5 +61,5 @@ TEST(Layout, ARegionIsTheTileAndItsHalo) {
     EXPECT_NEAR(region.bounds.max().y(), side + 3.2, 1e-9);
 }
 
-}  // namespace city_layout_test
+}  // namespace tiles_test
 }  // namespace dynamic_filter::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// The report of a run over many drives: an overview of the tiles, and a page for each of them.
+/// The page of the map of several drives: an overview of the tiles, and a page for each of them.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,7 +11,7 @@
 namespace dynamic_filter::app {
 
 /// Where a drive went.
-struct DriveTrack {
+struct DrivePath {
     std::string name;
     std::vector<Eigen::Vector3d> positions;  ///< [m] in the world frame; thinned further if need be
 };
@@ -20,7 +20,7 @@ struct DriveTrack {
 /// OUT/report/viewer.js and viewer.css, and need no server. `metrics` and `timing` are shown as
 /// they are, and may be null. The same input gives the same bytes. Throws InputError, OutputError,
 /// and Error if the command was built without the viewer.
-void write_city_report(const std::filesystem::path& out, const nlohmann::ordered_json& metrics,
-                       const nlohmann::ordered_json& timing, const std::vector<DriveTrack>& tracks);
+void write_map_page(const std::filesystem::path& out, const nlohmann::ordered_json& metrics,
+                    const nlohmann::ordered_json& timing, const std::vector<DrivePath>& paths);
 
 }  // namespace dynamic_filter::app

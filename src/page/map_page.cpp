@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "page/city_report.hpp"
+#include "page/map_page.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ using nlohmann::ordered_json;
 
 /// Room on the overview and on the pages of tiles; with many tiles each has less of it.
 constexpr double kPictureBytes = 12e6, kPagePoints = 20e6;
-constexpr std::size_t kTrackPoints = 200'000;
+constexpr std::size_t kPathPoints = 200'000;
 
 int most_picture_edge(std::size_t tiles) {
     const double edge =
@@ -59,21 +59,20 @@ ordered_json entry_of(const MapIndex& index, const MapTile& tile, const TilePoin
 }
 
 /// Every so many positions, and the last, relative to `origin`.
-void add_tracks(const std::vector<DriveTrack>& tracks, const Eigen::Vector3d& origin,
-                PageRun& run) {
+void add_paths(const std::vector<DrivePath>& paths, const Eigen::Vector3d& origin, PageRun& run) {
     std::size_t all = 0;
-    for (const DriveTrack& track : tracks) all += track.positions.size();
-    const std::size_t stride = all / kTrackPoints + 1;
+    for (const DrivePath& path : paths) all += path.positions.size();
+    const std::size_t stride = all / kPathPoints + 1;
     std::vector<float> positions;
     std::vector<std::uint32_t> begin{0};
     ordered_json names = ordered_json::array();
-    for (const DriveTrack& track : tracks) {
-        for (std::size_t i = 0; i < track.positions.size(); ++i) {
-            if (i % stride != 0 && i + 1 != track.positions.size()) continue;
-            const Eigen::Vector3f at = (track.positions[i] - origin).cast<float>();
+    for (const DrivePath& path : paths) {
+        for (std::size_t i = 0; i < path.positions.size(); ++i) {
+            if (i % stride != 0 && i + 1 != path.positions.size()) continue;
+            const Eigen::Vector3f at = (path.positions[i] - origin).cast<float>();
             positions.insert(positions.end(), {at.x(), at.y()});
         }
-        names.push_back(track.name);
+        names.push_back(path.name);
         begin.push_back(static_cast<std::uint32_t>(positions.size() / 2));
     }
     run.info["tracks"] = names;
@@ -107,8 +106,8 @@ PageRun overview_of(const MapIndex& index, const ordered_json& metrics,
 
 }  // namespace
 
-void write_city_report(const fs::path& out, const ordered_json& metrics, const ordered_json& timing,
-                       const std::vector<DriveTrack>& tracks) {
+void write_map_page(const fs::path& out, const ordered_json& metrics, const ordered_json& timing,
+                    const std::vector<DrivePath>& paths) {
     const MapIndex index = read_map_index(out / "map");
     const fs::path pages = out / "report";
     const SharedPage shared = shared_page();
@@ -131,7 +130,7 @@ void write_city_report(const fs::path& out, const ordered_json& metrics, const o
     overview.info["origin"] = {origin.x(), origin.y(), origin.z()};
     overview.info["heights"] = {heights.low, heights.high};
     overview.arrays.push_back(page_array("tile-picture", 1, pictures));
-    add_tracks(tracks, origin, overview);
+    add_paths(paths, origin, overview);
     const std::string run = embedded(overview, 0);
     io::write_file(out / "report.html", page_with({&run, 1}));
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "run/piece.hpp"
+#include "run/cut.hpp"
 
-#include "recording/frames.hpp"
+#include "recording/scans.hpp"
 
 namespace dynamic_filter::app {
 
@@ -39,36 +39,36 @@ bool is_around(const Tile& tile, const PlaneCell& cell) {
 
 }  // namespace
 
-Piece cut(const io::FullScan& frame, const Tile& tile, double edge) {
-    const FarFromTile is_far(tile, frame.T_world_sensor, edge);
-    Piece piece;
-    for (std::uint32_t i = 0; i < frame.points.size(); ++i) {
-        const Point& point = frame.points[i];
+Cut cut_of(const io::FullScan& scan, const Tile& tile, double edge) {
+    const FarFromTile is_far(tile, scan.T_world_sensor, edge);
+    Cut cut;
+    for (std::uint32_t i = 0; i < scan.points.size(); ++i) {
+        const Point& point = scan.points[i];
         if (!is_measured(point) || is_far(point)) continue;
-        const Eigen::Vector3d world = frame.T_world_sensor * point.cast<double>();
+        const Eigen::Vector3d world = scan.T_world_sensor * point.cast<double>();
         if (!has_cell(world)) continue;
         const PlaneCell cell = cell_at(world, edge);
         if (!tile.is_whole && !is_around(tile, cell)) continue;
-        piece.indices.push_back(i);
-        piece.points.push_back(point);
-        piece.inside.push_back(tile.is_whole || tile_at(cell, tile.level) == tile);
-        if (!frame.truth.empty()) piece.truth.push_back(frame.truth[i]);
+        cut.indices.push_back(i);
+        cut.points.push_back(point);
+        cut.inside.push_back(tile.is_whole || tile_at(cell, tile.level) == tile);
+        if (!scan.truth.empty()) cut.truth.push_back(scan.truth[i]);
     }
-    return piece;
+    return cut;
 }
 
-Labels labels_of(const Piece& piece, const Labels& of_scan) {
+Labels labels_of(const Cut& cut, const Labels& of_scan) {
     Labels labels;
-    labels.reserve(piece.indices.size());
-    for (const std::uint32_t i : piece.indices) labels.push_back(of_scan[i]);
+    labels.reserve(cut.indices.size());
+    for (const std::uint32_t i : cut.indices) labels.push_back(of_scan[i]);
     return labels;
 }
 
-eval::LabelledScan labelled_inside(const Piece& piece, const Pose& T_world_sensor,
+eval::LabelledScan labelled_inside(const Cut& cut, const Pose& T_world_sensor,
                                    const Eigen::Vector3d& origin) {
-    eval::LabelledScan scan{shifted_world(piece.points, T_world_sensor, origin), piece.truth, {}};
+    eval::LabelledScan scan{shifted_world(cut.points, T_world_sensor, origin), cut.truth, {}};
     for (std::size_t i = 0; i < scan.truth.size(); ++i) {
-        if (!piece.inside[i]) scan.truth[i] = Label::unknown;
+        if (!cut.inside[i]) scan.truth[i] = Label::unknown;
     }
     return scan;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "recording/frames.hpp"
+#include "recording/scans.hpp"
 
 #include <fmt/format.h>
 
@@ -73,20 +73,20 @@ InputError changed_in_use(const io::Recording& recording, std::size_t i, const s
     return {file, "", "changed while it was in use: " + why.substr(names_it ? file.size() + 2 : 0)};
 }
 
-void for_each_frame(const io::Recording& recording, const std::vector<std::size_t>& scans,
-                    const std::function<void(std::size_t, MaybeFrame&)>& prepare,
-                    const std::function<bool(std::size_t, MaybeFrame&)>& use) {
+void for_each_scan(const io::Recording& recording, const std::vector<std::size_t>& scans,
+                   const std::function<void(std::size_t, MaybeScan&)>& prepare,
+                   const std::function<bool(std::size_t, MaybeScan&)>& use) {
     constexpr std::size_t kAhead = 8;
-    const auto read = [&](std::size_t i, MaybeFrame& maybe) {
+    const auto read = [&](std::size_t i, MaybeScan& maybe) {
         try {
-            maybe.frame = recording.read(scans[i]);
+            maybe.scan = recording.read(scans[i]);
             if (prepare) prepare(scans[i], maybe);
         } catch (const InputError& error) {
             maybe = {std::nullopt, error.what()};
         }
     };
     const auto read_batch = [&, threads = current_threads()](std::size_t first) {
-        std::vector<MaybeFrame> batch(std::min(kAhead, scans.size() - first));
+        std::vector<MaybeScan> batch(std::min(kAhead, scans.size() - first));
         with_threads(threads, [&] {
             parallel_for(batch.size(), 1, [&](std::size_t begin, std::size_t end) {
                 for (std::size_t i = begin; i < end; ++i) read(first + i, batch[i]);
@@ -96,13 +96,13 @@ void for_each_frame(const io::Recording& recording, const std::vector<std::size_
     };
     // With one thread, the batch is read when it is needed.
     const auto when = current_threads() > 1 ? std::launch::async : std::launch::deferred;
-    std::future<std::vector<MaybeFrame>> next;  // its destructor waits
+    std::future<std::vector<MaybeScan>> next;  // its destructor waits
     const auto begin_batch = [&](std::size_t first) {
         if (first < scans.size()) next = std::async(when, read_batch, first);
     };
     begin_batch(0);
     for (std::size_t first = 0; first < scans.size(); first += kAhead) {
-        std::vector<MaybeFrame> batch = next.get();
+        std::vector<MaybeScan> batch = next.get();
         begin_batch(first + kAhead);
         for (std::size_t i = 0; i < batch.size(); ++i) {
             if (!use(scans[first + i], batch[i])) return;
@@ -110,9 +110,9 @@ void for_each_frame(const io::Recording& recording, const std::vector<std::size_
     }
 }
 
-Scan take_scan(io::FullScan& frame, std::size_t index) {
-    return {std::move(frame.points), frame.T_world_sensor,  frame.stamp, index,
-            frame.has_pose,          std::move(frame.times)};
+Scan moved_scan(io::FullScan& scan, std::size_t index) {
+    return {std::move(scan.points), scan.T_world_sensor,  scan.stamp, index,
+            scan.has_pose,          std::move(scan.times)};
 }
 
 Points shifted_world(const Points& points, const Pose& T_world_sensor,
@@ -126,8 +126,8 @@ Points shifted_world(const Points& points, const Pose& T_world_sensor,
     return shifted;
 }
 
-Points shifted_world(const io::FullScan& frame, const Eigen::Vector3d& origin) {
-    return shifted_world(frame.points, frame.T_world_sensor, origin);
+Points shifted_world(const io::FullScan& scan, const Eigen::Vector3d& origin) {
+    return shifted_world(scan.points, scan.T_world_sensor, origin);
 }
 
 Points positions_from(const io::Cloud& cloud, const Eigen::Vector3d& origin) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "run/layout.hpp"
+#include "run/tiles.hpp"
 
 #include <cmath>
 
@@ -24,7 +24,7 @@ void cut_tile(const Tile& tile, const Voxels& voxels, std::size_t most, std::vec
     }
     std::map<Tile, Voxels> quarters;
     for (const auto& [cell, count] : voxels) quarters[tile_at(cell, tile.level - 1)][cell] = count;
-    for (const auto& [quarter, part] : quarters) cut_tile(quarter, part, most, tiles);
+    for (const auto& [quarter, inside] : quarters) cut_tile(quarter, inside, most, tiles);
 }
 
 }  // namespace
@@ -55,12 +55,12 @@ Region region_of(const Tile& tile, double voxel_size, double height) {
             .bounds = {Eigen::Vector2d::Constant(-halo), Eigen::Vector2d::Constant(side + halo)}};
 }
 
-std::vector<Tile> cut(const Voxels& voxels, std::size_t most) {
+std::vector<Tile> tiles_of(const Voxels& voxels, std::size_t most) {
     if (sum_of(voxels) <= most) return {{.is_whole = true}};
     std::map<Tile, Voxels> tops;
     for (const auto& [cell, count] : voxels) tops[tile_at(cell, kTopLevel)][cell] = count;
     std::vector<Tile> tiles;
-    for (const auto& [top, part] : tops) cut_tile(top, part, most, tiles);
+    for (const auto& [top, inside] : tops) cut_tile(top, inside, most, tiles);
     return tiles;
 }
 

@@ -20,9 +20,9 @@ void require_extension(const std::filesystem::path& output, const std::string& e
 
 io::Recording open(const DataOptions& options);
 
-/// A frame, or why it cannot be used.
-struct MaybeFrame {
-    std::optional<io::FullScan> frame;
+/// A scan, or why it cannot be used.
+struct MaybeScan {
+    std::optional<io::FullScan> scan;
     std::string error;
 };
 
@@ -35,19 +35,19 @@ InputError changed_in_use(const io::Recording& recording, std::size_t i, const s
 /// Reads `scans` (indices) a few at a time, in parallel, and the next few meanwhile; `prepare` runs
 /// on each in parallel, then `use` on each in order, in the caller's thread. Stops early when `use`
 /// returns false.
-void for_each_frame(const io::Recording& recording, const std::vector<std::size_t>& scans,
-                    const std::function<void(std::size_t, MaybeFrame&)>& prepare,
-                    const std::function<bool(std::size_t, MaybeFrame&)>& use);
+void for_each_scan(const io::Recording& recording, const std::vector<std::size_t>& scans,
+                   const std::function<void(std::size_t, MaybeScan&)>& prepare,
+                   const std::function<bool(std::size_t, MaybeScan&)>& use);
 
-/// The core's view of a frame; takes the frame's points.
-Scan take_scan(io::FullScan& frame, std::size_t index);
+/// The filter's view of a scan; its points and times are moved out of it.
+Scan moved_scan(io::FullScan& scan, std::size_t index);
 
 /// Points of the sensor in the world, shifted by `-origin`. Near the origin floats are exact
 /// enough.
 Points shifted_world(const Points& points, const Pose& T_world_sensor,
                      const Eigen::Vector3d& origin);
 /// The scan's points, shifted by `-origin` from the world. Near the origin floats are exact enough.
-Points shifted_world(const io::FullScan& frame, const Eigen::Vector3d& origin);
+Points shifted_world(const io::FullScan& scan, const Eigen::Vector3d& origin);
 
 /// x y z of a cloud in the world, less the origin; in double until then.
 Points positions_from(const io::Cloud& cloud, const Eigen::Vector3d& origin);
