@@ -173,10 +173,9 @@ void OutputFolder::commit() {
 
 OutputFolder::~OutputFolder() {
     std::error_code ignored;
-    if (beside_.empty()) return;
-    fs::remove_all(beside_, ignored);
+    if (!beside_.empty()) fs::remove_all(beside_, ignored);
     lock_.reset();
-    if (made_) fs::remove(path_, ignored);
+    if (made_) fs::remove(path_, ignored);  // where nothing is in it
 }
 
 bool OutputFolder::is_empty() const { return !holds_something(path()); }

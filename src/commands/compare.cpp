@@ -106,7 +106,13 @@ void add_report(Program& program) {
     add_reading_options(c, o->truth);
     add_selection_options(c, o->truth);
     c.number("--voxel", o->voxel, {0.01, 10.0}, "edge of a voxel for the scores [m]");
-    c.action([o] { return report(*o); });
+    c.action([o] {
+        if (o->truth.data.empty() && (o->truth.first > 0 || o->truth.last || o->truth.stride > 1)) {
+            throw ConfigError(
+                "--first, --last and --stride choose scans of --truth, which is not given");
+        }
+        return report(*o);
+    });
 }
 
 }  // namespace dynamic_filter::app

@@ -45,8 +45,10 @@ void print_table(const eval::VoxelScore& ours) {
 int demo(const DemoOptions& o) {
     // The folder of an earlier demo is reused; any other that holds something is refused.
     const auto recording = o.output / "recording";
-    const bool again = std::filesystem::exists(o.output / "before.png") &&
-                       std::filesystem::exists(recording / "poses.txt");
+    // So is that of a demo that was interrupted.
+    const bool again = std::filesystem::exists(recording / "poses.txt") &&
+                       (std::filesystem::exists(o.output / "before.png") ||
+                        std::filesystem::exists(o.output / "result" / kRunState));
     OutputFolder output(o.output, kDemoFiles, replaced_if(again));
     OutputFolder recorded(recording, recording_files(), replaced_if(again));
     RunOptions run_options;
@@ -55,6 +57,7 @@ int demo(const DemoOptions& o) {
     run_options.output = o.output / "result";
     run_options.overwrite = again;
     run_options.after = "simulate";
+    run_options.catches = false;  // Ctrl-C ends the demo: there is little to go on with
     sim::SimulationOptions scene;
     scene.pedestrians = kPedestrians;
     write_simulation(scene, recorded.path());

@@ -27,17 +27,13 @@ struct Either : Functions... {
 }  // namespace
 
 Maps::Maps(const Config& config, const OnlineOptions& options)
-    : config_(config), options_(options), tracker_(config.odometry) {
-    begin_stretch(0);
+    : config_(config), options_(options), tracker_(config.odometry), horizon_(horizon_of(options)) {
+    stretches_.push_back(new_stretch(0));
 }
 
-void Maps::begin_stretch(std::size_t first_index) {
-    horizon_ = horizon_of(options_);
-    if (config_.method == Method::scans) {
-        stretches_.push_back({first_index, std::make_unique<DynamicFilter>(config_)});
-    } else {
-        stretches_.push_back({first_index, std::make_unique<PaperPipeline>(config_, horizon_)});
-    }
+Maps::Stretch Maps::new_stretch(std::size_t first_index) const {
+    if (judges_each_scan()) return {first_index, std::make_unique<DynamicFilter>(config_)};
+    return {first_index, std::make_unique<PaperPipeline>(config_, horizon_of(options_))};
 }
 
 Maps::Judged Maps::judge(Scan scan, bool restarts) {
@@ -49,8 +45,10 @@ Maps::Judged Maps::judge(Scan scan, bool restarts) {
         // A map that is removed right after this is not decided, because nobody would see it.
         judged = end_stretch(options_.horizon == 0.0 || !judges_each_scan());
         judged.notice = std::move(notice);
+        Stretch next = new_stretch(scan.index);
         if (options_.horizon > 0.0) stretches_.clear();
-        begin_stretch(scan.index);
+        stretches_.push_back(std::move(next));
+        horizon_ = horizon_of(options_);
     }
     const std::size_t index = scan.index;
     before_last_ = std::exchange(last_, StampedPose{scan.T_world_sensor, scan.stamp});

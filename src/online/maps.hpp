@@ -43,10 +43,9 @@ public:
     /// Decides the voxels of the newest map, and returns the verdicts that were left.
     Judged finish();
 
-    /// False for the presets `paper` and `removert`, which judge scans window by window.
-    [[nodiscard]] bool judges_each_scan() const {
-        return std::holds_alternative<std::unique_ptr<DynamicFilter>>(stretches_.back().filter);
-    }
+    /// False for the presets `paper` and `removert`, which judge scans window by window. May be
+    /// called from any thread at any time.
+    [[nodiscard]] bool judges_each_scan() const { return config_.method == Method::scans; }
     /// The static voxels of the newest map around a pose.
     std::vector<StaticVoxel> local_static_map(const Pose& T_world_query,
                                               std::optional<double> radius);
@@ -74,7 +73,7 @@ private:
         std::size_t first_index;  ///< Scan::index of its first scan
         Filter filter;
     };
-    void begin_stretch(std::size_t first_index);
+    [[nodiscard]] Stretch new_stretch(std::size_t first_index) const;
     std::optional<Notice> break_before(const Scan& scan, bool restarts,
                                        const std::optional<Tracked>& tracked);
     Judged end_stretch(bool decide);
@@ -83,8 +82,8 @@ private:
     void attach_poses(std::vector<Verdict>& verdicts);
     [[nodiscard]] const Stretch* stretch_of(const Scan& scan) const;
 
-    Config config_;
-    OnlineOptions options_;
+    const Config config_;
+    const OnlineOptions options_;
     Tracker tracker_;
     std::optional<StampedPose> before_last_, last_;
     std::map<std::size_t, Tracked> untold_;  // by Scan::index, until the verdict comes

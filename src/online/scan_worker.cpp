@@ -23,7 +23,7 @@ ScanWorker::ScanWorker(Maps& maps, OnlineOptions options, OnlineCallbacks callba
       worker_([this] { work(); }) {}
 
 std::optional<Verdict> ScanWorker::ask(Scan scan) {
-    refuse_own_thread();
+    refuse_in_callback();
     auto reply = std::make_shared<std::promise<std::optional<Verdict>>>();
     auto verdict = reply->get_future();
     push({.scan = std::move(scan), .reply = std::move(reply)});
@@ -40,6 +40,7 @@ void ScanWorker::with_maps(const std::function<void(Maps&)>& use) const {
 void ScanWorker::push(QueuedScan scan) {
     std::optional<Notice> refused;
     std::vector<QueuedScan> dropped;
+    if (options_.overload == Overload::wait) refuse_in_callback();
     {
         std::unique_lock hold(lock_);
         if (options_.overload == Overload::wait) {
@@ -143,14 +144,15 @@ void ScanWorker::tell(const Notice& notice) {
     if (callbacks_.notice) callbacks_.notice(notice);
 }
 
-void ScanWorker::refuse_own_thread() const {
-    if (worker_.get_id() != std::this_thread::get_id()) return;
+void ScanWorker::refuse_in_callback() const {
+    const std::thread::id here = std::this_thread::get_id();
+    if (here != worker_id_ && here != finishing_) return;
     throw Error("a callback must not wait for the filter that calls it");
 }
 
 /// Waits until the worker has nothing to do. Rethrows its exception.
 std::unique_lock<std::mutex> ScanWorker::idle() {
-    refuse_own_thread();
+    refuse_in_callback();
     std::unique_lock hold(lock_);
     changed_.wait(hold, [&] { return failure_ || (queue_.size() == 0 && !busy_); });
     if (failure_) std::rethrow_exception(failure_);
@@ -169,12 +171,14 @@ void ScanWorker::flush() {
 }
 
 void ScanWorker::finish() {
+    refuse_in_callback();
     const std::lock_guard one_at_a_time(finish_lock_);
     {
         const auto hold = idle();
         if (std::exchange(finished_, true)) return;
     }
     stop();
+    finishing_ = std::this_thread::get_id();
     try {
         with_threads(options_.threads, [&] {
             Maps::Judged judged;
@@ -185,9 +189,11 @@ void ScanWorker::finish() {
             deliver(std::move(judged), nullptr, 0);
         });
     } catch (...) {
+        finishing_ = std::thread::id();
         fail(std::current_exception());
         throw;
     }
+    finishing_ = std::thread::id();
 }
 
 /// The worker ends after the scan that it judges. A second call does nothing.

@@ -3,6 +3,7 @@
 /// catches up with the map.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <exception>
 #include <functional>
@@ -56,7 +57,7 @@ private:
     void drop_waiting();
     void tell(const Notice& notice);
     void fail(std::exception_ptr error);
-    void refuse_own_thread() const;
+    void refuse_in_callback() const;
 
     const OnlineOptions options_;
     const OnlineCallbacks callbacks_;
@@ -71,13 +72,15 @@ private:
     mutable std::mutex map_lock_;
     Maps& maps_;
 
-    std::mutex notice_lock_, finish_lock_;  // so that calls of the same kind never overlap
+    std::mutex notice_lock_, finish_lock_;      // so that calls of the same kind never overlap
+    std::atomic<std::thread::id> finishing_{};  // the thread that delivers the last verdicts
 
     // Data of the worker.
     std::uint64_t run_ = 0;
     Durations latency_;
 
-    std::thread worker_;  // must be the last member, because it uses all others
+    std::thread worker_;  // must be the last but its number, because it uses all others
+    const std::thread::id worker_id_{worker_.get_id()};
 };
 
 }  // namespace dynamic_filter

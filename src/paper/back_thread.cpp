@@ -23,10 +23,11 @@ void BackThread::run() {
     while (true) {
         changed_.wait(hold, [&] { return stopping_ || !jobs_.empty(); });
         if (jobs_.empty()) return;
+        const std::function<void()>& job = jobs_.front();  // others are only added behind it
         hold.unlock();
         std::exception_ptr failure;
         try {
-            jobs_.front()();  // others only add behind it
+            job();
         } catch (...) {
             failure = std::current_exception();
         }
@@ -40,15 +41,15 @@ void BackThread::run() {
     }
 }
 
-void BackThread::wait_for(std::size_t left) {
+std::unique_lock<std::mutex> BackThread::wait_for(std::size_t left) {
     std::unique_lock hold(lock_);
     changed_.wait(hold, [&] { return jobs_.size() <= left; });
     if (failure_) std::rethrow_exception(failure_);
+    return hold;
 }
 
 void BackThread::add(std::function<void()> job) {
-    wait_for(2);  // a submap, and what is forgotten after it
-    const std::lock_guard hold(lock_);
+    const auto hold = wait_for(2);  // a submap, and what is forgotten after it
     jobs_.emplace_back(
         [job = std::move(job), threads = current_threads()] { with_threads(threads, job); });
     changed_.notify_all();

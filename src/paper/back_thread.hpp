@@ -28,11 +28,11 @@ public:
     /// of a job; after one, no further job is done.
     void add(std::function<void()> job);
     /// Waits until all jobs are done. Rethrows the exception of a job.
-    void wait() { wait_for(0); }
+    void wait() { wait_for(0).unlock(); }
 
 private:
     void run();
-    void wait_for(std::size_t left);
+    std::unique_lock<std::mutex> wait_for(std::size_t left);
 
     std::mutex lock_;
     std::condition_variable changed_;         // notified when a member below changed

@@ -49,12 +49,12 @@ void require_folder(const fs::path& data) {
             data, "", "does not exist; expected a bag (.mcap, .bag, .db3) or a folder with scans");
     if (!is_folder(data)) {
         const std::string kind = kind_by_content(read_head(data, 100));
-        const std::string force = kind.ends_with("bag") ? "; force --format bag"
-                                  : kind.ends_with("cloud")
-                                      ? "; a single cloud cannot be cleaned, because "
-                                        "the scans tell what moved"
-                                  : kind.ends_with("archive") ? "; unpack it and give the folder"
-                                                              : "";
+        const std::string force =
+            kind.ends_with("bag")       ? "; leave --format out, or give --format bag"
+            : kind.ends_with("cloud")   ? "; a single cloud cannot be cleaned, because "
+                                          "the scans tell what moved"
+            : kind.ends_with("archive") ? "; unpack it and give the folder"
+                                        : "";
         throw InputError(data, "",
                          "is " + (kind.empty() ? "a file" : kind) + force +
                              "; expected a bag (.mcap, .bag, .db3), or a folder with "

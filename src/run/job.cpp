@@ -37,7 +37,7 @@ void refuse_unnamed(const RunOptions& o) {
     if (!o.part.empty() || o.mpi) {
         throw ConfigError("--part and --mpi need a name for the result: -o DIR");
     }
-    if (o.resume && !is_tiled(o)) {
+    if (o.resume) {
         throw ConfigError("--resume needs the folder to go on with: -o DIR");
     }
 }

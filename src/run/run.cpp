@@ -57,18 +57,21 @@ void link_to_latest(const RunOptions& o, const OutputFolder& output) {
 
 // One recording in memory.
 
-RunResult tell_interrupted(const RunSummary& summary, std::size_t scans, OutputFolder& output) {
+/// An earlier result stays; otherwise what is there is kept.
+void keep_interrupted(const RunSummary& summary, std::size_t scans, const RunOptions& o,
+                      OutputFolder& output) {
+    const std::string folder = output.name().string();
     if (output.path() != output.name()) {
-        fmt::print("interrupted; the earlier result in {} stays\n", output.name().string());
-    } else {
-        output.commit();
-        const std::string folder = output.name().string();
-        fmt::print(
-            "{}interrupted: {} of {} scans are written to {}; the same command with -o {} --resume "
-            "goes on\n",
-            to_text(summary), summary.scans, scans, folder, folder);
+        fmt::print("interrupted; the earlier result in {} stays\n", folder);
+        return;
     }
-    return {.exit_code = kInterrupted, .recordings = {}};
+    output.commit();
+    if (!o.quiet) fmt::print("{}", to_text(summary));
+    fmt::print(
+        "interrupted: {} of {} scans are written to {}; the same command with -o {} --resume goes "
+        "on\n",
+        summary.scans, scans, folder, folder);
+    link_to_latest(o, output);
 }
 
 RunResult run_whole(Job& job, const RunOptions& o, StageClock& clock) {
@@ -101,7 +104,11 @@ RunResult run_whole(Job& job, const RunOptions& o, StageClock& clock) {
         if (!o.quiet) fmt::print(stderr, "note: {}\n", note);
     }
     const bool all = tell_losses("", recording, summary);
-    if (summary.interrupted) return tell_interrupted(summary, recording.size(), *output);
+    if (summary.interrupted) {
+        keep_interrupted(summary, recording.size(), o, *output);
+        if (live) live->finish(output->name() / "report.html");
+        return {.exit_code = kInterrupted, .recordings = {}};
+    }
     if (edits) apply_to_run(output->path(), *edits, o.quiet);
     write_complete(*output, mark);
     output->commit();
@@ -141,14 +148,31 @@ void find_plan(Job& job, const RunOptions& o, const fs::path& file) {
     if (!interrupted()) write_plan(file, job.plan, job.mark);
 }
 
+/// Leaves nothing behind if the memory is too small for a tile, so that the corrected command can
+/// have the same folder.
+void check_memory(const Job& job, const std::vector<std::size_t>& tiles, const Effort& effort,
+                  const OutputFolder* fresh) {
+    try {
+        tiles_at_a_time(job, tiles, effort);
+    } catch (const ConfigError&) {
+        if (fresh) {
+            fs::remove_all(fresh->path() / kTilesFolder);
+            fs::remove(fresh->path() / kRunState);
+        }
+        throw;
+    }
+}
+
 /// After all_done() was false on all processes.
 RunResult stop(const OutputFolder* output) {
     if (output && !interrupted()) {
         throw Error("another process of this run failed, as it says; --resume goes on");
     }
     if (output) {
-        fmt::print("interrupted; the tiles that are done stay in {}, and --resume goes on\n",
-                   output->path().string());
+        fmt::print(
+            "interrupted; the tiles that are done stay in {}; the same command with -o {} --resume "
+            "goes on\n",
+            output->path().string(), output->name().string());
     }
     return {.exit_code = kInterrupted, .recordings = {}};
 }
@@ -183,6 +207,7 @@ RunResult run_tiles(Job& job, const RunOptions& o, StageClock& clock) {
     if (o.plan) use_plan(job, *o.plan);  // before anything is left in the folder
     const auto output = leads ? open_folder(o, folder) : nullptr;
     if (!leads) catch_interrupts();
+    const bool is_fresh = output && output->is_empty();
     const fs::path tiles_folder = (output ? output->path() : folder) / kTilesFolder;
     if (leads) {
         if (o.resume) refuse_other_run(*output, mark);
@@ -198,6 +223,7 @@ RunResult run_tiles(Job& job, const RunOptions& o, StageClock& clock) {
     const std::vector<std::size_t> tiles =
         job.part ? tiles_of_part(job.plan.tiles, job.part->part, job.part->parts)
                  : by_cost(job.plan.tiles);
+    check_memory(job, tiles, effort, is_fresh ? output.get() : nullptr);
     const bool well = filter_tiles(job, tiles, tiles_folder, *workers, effort);
     if (!workers->all_done(well)) return stop(output.get());
     clock.finish("filter");

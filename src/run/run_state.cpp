@@ -88,8 +88,8 @@ void refuse_other_run(const OutputFolder& output, std::string_view state) {
     }
     throw ConfigError(
         output.name().string() +
-        ": was begun with another recording, other settings, other outputs (--no-maps, "
-        "--no-report) or another version; go on "
+        ": was begun with another recording, other settings, other tiles (--memory, "
+        "--tile-voxels), other outputs (--no-maps, --no-report) or another version; go on "
         "with those (see config.toml and run.log there), or start afresh with "
         "--overwrite");
 }

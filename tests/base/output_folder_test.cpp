@@ -27,8 +27,21 @@ const FolderFiles kTiles{.files = {"pointcloud_map_metadata.yaml"},
 
 TEST(OutputFolder, IsCreatedAndLeavesNoLockBehind) {
     const TemporaryFolder temporary;
-    { const OutputFolder folder(temporary / "a/b", kResult, Existing::refuse); }
-    EXPECT_TRUE(fs::is_empty(temporary / "a/b"));
+    {
+        const OutputFolder folder(temporary / "a/b", kResult, Existing::refuse);
+        spill(temporary / "a/b/run.log", "half");
+    }
+    EXPECT_EQ(slurp(temporary / "a/b/run.log"), "half");
+    EXPECT_FALSE(fs::exists(temporary / "a/b/.lock"));
+}
+
+TEST(OutputFolder, IsGoneIfNothingWasWritten) {
+    const TemporaryFolder temporary;
+    { const OutputFolder folder(temporary / "new", kResult, Existing::refuse); }
+    EXPECT_FALSE(fs::exists(temporary / "new"));
+    fs::create_directory(temporary / "mine");
+    { const OutputFolder folder(temporary / "mine", kResult, Existing::refuse); }
+    EXPECT_TRUE(fs::exists(temporary / "mine"));
 }
 
 TEST(OutputFolder, ASecondUserIsRefused) {

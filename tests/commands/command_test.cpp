@@ -506,7 +506,7 @@ TEST_F(Command, InfoDescribesFilesAndFolders) {
     ASSERT_EQ(run("convert " + recording().string() + " a.bag"), 0);
     fs::rename(folder_ / "a.bag", folder_ / "recording.data");
     EXPECT_EQ(run("check recording.data"), 3);
-    expect_said("is a ROS 1 bag; force --format bag");
+    expect_said("is a ROS 1 bag; leave --format out, or give --format bag");
     EXPECT_EQ(run("check recording.data --format bag"), 0) << said();
     EXPECT_EQ(run("convert recording.data b.mcap --format bag"), 0) << said();
     EXPECT_EQ(run("info recording.data --format bag"), 0) << said();

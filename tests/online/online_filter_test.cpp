@@ -237,6 +237,49 @@ TEST(OnlineFilter, ACallbackThatWaitsForItIsAnError) {
     EXPECT_THROW(filter.push(scans[1].scan), Error);  // it is of no use any more
 }
 
+TEST(OnlineFilter, ACallbackThatFinishesIsAnError) {
+    const auto scans = drive(4, false);
+    OnlineFilter* own = nullptr;
+    OnlineCallbacks callbacks;
+    const auto finish = [&](const Verdict&) { own->finish(); };
+    for (const bool settled : {false, true}) {
+        (settled ? callbacks.settled : callbacks.instant) = finish;
+        (settled ? callbacks.instant : callbacks.settled) = {};
+        OnlineOptions options = nothing_lost();
+        options.settle_after = 3;  // so that finish() itself settles scans
+        OnlineFilter filter(every_scan(), options, callbacks);
+        own = &filter;
+        for (std::size_t i = 0; i < 2; ++i) {
+            try {
+                filter.push(scans[i].scan);
+            } catch (const Error&) {  // of the scan before
+            }
+        }
+        EXPECT_THROW(filter.finish(), Error) << settled;
+    }
+}
+
+TEST(OnlineFilter, WhetherItJudgesEachScanCanBeAskedAtBreaks) {
+    auto scans = drive(2, false);
+    OnlineFilter filter(every_scan(), nothing_lost(), {});
+    std::atomic<bool> ends{false};
+    std::size_t no = 0;
+    std::thread asks([&] {
+        while (!ends) no += filter.judges_each_scan() ? 0 : 1;
+    });
+    for (std::size_t i = 0; i < 200; ++i) {
+        Scan scan = scans[i % 2].scan;
+        scan.points.resize(50);
+        scan.index = i;
+        scan.stamp = i % 2 == 0 ? 100.0 : 0.0;  // each second one begins a new map
+        filter.push(std::move(scan));
+    }
+    filter.flush();
+    ends = true;
+    asks.join();
+    EXPECT_EQ(no, 0U);
+}
+
 TEST(OnlineFilter, RefusesOptionsThatMakeNoSense) {
     OnlineOptions no_queue;
     no_queue.queue = 0;
