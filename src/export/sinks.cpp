@@ -147,8 +147,8 @@ public:
         };
         write_points("/points", cloud);
         if (labels.empty()) return;
-        write_points("/points_static", part(cloud, labels, Kept::in_map));
-        write_points("/points_dynamic", part(cloud, labels, Kept::removed));
+        write_points("/points_static", only(cloud, labels, Kept::in_map));
+        write_points("/points_dynamic", only(cloud, labels, Kept::removed));
     }
     std::string commit() override {
         if (map_) {
@@ -175,7 +175,7 @@ private:
         cloud.data = world_records(local, cloud);
         return cloud;
     }
-    [[nodiscard]] io::Cloud part(const io::Cloud& cloud, const Labels& labels, Kept kept) const {
+    [[nodiscard]] io::Cloud only(const io::Cloud& cloud, const Labels& labels, Kept kept) const {
         io::Cloud result = cloud;
         result.data.clear();
         for (std::size_t i = 0; i < labels.size(); ++i) {

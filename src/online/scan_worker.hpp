@@ -74,7 +74,7 @@ private:
     std::mutex notice_lock_, finish_lock_;  // so that calls of the same kind never overlap
 
     // Data of the worker.
-    std::uint64_t run_ = 0;
+    std::uint64_t stretch_ = 0;
     Durations latency_;
 
     std::thread worker_;  // must be the last member, because it uses all others
