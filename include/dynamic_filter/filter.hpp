@@ -144,9 +144,10 @@ public:
     /// Takes a scan with points in the sensor frame, and returns the instant verdict on it. Stamps
     /// must not decrease within a drive.
     Verdict push(Scan scan);
-    /// push() in two steps: judge() returns the verdict, and catch_up() does the work that can wait
-    /// until the verdict is delivered. Call it before the next scan is judged.
+    /// The first of two steps of push(): returns the verdict, and leaves to catch_up() what can
+    /// wait until the verdict is delivered.
     Verdict judge(Scan scan);
+    /// The second step of push(). Call it before the next scan is judged.
     void catch_up();
 
     /// Decides every voxel. A second call does nothing.
