@@ -55,9 +55,9 @@ Eigen::AlignedBox3f box_of(const Points& points, float share) {
     for (int axis = 0; axis < 3; ++axis) {
         std::transform(points.begin(), points.end(), values.begin(),
                        [&](const Point& p) { return p[axis]; });
-        const auto at = [&](float part) {
+        const auto at = [&](float rank) {
             return value_at_rank(
-                values, static_cast<std::size_t>(part * static_cast<float>(values.size() - 1)));
+                values, static_cast<std::size_t>(rank * static_cast<float>(values.size() - 1)));
         };
         low[axis] = at(share);
         high[axis] = at(1.0F - share);

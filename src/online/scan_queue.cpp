@@ -53,17 +53,17 @@ std::optional<Notice> ScanQueue::refusal(const Scan& scan) const {
                        "its pose is not a rigid motion; is the quaternion normalised?");
     }
     if (restarts(scan.stamp)) return std::nullopt;
-    const auto repeats = [&](std::uint64_t run, double stamp, const Pose& pose) {
-        return run == run_ && stamp == scan.stamp && is_same(pose, scan.T_world_sensor);
+    const auto repeats = [&](std::uint64_t stretch, double stamp, const Pose& pose) {
+        return stretch == stretch_ && stamp == scan.stamp && is_same(pose, scan.T_world_sensor);
     };
     const bool waits = std::any_of(waiting_.begin(), waiting_.end(), [&](const QueuedScan& w) {
-        return repeats(w.run, w.scan.stamp, w.scan.T_world_sensor);
+        return repeats(w.stretch, w.scan.stamp, w.scan.T_world_sensor);
     });
-    if (waits || (taken_ && repeats(taken_->run, taken_->stamp, taken_->T_world_sensor))) {
+    if (waits || (taken_ && repeats(taken_->stretch, taken_->stamp, taken_->T_world_sensor))) {
         return because(NoticeKind::duplicate,
                        "the scan of " + seconds(scan.stamp) + " at this pose was pushed before");
     }
-    if (taken_ && taken_->run == run_ && scan.stamp < taken_->stamp) {
+    if (taken_ && taken_->stretch == stretch_ && scan.stamp < taken_->stamp) {
         return because(NoticeKind::late, "its stamp " + seconds(scan.stamp) +
                                              " is before that of a scan already judged, " +
                                              seconds(taken_->stamp));
@@ -75,13 +75,13 @@ void ScanQueue::add(QueuedScan waiting) {
     const double stamp = waiting.scan.stamp;
     with_poses_ = waiting.scan.has_pose;
     if (restarts(stamp)) {
-        ++run_;
+        ++stretch_;
         newest_.reset();
     }
     newest_ = std::max(stamp, newest_.value_or(stamp));
-    waiting.run = run_;
+    waiting.stretch = stretch_;
     const auto before = [](const QueuedScan& a, const QueuedScan& b) {
-        return std::pair(a.run, a.scan.stamp) < std::pair(b.run, b.scan.stamp);
+        return std::pair(a.stretch, a.scan.stamp) < std::pair(b.stretch, b.scan.stamp);
     };
     const auto place = std::upper_bound(waiting_.begin(), waiting_.end(), waiting, before);
     waiting_.insert(place, std::move(waiting));
@@ -95,7 +95,7 @@ QueuedScan ScanQueue::remove_oldest() {
 
 QueuedScan ScanQueue::pop() {
     QueuedScan oldest = remove_oldest();
-    taken_ = {oldest.run, oldest.scan.stamp, oldest.scan.T_world_sensor};
+    taken_ = {oldest.stretch, oldest.scan.stamp, oldest.scan.T_world_sensor};
     return oldest;
 }
 

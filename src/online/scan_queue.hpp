@@ -17,8 +17,8 @@ namespace dynamic_filter {
 
 struct QueuedScan {
     Scan scan;
-    /// Number of the run: within a run stamps increase, a restart begins the next run.
-    std::uint64_t run = 0;
+    /// Number of the stretch: within it stamps increase, and a restart begins the next one.
+    std::uint64_t stretch = 0;
     std::chrono::steady_clock::time_point since = std::chrono::steady_clock::now();
     std::shared_ptr<std::promise<std::optional<Verdict>>> reply;  ///< may be null
 };
@@ -29,8 +29,8 @@ public:
     [[nodiscard]] std::optional<Notice> refusal(const Scan& scan) const;
 
     /// Inserts a scan that is not refused. If its stamp is more than 1 s older than the newest one,
-    /// it begins a new run. If it is a little older, it goes before the waiting scans with later
-    /// stamps.
+    /// it begins a new stretch. If it is a little older, it goes before the waiting scans with
+    /// later stamps.
     void add(QueuedScan waiting);
 
     /// Returns the scan with the oldest stamp.
@@ -45,11 +45,11 @@ private:
     QueuedScan remove_oldest();
 
     std::deque<QueuedScan> waiting_;
-    std::uint64_t run_ = 0;
+    std::uint64_t stretch_ = 0;
     std::optional<bool> with_poses_;
-    std::optional<double> newest_;  // largest stamp within the run
+    std::optional<double> newest_;  // largest stamp within the stretch
     struct Taken {
-        std::uint64_t run;
+        std::uint64_t stretch;
         double stamp;
         Pose T_world_sensor;
     };

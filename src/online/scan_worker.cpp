@@ -108,7 +108,8 @@ void ScanWorker::judge(QueuedScan& next) {
         Maps::Judged judged;
         {
             const std::lock_guard hold(map_lock_);
-            judged = maps_.judge(std::move(next.scan), std::exchange(run_, next.run) != next.run);
+            judged = maps_.judge(std::move(next.scan),
+                                 std::exchange(stretch_, next.stretch) != next.stretch);
         }
         latency_.add(seconds_since(next.since));
         deliver(std::move(judged), &next, index);

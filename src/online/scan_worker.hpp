@@ -76,7 +76,7 @@ private:
     std::atomic<std::thread::id> finishing_{};  // the thread that delivers the last verdicts
 
     // Data of the worker.
-    std::uint64_t run_ = 0;
+    std::uint64_t stretch_ = 0;
     Durations latency_;
 
     std::thread worker_;  // must be the last but its number, because it uses all others

@@ -53,8 +53,8 @@ struct Whole {
     Eigen::Vector3d scoring_origin = Eigen::Vector3d::Zero();
     std::vector<Notice> notices{};
     Maps maps{job.config, limits()};
-    ScanQueue queue{};      ///< refuses what cannot be judged; scans do not wait in it
-    std::uint64_t run = 0;  ///< of the scan before
+    ScanQueue queue{};          ///< refuses what cannot be judged; scans do not wait in it
+    std::uint64_t stretch = 0;  ///< of the scan before
     /// With --online: takes the scans, and judges them in a thread of its own.
     std::optional<ScanWorker> worker{};
 
@@ -91,7 +91,7 @@ void push(Whole& whole, Scan scan) {
     }
     whole.queue.add({.scan = std::move(scan), .reply = nullptr});
     QueuedScan next = whole.queue.pop();
-    const bool restarts = std::exchange(whole.run, next.run) != next.run;
+    const bool restarts = std::exchange(whole.stretch, next.stretch) != next.stretch;
     whole.keep(whole.maps.judge(std::move(next.scan), restarts));
     whole.maps.catch_up();
 }

@@ -64,11 +64,11 @@ TEST(ScanQueue, StampsThatGoBackByMoreThanASecondBeginAnew) {
     add(queue, scan(3.1));
     const QueuedScan first = queue.pop();
     EXPECT_EQ(first.scan.stamp, 100.0);
-    EXPECT_EQ(queue.pop().run, first.run);
+    EXPECT_EQ(queue.pop().stretch, first.stretch);
     const QueuedScan anew = queue.pop();
     EXPECT_EQ(anew.scan.stamp, 3.0);
-    EXPECT_EQ(anew.run, first.run + 1);
-    EXPECT_EQ(queue.pop().run, anew.run);
+    EXPECT_EQ(anew.stretch, first.stretch + 1);
+    EXPECT_EQ(queue.pop().stretch, anew.stretch);
     EXPECT_EQ(refused(queue, scan(3.05)), NoticeKind::late);
 }
 
