@@ -17,7 +17,7 @@ namespace {
 /// Raw, static and dynamic points of each scan, and where the sensor is.
 class BagSink final : public Sink {
 public:
-    /// `map`: a cloud in the world's scan that is written, too.
+    /// `map`: a cloud in the world's frame that is written, too.
     BagSink(const fs::path& file, std::optional<fs::path> map, bool keep_unknown)
         : writer_(io::BagWriter::create(file)),
           encoding_(writer_->encoding()),

@@ -48,7 +48,7 @@ public:
         if (labelled_) io::write_pcd(output_.path() / "gt_cloud.pcd", truth_);
         output_.commit();
         return left_out(fields_, {"x", "y", "z"}, "stamps") +
-               "; coordinates are rounded to float32 in the world's scan";
+               "; coordinates are rounded to float32 in the world's frame";
     }
 
 private:

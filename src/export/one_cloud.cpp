@@ -14,7 +14,7 @@ namespace dynamic_filter::app {
 
 namespace {
 
-/// All points in the world's scan, in one file; a field `dynamic` says what moves.
+/// All points in the world's frame, in one file; a field `dynamic` says what moves.
 class CloudSink final : public Sink {
 public:
     explicit CloudSink(fs::path file) : file_(std::move(file)) {}
