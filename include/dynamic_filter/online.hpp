@@ -55,6 +55,7 @@ struct OnlineOptions {
     int threads = 0;  ///< threads for the computations; 0: all cores
 };
 
+/// @cond For settings/table.hpp, as visit(Config).
 /// Calls f(setting, member) for every number of the options.
 template <class C, class F>
 requires std::same_as<std::remove_const_t<C>, OnlineOptions>
@@ -72,6 +73,7 @@ void visit(C& options, F&& f) {
     f(Setting{"threads", "1", "", "threads for the computations; 0: all cores", 0, kMostThreads},
       options.threads);
 }
+/// @endcond
 
 /// Returns one sentence for each number that is out of bounds.
 std::vector<std::string> violations(const OnlineOptions& options);

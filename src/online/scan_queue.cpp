@@ -101,4 +101,10 @@ QueuedScan ScanQueue::pop() {
 
 QueuedScan ScanQueue::drop() { return remove_oldest(); }
 
+std::variant<QueuedScan, Notice> ScanQueue::pass(Scan scan) {
+    if (auto refused = refusal(scan)) return std::move(*refused);
+    add({.scan = std::move(scan), .reply = nullptr});
+    return pop();
+}
+
 }  // namespace dynamic_filter

@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 
 #include "dynamic_filter/online.hpp"
 
@@ -37,6 +38,9 @@ public:
     /// To judge it: scans with older stamps are late from now on.
     QueuedScan pop();
     QueuedScan drop();  ///< to make room
+
+    /// For a caller that judges each scan at once: add() and pop(), or why the scan is refused.
+    std::variant<QueuedScan, Notice> pass(Scan scan);
 
     [[nodiscard]] std::size_t size() const { return waiting_.size(); }
 

@@ -72,6 +72,19 @@ void refuse_absurd(const Pose& T_world_sensor, const std::filesystem::path& file
 
 bool is_of_bag(const Info& info) { return info.layout == "bag"; }
 
+/// Throws InputError if the pose of scan i cannot be used.
+void check_pose(const Info& info, std::size_t i) {
+    if (info.T_world_sensor.empty()) return;
+    const Pose& T_world_sensor = info.T_world_sensor[i];
+    if (!T_world_sensor.matrix().allFinite()) {
+        throw InputError(info.scan_files[i], "",
+                         is_of_bag(info)
+                             ? "no pose is known at its time"
+                             : "it has no pose, or one that is not finite (lost tracking?)");
+    }
+    refuse_absurd(T_world_sensor, info.scan_files[i]);
+}
+
 /// Poses and points: those of the file in the sensor frame.
 void place(FullScan& scan, const Info& info, std::size_t i) {
     scan.has_pose = info.has_poses;
@@ -154,16 +167,7 @@ const Info& Recording::info() const { return parts_->info; }
 
 void Recording::check(std::size_t i) const {
     const std::filesystem::path& file = info().scan_files.at(i);
-    if (!info().T_world_sensor.empty()) {
-        const Pose& T_world_sensor = info().T_world_sensor[i];
-        if (!T_world_sensor.matrix().allFinite()) {
-            throw InputError(file, "",
-                             is_of_bag(info())
-                                 ? "no pose is known at its time"
-                                 : "it has no pose, or one that is not finite (lost tracking?)");
-        }
-        refuse_absurd(T_world_sensor, file);
-    }
+    check_pose(info(), i);
     if (!is_of_bag(info()) && !is_folder(file)) refuse_bad_size(file);
 }
 
@@ -173,7 +177,7 @@ FullScan Recording::read(std::size_t i) const {
             info().root, "",
             "has " + std::to_string(size()) + " scans; there is no scan " + std::to_string(i));
     }
-    check(i);
+    check_pose(info(), i);
     FullScan scan;
     scan.cloud = parts_->read_cloud(i);
     if (scan.cloud.size() == 0) throw InputError(info().scan_files[i], "", "has no points");

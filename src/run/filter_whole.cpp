@@ -85,12 +85,12 @@ struct Whole {
 
 void push(Whole& whole, Scan scan) {
     if (whole.worker) return whole.worker->push(std::move(scan));
-    if (const auto refused = whole.queue.refusal(scan)) {
+    auto passed = whole.queue.pass(std::move(scan));
+    if (const auto* const refused = std::get_if<Notice>(&passed)) {
         whole.notices.push_back(*refused);
         return;
     }
-    whole.queue.add({.scan = std::move(scan), .reply = nullptr});
-    QueuedScan next = whole.queue.pop();
+    auto& next = std::get<QueuedScan>(passed);
     const bool restarts = std::exchange(whole.stretch, next.stretch) != next.stretch;
     whole.keep(whole.maps.judge(std::move(next.scan), restarts));
     whole.maps.catch_up();

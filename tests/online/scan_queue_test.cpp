@@ -38,6 +38,20 @@ TEST(ScanQueue, WhatIsOlderThanAScanInWorkIsLate) {
     EXPECT_FALSE(refused(queue, scan(0.3)));
 }
 
+TEST(ScanQueue, PassesAScanThatIsJudgedAtOnceOrSaysWhyNot) {
+    ScanQueue queue;
+    const auto first = queue.pass(scan(5.0));
+    ASSERT_TRUE(std::holds_alternative<QueuedScan>(first));
+    EXPECT_EQ(std::get<QueuedScan>(first).scan.stamp, 5.0);
+    const auto late = queue.pass(scan(4.5));
+    ASSERT_TRUE(std::holds_alternative<Notice>(late));
+    EXPECT_EQ(std::get<Notice>(late).kind, NoticeKind::late);
+    const auto restarted = queue.pass(scan(1.0));
+    ASSERT_TRUE(std::holds_alternative<QueuedScan>(restarted));
+    EXPECT_NE(std::get<QueuedScan>(restarted).stretch, std::get<QueuedScan>(first).stretch);
+    EXPECT_EQ(queue.size(), 0U);
+}
+
 TEST(ScanQueue, ADroppedScanMakesNothingLate) {
     ScanQueue queue;
     add(queue, scan(0.2));
