@@ -78,10 +78,10 @@ std::string match_text(const io::DriveOffset& offset) {
 }
 
 /// True if nothing was found.
-bool check_together(const std::vector<io::Recording>& sequences,
+bool check_together(const std::vector<io::Recording>& opened,
                     const std::vector<DataOptions>& each) {
     // Scans that the motion of the sensor distorts overlay badly, so it is undone as in a run.
-    std::vector<io::Recording> drives = sequences;
+    std::vector<io::Recording> drives = opened;
     std::vector<const io::Recording*> all;
     for (io::Recording& drive : drives) {
         Config config = preset("default");
@@ -106,15 +106,15 @@ bool check_together(const std::vector<io::Recording>& sequences,
 int check(const CheckOptions& options) {
     const std::vector<DataOptions> each = options_of(expand(options.recordings), options.how);
     const bool several = each.size() > 1;
-    std::vector<io::Recording> sequences;
-    for (const DataOptions& one : each) sequences.push_back(open(one));
+    std::vector<io::Recording> opened;
+    for (const DataOptions& one : each) opened.push_back(open(one));
     bool fine = true;
-    for (std::size_t i = 0; i < sequences.size(); ++i) {
+    for (std::size_t i = 0; i < opened.size(); ++i) {
         if (several) fmt::print("recording {}\n", each[i].data.string());
-        fine = check_one(sequences[i], each[i]) && fine;
+        fine = check_one(opened[i], each[i]) && fine;
         if (several) fmt::print("\n");
     }
-    if (several) fine = check_together(sequences, each) && fine;
+    if (several) fine = check_together(opened, each) && fine;
     if (!fine) return kRejected;
     fmt::print("nothing suspicious\nnext      {}\n",
                next_command(options.recordings, options.how, ""));

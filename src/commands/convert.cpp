@@ -66,8 +66,9 @@ Config settings_of(const ConvertOptions& o) {
 
 /// Refuses options that are for the map of several drives only.
 void refuse_map_options(const ConvertOptions& o) {
-    const bool is_for_maps = !o.to.empty() && output_of(o.to).of_recording == nullptr &&
-                             output_of(o.to).of_cloud == nullptr;
+    const Output* const kind = chosen_output(o);
+    const bool is_for_maps =
+        kind != nullptr && kind->of_recording == nullptr && kind->of_cloud == nullptr;
     if (!is_for_maps && o.origin.empty()) return;
     throw ConfigError(fmt::format(
         "{}: {} is for the map of several drives, which `dynamicfilter run A B ... -o OUT` makes; "
@@ -76,7 +77,8 @@ void refuse_map_options(const ConvertOptions& o) {
 }
 
 int convert_recording(const ConvertOptions& o) {
-    if (!o.to.empty() && output_of(o.to).of_recording == nullptr) {
+    const Output* const kind = chosen_output(o);
+    if (kind != nullptr && kind->of_recording == nullptr) {
         throw ConfigError("--to " + o.to + " is for a map: give a cloud file as IN");
     }
     io::Recording recording = open(o.data);
@@ -120,7 +122,7 @@ int convert_recording(const ConvertOptions& o) {
 }
 
 int convert_cloud(const ConvertOptions& o) {
-    const Output* const kind = o.to.empty() ? nullptr : &output_of(o.to);
+    const Output* const kind = chosen_output(o);
     if (kind != nullptr && kind->of_cloud != nullptr) {
         OutputFolder output(o.output, kind->files, replaced_if(o.overwrite));
         const WrittenMap tiles = kind->of_cloud(io::read_cloud(o.data.data), output.path());

@@ -13,7 +13,7 @@ namespace dynamic_filter::app {
 namespace {
 
 const Output& checked_output(const ConvertOptions& o) {
-    const Output* const output = o.to.empty() ? nullptr : &output_of(o.to);
+    const Output* const output = chosen_output(o);
     if (output == nullptr || output->of_map == nullptr) {
         throw ConfigError(o.data.data.string() +
                           ": is the map of several drives; choose what to make of it with " +

@@ -25,11 +25,12 @@ std::vector<std::string> output_names() {
     return names;
 }
 
-const Output& output_of(const std::string& name) {
+const Output* chosen_output(const ConvertOptions& o) {
+    if (o.to.empty()) return nullptr;
     for (const Output& output : outputs()) {
-        if (output.name == name) return output;
+        if (output.name == o.to) return &output;
     }
-    throw ConfigError("--to " + name + ": there is no such output");
+    throw ConfigError("--to " + o.to + ": there is no such output");
 }
 
 std::string outputs_of_maps() {
@@ -45,7 +46,7 @@ std::string outputs_of_maps() {
 }
 
 std::unique_ptr<Sink> make_sink(const ConvertOptions& o) {
-    if (!o.to.empty()) return output_of(o.to).of_recording(o);
+    if (const Output* const chosen = chosen_output(o)) return chosen->of_recording(o);
     if (o.output.extension().empty()) return make_kitti_sink(o);
     return io::BagWriter::recognises(o.output) ? make_bag_sink(o) : make_cloud_sink(o);
 }

@@ -35,8 +35,9 @@ struct Output {
 /// All rows, in the order in which messages name them.
 const std::vector<Output>& outputs();
 std::vector<std::string> output_names();
-/// Throws ConfigError if there is none of this name.
-const Output& output_of(const std::string& name);
+/// The output that --to names; nullptr if it names none. Throws ConfigError if there is none of
+/// that name.
+const Output* chosen_output(const ConvertOptions& options);
 /// "--to 3dtiles, --to las or --to autoware": what can be made of a map.
 std::string outputs_of_maps();
 

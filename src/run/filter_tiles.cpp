@@ -92,9 +92,8 @@ std::size_t tiles_at_a_time(const Job& job, const std::vector<std::size_t>& tile
     return std::min({threads, fit, std::max<std::size_t>(1, tiles.size())});
 }
 
-bool filter_tiles(const Job& job, const std::vector<std::size_t>& tiles,
+bool filter_tiles(const Job& job, const std::vector<std::size_t>& tiles, std::size_t at_a_time,
                   const std::filesystem::path& folder, Workers& workers, const Effort& effort) {
-    const std::size_t at_a_time = tiles_at_a_time(job, tiles, effort);
     const int threads = effort.threads > 0 ? effort.threads : available_threads();
     Progress progress("tiles", tiles.size(), effort.quiet);
     std::mutex lock;

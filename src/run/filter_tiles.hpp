@@ -34,8 +34,9 @@ std::size_t tiles_at_a_time(const Job& job, const std::vector<std::size_t>& tile
                             const Effort& effort);
 
 /// Filters those of the tiles (indices in the plan) that are not in `folder` yet; all processes of
-/// `workers` share them out. False if it was interrupted.
-bool filter_tiles(const Job& job, const std::vector<std::size_t>& tiles,
+/// `workers` share them out, and each filters `at_a_time` of them at the same time. False if it was
+/// interrupted.
+bool filter_tiles(const Job& job, const std::vector<std::size_t>& tiles, std::size_t at_a_time,
                   const std::filesystem::path& folder, Workers& workers, const Effort& effort);
 
 }  // namespace dynamic_filter::app

@@ -148,12 +148,12 @@ void find_plan(Job& job, const RunOptions& o, const fs::path& file) {
     if (!interrupted()) write_plan(file, job.plan, job.mark);
 }
 
-/// Leaves nothing behind if the memory is too small for a tile, so that the corrected command can
-/// have the same folder.
-void check_memory(const Job& job, const std::vector<std::size_t>& tiles, const Effort& effort,
-                  const OutputFolder* fresh) {
+/// See tiles_at_a_time(). Leaves nothing behind if the memory is too small for a tile, so that the
+/// corrected command can have the same folder.
+std::size_t fit_into_memory(const Job& job, const std::vector<std::size_t>& tiles,
+                            const Effort& effort, const OutputFolder* fresh) {
     try {
-        tiles_at_a_time(job, tiles, effort);
+        return tiles_at_a_time(job, tiles, effort);
     } catch (const ConfigError&) {
         if (fresh) {
             fs::remove_all(fresh->path() / kTilesFolder);
@@ -223,8 +223,9 @@ RunResult run_tiles(Job& job, const RunOptions& o, StageClock& clock) {
     const std::vector<std::size_t> tiles =
         job.part ? tiles_of_part(job.plan.tiles, job.part->part, job.part->parts)
                  : by_cost(job.plan.tiles);
-    check_memory(job, tiles, effort, is_fresh ? output.get() : nullptr);
-    const bool well = filter_tiles(job, tiles, tiles_folder, *workers, effort);
+    const std::size_t at_a_time =
+        fit_into_memory(job, tiles, effort, is_fresh ? output.get() : nullptr);
+    const bool well = filter_tiles(job, tiles, at_a_time, tiles_folder, *workers, effort);
     if (!workers->all_done(well)) return stop(output.get());
     clock.finish("filter");
     if (!leads) return {};

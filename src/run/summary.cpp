@@ -106,6 +106,11 @@ std::string points_text(const RunSummary& s) {
                        s.points, shares_of(s));
 }
 
+std::string scores_text(const RunSummary& s) {
+    if (!s.scores) return "";
+    return "scores against the ground truth of the recording\n" + table(*s.scores);
+}
+
 std::string to_text(const RunSummary& s) {
     std::string text =
         fmt::format("scans    {} ({} rejected), {} {}, {} voxels\n", s.scans, s.rejected.size(),
@@ -116,9 +121,7 @@ std::string to_text(const RunSummary& s) {
     for (const RunSummary::Rate& rate : s.rates) {
         text += fmt::format("; {} alone {:.1f} {}/s", rate.stage, rate.per_second, rate.item);
     }
-    text += '\n';
-    if (s.scores) text += "scores against the ground truth of the recording\n" + table(*s.scores);
-    return text;
+    return text + '\n' + scores_text(s);
 }
 
 bool tell_losses(const std::string& name, const io::Recording& recording, const RunSummary& s) {

@@ -54,6 +54,8 @@ nlohmann::ordered_json timing_of(std::size_t scans, const StageClock& clock, int
 
 /// "12 scans (1 rejected); 345 points: 90.0 % static, ..."
 std::string points_text(const RunSummary& summary);
+/// The table of the scores; empty without ground truth.
+std::string scores_text(const RunSummary& summary);
 /// The closing lines of a recording that was filtered in memory.
 std::string to_text(const RunSummary& summary);
 

@@ -127,11 +127,8 @@ RunSummary write_drive(const Job& job, const Tiles& tiles, std::uint32_t number,
     add_scores(tiles, number, summary);
     io::write_file(folder / "metrics.json",
                    text_of(metrics_of(summary, drive.recording.info().losses)));
-    std::string log = log_of(drive.recording, summary) + "scans    " + points_text(summary) + "\n";
-    if (summary.scores) {
-        log += "scores against the ground truth of the recording\n" + table(*summary.scores);
-    }
-    io::write_file(folder / "run.log", log);
+    io::write_file(folder / "run.log", log_of(drive.recording, summary) + "scans    " +
+                                           points_text(summary) + "\n" + scores_text(summary));
     return summary;
 }
 
