@@ -9,8 +9,9 @@
 
 #include "base/numbers.hpp"
 #include "check/pose_mistakes.hpp"
-#include "dynamic_filter/error.hpp"
+#include "check/scan_input.hpp"
 #include "dynamic_filter/parallel.hpp"
+#include "tracking/beginning.hpp"
 #include "tracking/overlay_blur.hpp"
 
 namespace dynamic_filter::io {
@@ -23,16 +24,6 @@ constexpr std::array<std::size_t, 4> kErrorsApart = {1, 5, 10, 20};
 /// Consecutive scans as input of the odometry.
 using Piece = std::vector<Scan>;
 
-std::optional<Scan> read(const Recording& recording, std::size_t i) {
-    try {
-        FullScan scan = recording.read(i);
-        return Scan{std::move(scan.points), scan.T_world_sensor,  scan.stamp, i,
-                    scan.has_pose,          std::move(scan.times)};
-    } catch (const InputError&) {
-        return std::nullopt;
-    }
-}
-
 std::vector<Piece> read_pieces(const Recording& recording, std::size_t in_a_row) {
     std::vector<Piece> pieces;
     const std::size_t n = recording.size();
@@ -42,7 +33,7 @@ std::vector<Piece> read_pieces(const Recording& recording, std::size_t in_a_row)
         const std::size_t first = places > 1 ? k * room / (places - 1) : room / 2;
         Piece piece;
         for (std::size_t i = first; i < std::min(n, first + in_a_row); ++i) {
-            if (auto scan = read(recording, i)) piece.push_back(*std::move(scan));
+            if (auto scan = read_scan(recording, i)) piece.push_back(*std::move(scan));
         }
         pieces.push_back(std::move(piece));
     }
@@ -52,8 +43,14 @@ std::vector<Piece> read_pieces(const Recording& recording, std::size_t in_a_row)
 std::vector<Tracked> track(const Piece& piece, const OdometryConfig& config) {
     Odometry odometry(config);
     std::vector<Tracked> tracked;
+    const auto velocity =
+        initial_velocity(std::span(piece).first(std::min(piece.size(), kBeginning)), config);
     for (const Scan& scan : piece) {
-        tracked.push_back(odometry.track(scan.points, scan.times, scan.stamp));
+        std::optional<Pose> guess;
+        if (velocity && tracked.size() == 1) {
+            guess = exp(*velocity * (scan.stamp - piece.front().stamp));
+        }
+        tracked.push_back(odometry.track(scan.points, scan.times, scan.stamp, guess));
         odometry.learn({});
     }
     return tracked;
@@ -223,21 +220,6 @@ bool sharpens_both_halves(const Piece& piece, const Sweep& sweep, const Odometry
 }
 
 }  // namespace
-
-std::vector<std::optional<Tracked>> track_scans(const Recording& recording,
-                                                const OdometryConfig& config,
-                                                const std::function<bool()>& after) {
-    std::vector<std::optional<Tracked>> tracked(recording.size());
-    Odometry odometry(config);
-    for (std::size_t i = 0; i < recording.size(); ++i) {
-        if (const auto scan = read(recording, i)) {
-            tracked[i] = odometry.track(scan->points, scan->times, scan->stamp);
-            odometry.learn({});
-        }
-        if (after && !after()) break;
-    }
-    return tracked;
-}
 
 std::optional<Sweep> find_sweep(const Recording& recording, const OdometryConfig& given) {
     OdometryConfig config = given;

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+
+#include "check/loops.hpp"
+#include "check/scan_input.hpp"
+#include "dynamic_filter/check.hpp"
+#include "tracking/beginning.hpp"
+#include "tracking/pose_graph.hpp"
+#include "tracking/pose_hints.hpp"
+
+namespace dynamic_filter::io {
+namespace {
+
+using MaybePoses = std::vector<std::optional<Pose>>;
+
+/// The velocity at scan i, where a map begins.
+std::optional<Twist> velocity_at(const Recording& recording, std::size_t i,
+                                 const OdometryConfig& config) {
+    std::vector<Scan> first;
+    for (; i < recording.size() && first.size() < kBeginning; ++i) {
+        if (auto scan = read_scan(recording, i)) first.push_back(*std::move(scan));
+    }
+    return initial_velocity(first, config);
+}
+
+/// Given motions are the first guess of the odometry as long as they predict what it finds.
+class Guesses {
+public:
+    void begin(const std::optional<Twist>& velocity) {
+        velocity_ = velocity;
+        last_ = std::nullopt;
+    }
+    std::optional<Pose> before(const Scan& scan) {
+        std::optional<Pose> guess;
+        if (last_) {
+            if (velocity_) guess = exp(*velocity_ * (scan.stamp - last_->stamp));
+            given_ = scan.has_pose && last_->has_pose
+                         ? std::optional(last_->T_world_sensor.inverse() * scan.T_world_sensor)
+                         : std::nullopt;
+            if (given_ && is_trusted_) guess = given_;
+            velocity_ = std::nullopt;
+        }
+        last_ = StampedScan{scan.stamp, scan.T_world_sensor, scan.has_pose};
+        return guess;
+    }
+    /// `moved`: what the odometry found.
+    void after(const Pose& moved) {
+        constexpr double kShift = 0.1, kShare = 0.1, kTurn = 0.03;  // [m], share of the way, [rad]
+        if (!given_) return;
+        const Twist off = log(given_->inverse() * moved);
+        is_trusted_ = off.head<3>().norm() < kShift + kShare * moved.translation().norm() &&
+                      off.tail<3>().norm() < kTurn;
+    }
+
+private:
+    struct StampedScan {
+        double stamp;
+        Pose T_world_sensor;
+        bool has_pose;
+    };
+    std::optional<Twist> velocity_;
+    std::optional<StampedScan> last_;
+    std::optional<Pose> given_;
+    bool is_trusted_ = false;
+};
+
+/// The odometry over all scans; it begins a new map where it was lost for long.
+std::vector<std::optional<Tracked>> follow(const Recording& recording, const OdometryConfig& config,
+                                           const std::function<bool()>& after) {
+    std::vector<std::optional<Tracked>> tracked(recording.size());
+    Odometry odometry(config);
+    Guesses guesses;
+    guesses.begin(velocity_at(recording, 0, config));
+    Pose T_world_last = Pose::Identity();
+    for (std::size_t i = 0; i < recording.size(); ++i) {
+        if (const auto scan = read_scan(recording, i)) {
+            tracked[i] =
+                odometry.track(scan->points, scan->times, scan->stamp, guesses.before(*scan));
+            odometry.learn({});
+            guesses.after(T_world_last.inverse() * tracked[i]->T_world_sensor);
+            T_world_last = tracked[i]->T_world_sensor;
+            if (tracked[i]->begins_anew) guesses.begin(velocity_at(recording, i, config));
+        }
+        if (after && !after()) break;
+    }
+    return tracked;
+}
+
+/// Motions between neighbouring scans. Their errors add up over the way like those of a random
+/// walk.
+std::vector<Motion> neighbours(const std::vector<std::optional<Tracked>>& tracked) {
+    constexpr double kShift = 0.01, kTurn = 2e-4;            // [m], [rad] per root of a metre
+    constexpr double kLeastShift = 1e-3, kLeastTurn = 4e-5;  // [m], [rad] of a sensor that rests
+    constexpr double kLostShift = 2.0, kLostTurn = 0.2;      // [m], [rad] of a guess
+    std::vector<Motion> motions;
+    std::optional<std::size_t> last;
+    for (std::size_t i = 0; i < tracked.size(); ++i) {
+        if (!tracked[i]) continue;
+        if (last) {
+            const Pose moved =
+                tracked[*last]->T_world_sensor.inverse() * tracked[i]->T_world_sensor;
+            const double root = std::sqrt(moved.translation().norm());
+            const bool lost = tracked[i]->status == TrackStatus::lost || tracked[i]->begins_anew;
+            Twist error;
+            error << Eigen::Vector3d::Constant(lost ? kLostShift : kLeastShift + kShift * root),
+                Eigen::Vector3d::Constant(lost ? kLostTurn : kLeastTurn + kTurn * root);
+            Information covariance = tracked[i]->covariance;
+            covariance.diagonal() += error.cwiseAbs2();
+            motions.push_back({*last, i, moved, covariance.inverse(), false});
+        }
+        last = i;
+    }
+    return motions;
+}
+
+MaybePoses given_poses(const Recording& recording) {
+    MaybePoses given(recording.size());
+    const auto& poses = recording.info().T_world_sensor;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        if (poses[i].matrix().allFinite()) given[i] = poses[i];
+    }
+    return given;
+}
+
+/// Where the trajectory begins in the world: so that the hint in the middle holds.
+Pose beginning_of(const std::vector<std::optional<Tracked>>& tracked,
+                  const std::vector<PoseHint>& hints) {
+    if (hints.empty()) return Pose::Identity();
+    const PoseHint& hint = hints[hints.size() / 2];
+    return hint.T_world_sensor * tracked[hint.scan]->T_world_sensor.inverse();
+}
+
+void move_to(std::vector<std::optional<Tracked>>& tracked, const std::vector<Pose>& poses) {
+    for (std::size_t i = 0; i < tracked.size(); ++i) {
+        if (tracked[i]) tracked[i]->T_world_sensor = poses[i];
+    }
+}
+
+std::vector<Pose> poses_of(const std::vector<std::optional<Tracked>>& tracked) {
+    std::vector<Pose> poses(tracked.size(), Pose::Identity());
+    for (std::size_t i = 0; i < tracked.size(); ++i) {
+        if (tracked[i]) poses[i] = tracked[i]->T_world_sensor;
+    }
+    return poses;
+}
+
+}  // namespace
+
+std::vector<std::optional<Tracked>> track_scans(const Recording& recording,
+                                                const OdometryConfig& config,
+                                                const std::function<bool()>& after) {
+    constexpr int kRounds = 3;  // corrected poses meet at more places
+    std::vector<std::optional<Tracked>> tracked = follow(recording, config, after);
+    const std::vector<Motion> chain = neighbours(tracked);
+    MaybePoses shown(tracked.size());
+    for (std::size_t i = 0; i < tracked.size(); ++i) {
+        if (tracked[i]) shown[i] = tracked[i]->T_world_sensor;
+    }
+    const std::vector<PoseHint> hints = hints_of(given_poses(recording), shown);
+    const Pose T_world_odometry = beginning_of(tracked, hints);
+    std::vector<Pose> start = poses_of(tracked);
+    for (Pose& pose : start) pose = T_world_odometry * pose;
+    std::vector<Motion> loops;
+    for (int round = 0; round < kRounds; ++round) {
+        std::vector<Motion> motions = chain;
+        motions.insert(motions.end(), loops.begin(), loops.end());
+        move_to(tracked, solve_pose_graph(start, motions, hints));
+        std::vector<Motion> more = find_loops(with_poses(recording, tracked));
+        if (more.size() <= loops.size()) break;
+        loops = std::move(more);
+    }
+    return tracked;
+}
+
+}  // namespace dynamic_filter::io

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "tracking/beginning.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "dynamic_filter/tracking.hpp"
+#include "tracking/coarse_search.hpp"
+#include "tracking/scan_sample.hpp"
+#include "tracking/upright.hpp"
+
+namespace dynamic_filter {
+namespace {
+
+constexpr double kApart = 0.3;           // [s] between the scans that are compared from above
+constexpr std::size_t kVelocities = 3;   // velocities that are tried beside the first one
+constexpr double kSameTrack = 0.7;       // [m] displacements nearer to each other lead to one track
+constexpr double kQuickestTurn = 1.5;    // [rad/s]
+constexpr double kClearlyBetter = 1.05;  // factor of the overlay that counts as clearly better
+constexpr int kFewPoints = 1500;         // of a scan; the odometry itself uses more
+constexpr std::array<std::size_t, 3> kSeparations = {1, 3, 5};  // of the scans that are overlaid
+
+using Track = std::vector<Pose>;
+
+Track track_from(std::span<const Scan> scans, const OdometryConfig& config,
+                 const std::optional<Twist>& velocity) {
+    Odometry odometry(config);
+    Track track;
+    for (const Scan& scan : scans) {
+        std::optional<Pose> guess;
+        if (velocity && track.size() == 1) guess = exp(*velocity * (scan.stamp - scans[0].stamp));
+        track.push_back(odometry.track(scan.points, scan.times, scan.stamp, guess).T_world_sensor);
+        odometry.learn({});
+    }
+    return track;
+}
+
+/// Mean overlay of the upright structures.
+double overlay_of(const std::vector<Points>& upright, const Track& track) {
+    double sum = 0.0, count = 0.0;
+    for (const std::size_t apart : kSeparations) {
+        for (std::size_t i = apart; i < track.size(); ++i) {
+            sum += upright_overlay(upright[i - apart], upright[i],
+                                   track[i - apart].inverse() * track[i]);
+            count += 1.0;
+        }
+    }
+    return count > 0.0 ? sum / count : 0.0;
+}
+
+}  // namespace
+
+std::optional<Twist> initial_velocity(std::span<const Scan> first, const OdometryConfig& given) {
+    if (first.size() < 3) return std::nullopt;
+    OdometryConfig config = given;
+    config.points = std::min(config.points, kFewPoints);
+    std::size_t later = 1;
+    while (later + 1 < first.size() && first[later].stamp - first[0].stamp < kApart) ++later;
+    const double passed = first[later].stamp - first[0].stamp;
+    if (!(passed > 0.0)) return std::nullopt;
+
+    const Track usual = track_from(first, config, std::nullopt);
+    const SearchWindow window{std::clamp(config.speed * passed, 2.0, 20.0),
+                              std::clamp(kQuickestTurn * passed, 0.1, 0.6)};
+    const auto sample = [&](const Scan& scan) {
+        return sample_for_map(scan.points, {}, config).points;
+    };
+    const auto seen_from_above =
+        search_displacements(sample(first[0]), sample(first[later]), window, kVelocities);
+    std::vector<Pose> tried = {usual[later]};
+    std::vector<Points> upright;
+    Track best = usual;
+    double to_beat = 0.0;
+    for (const Pose& displacement : seen_from_above) {
+        const bool is_same = std::any_of(tried.begin(), tried.end(), [&](const Pose& other) {
+            return (other.translation() - displacement.translation()).norm() < kSameTrack;
+        });
+        if (is_same) continue;
+        if (upright.empty()) {
+            for (const Scan& scan : first) upright.push_back(upright_points(scan.points));
+            to_beat = kClearlyBetter * overlay_of(upright, usual);
+        }
+        const Track track = track_from(first, config, log(displacement) / passed);
+        tried.push_back(track[later]);
+        const double overlay = overlay_of(upright, track);
+        if (overlay <= to_beat) continue;
+        to_beat = overlay;
+        best = track;
+    }
+    return log(best[1]) / (first[1].stamp - first[0].stamp);
+}
+
+}  // namespace dynamic_filter

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "tracking/upright.hpp"
+
+#include <tsl/robin_map.h>
+#include <tsl/robin_set.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "dynamic_filter/motion.hpp"
+#include "geometry/voxel.hpp"
+
+namespace dynamic_filter {
+namespace {
+
+std::optional<VoxelKey> column_of(const Point& p, float size) {
+    const auto cell = cell_of({p.x(), p.y(), 0.0F}, 1.0F / size);
+    return cell ? std::optional(pack(*cell)) : std::nullopt;
+}
+
+}  // namespace
+
+Points upright_points(const Points& points) {
+    constexpr float kNearest = 2.0F, kFarthest = 30.0F;  // [m]
+    constexpr float kColumn = 0.6F, kTall = 0.5F;        // [m]
+    struct Extent {
+        float low, high;
+    };
+    tsl::robin_map<VoxelKey, Extent, VoxelHash> columns;
+    const auto column = [&](const Point& p) {
+        const bool usable = is_measured(p) && p.norm() > kNearest && p.norm() < kFarthest;
+        return usable ? column_of(p, kColumn) : std::nullopt;
+    };
+    for (const Point& p : points) {
+        if (const auto key = column(p)) {
+            Extent& e = columns.try_emplace(*key, Extent{p.z(), p.z()}).first.value();
+            e = {std::min(e.low, p.z()), std::max(e.high, p.z())};
+        }
+    }
+    Points kept;
+    for (const Point& p : points) {
+        const auto key = column(p);
+        if (!key) continue;
+        const Extent& e = columns.at(*key);
+        if (e.high - e.low > kTall && p.z() > e.low + 0.5F * kTall) kept.push_back(p);
+    }
+    return kept;
+}
+
+double upright_overlay(const Points& a, const Points& b, const Pose& T_a_b) {
+    constexpr float kSize = 0.3F;  // [m]
+    using Columns = tsl::robin_set<VoxelKey, VoxelHash>;
+    const auto columns_of = [](const Points& points) {
+        Columns columns;
+        for (const Point& p : points) {
+            if (const auto key = column_of(p, kSize)) columns.insert(*key);
+        }
+        return columns;
+    };
+    const Columns there = columns_of(a), here = columns_of(moved(b, T_a_b));
+    const auto common =
+        std::count_if(here.begin(), here.end(), [&](VoxelKey key) { return there.contains(key); });
+    return here.empty() ? 0.0 : static_cast<double>(common) / static_cast<double>(here.size());
+}
+
+}  // namespace dynamic_filter
