@@ -112,7 +112,7 @@ def kind_of(path):
     if path.name.startswith("dynamic_points"):
         return "dynamic"
     return {"metrics.json": "metrics", "poses.txt": "poses", "run.log": "log", "timing.json": "timing",
-            "config.toml": "config"}.get(path.name, "others")
+            "config.toml": "config", "recording.json": "recording"}.get(path.name, "others")
 
 
 class Work:

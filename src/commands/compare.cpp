@@ -13,6 +13,7 @@
 #include "page/run_view.hpp"
 #include "recording/data_options.hpp"
 #include "recording/scans.hpp"
+#include "run/open_for_result.hpp"
 #include "run/scored_scans.hpp"
 #include "score/report.hpp"
 
@@ -34,7 +35,7 @@ std::string name_of(const fs::path& result) {
 }
 
 /// A map that somebody else made clean: its points, and its scores if there is ground truth.
-PageRun view_of_map(const fs::path& file, const io::Recording* truth, double voxel) {
+PageRun view_of_map(const fs::path& file, const ReportOptions& o) {
     const io::Cloud cloud = io::read_cloud(file);
     PageRun run = view_of(cloud);
     run.info["name"] = file.filename().string();
@@ -42,15 +43,17 @@ PageRun view_of_map(const fs::path& file, const io::Recording* truth, double vox
     run.info["version"] = DYNAMIC_FILTER_VERSION;
     run.info["input"] = file.string();
     run.info["scores"] = nullptr;
-    if (truth == nullptr) return run;
-    const Eigen::Vector3d origin = scoring_origin(*truth, voxel);
-    run.info["scores"] = to_json(eval::score_map(truth->size(), scan_source(*truth, origin, {}),
-                                                 positions_from(cloud, origin), voxel));
+    if (o.truth.data.empty()) return run;
+    const RecordingOfResult opened = open_for_result(o.truth, file);
+    if (!opened.note.empty()) fmt::print(stderr, "note: {}\n", opened.note);
+    const io::Recording& truth = opened.recording;
+    const Eigen::Vector3d origin = scoring_origin(truth, o.voxel);
+    run.info["scores"] = to_json(eval::score_map(truth.size(), scan_source(truth, origin, {}),
+                                                 positions_from(cloud, origin), o.voxel));
     return run;
 }
 
-std::string run_of(const fs::path& result, std::size_t number, const io::Recording* truth,
-                   double voxel) {
+std::string run_of(const fs::path& result, std::size_t number, const ReportOptions& o) {
     if (fs::is_directory(result)) {
         const fs::path page = result / "report.html";
         if (is_tiled_map(result)) {
@@ -67,16 +70,14 @@ std::string run_of(const fs::path& result, std::size_t number, const io::Recordi
         return run_of_report(page, number);
     }
     if (result.extension() == ".html") return run_of_report(result, number);
-    return embedded(view_of_map(result, truth, voxel), number);
+    return embedded(view_of_map(result, o), number);
 }
 
 }  // namespace
 
 int report(const ReportOptions& o) {
     require_extension(o.output, ".html");
-    std::optional<io::Recording> truth;
-    if (!o.truth.data.empty()) truth = open(o.truth);
-    if (truth && !truth->info().has_truth()) {
+    if (!o.truth.data.empty() && !open(o.truth).info().has_truth()) {
         throw InputError(o.truth.data, "",
                          "has no ground truth (labels/*.label, or 0/1 intensities)");
     }
@@ -85,7 +86,7 @@ int report(const ReportOptions& o) {
         if (fs::exists(o.output) && fs::equivalent(result, o.output)) {
             throw ConfigError(o.output.string() + ": is what is to be shown; choose another -o");
         }
-        runs.push_back(run_of(result, runs.size(), truth ? &*truth : nullptr, o.voxel));
+        runs.push_back(run_of(result, runs.size(), o));
         fmt::print("{:<10} {}\n", runs.size() == 1 ? "shown" : "beside it", name_of(result));
     }
     io::write_file(o.output, page_with(runs));

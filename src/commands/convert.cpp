@@ -18,6 +18,7 @@
 #include "formats/label_files.hpp"
 #include "formats/voxel_map/map_index.hpp"
 #include "recording/scans.hpp"
+#include "run/open_for_result.hpp"
 #include "settings/config_file.hpp"
 
 namespace fs = std::filesystem;
@@ -81,7 +82,10 @@ int convert_recording(const ConvertOptions& o) {
     if (kind != nullptr && kind->of_recording == nullptr) {
         throw ConfigError("--to " + o.to + " is for a map: give a cloud file as IN");
     }
-    io::Recording recording = open(o.data);
+    const RecordingOfResult opened =
+        o.labels ? open_for_result(o.data, *o.labels) : RecordingOfResult{open(o.data)};
+    io::Recording recording = opened.recording;
+    say(opened.note);
     ensure_poses(recording, preset("default"), o.data.deskew, false);
     for (const std::string& note : recording.info().notes) fmt::print(stderr, "note: {}\n", note);
     for (const std::string& line : recording.info().losses)

@@ -16,6 +16,7 @@
 #include "formats/label_files.hpp"
 #include "recording/data_options.hpp"
 #include "recording/scans.hpp"
+#include "run/open_for_result.hpp"
 #include "run/scored_scans.hpp"
 #include "score/protocols.hpp"
 #include "score/range_limits.hpp"
@@ -53,17 +54,10 @@ std::string ranges_text(const RangeLimits& ranges) {
     return fmt::format("scored are points from {:g} m{} of the sensor\n", ranges.min, far);
 }
 
-/// Opens the recording. If it has no poses, uses those that the run found.
-io::Recording with_poses(const EvalOptions& o) {
-    io::Recording recording = open(o.truth);
-    if (recording.info().has_poses) return recording;
-    const std::filesystem::path labels = o.labels.value_or("");
-    for (const auto& file : {labels / "poses.txt", labels.parent_path() / "poses.txt"}) {
-        if (!o.labels || !std::filesystem::exists(file)) continue;
-        DataOptions with = o.truth;
-        with.poses = file;
-        return open(with);
-    }
+/// Opens the recording as it goes with what is to be scored.
+RecordingOfResult open_truth(const EvalOptions& o) {
+    RecordingOfResult truth = open_for_result(o.truth, o.labels ? *o.labels : *o.map);
+    if (truth.recording.info().has_poses) return truth;
     throw InputError(o.truth.data, "",
                      "has no poses, so its voxels cannot be scored; give those of the run with "
                      "--poses");
@@ -75,7 +69,8 @@ Evaluation scores_of(const EvalOptions& o) {
     if (!(o.ranges.min >= 0.0 && o.ranges.max > o.ranges.min)) {
         throw ConfigError("--min-range must be 0 or more, and less than --max-range");
     }
-    const io::Recording recording = with_poses(o);
+    const RecordingOfResult truth = open_truth(o);
+    const io::Recording& recording = truth.recording;
     if (!recording.info().has_truth()) {
         throw InputError(o.truth.data, "",
                          "has no ground truth (labels/*.label, or 0/1 intensities)");
@@ -99,12 +94,13 @@ Evaluation scores_of(const EvalOptions& o) {
                         "as the scans, for instance {}.label",
                         o.truth.data.string(), io::stem(recording, 0)));
     }
-    return {std::move(scores), recording.size(), missing};
+    return {std::move(scores), recording.size(), missing, truth.note};
 }
 
 int evaluate(const EvalOptions& o) {
     if (o.json) require_extension(*o.json, ".json");
     const Evaluation e = scores_of(o);
+    if (!e.note.empty()) fmt::print(stderr, "note: {}\n", e.note);
     fmt::print("{}{}", ranges_text(o.ranges), protocol_table(o.protocol, e.scores, o.voxel));
     if (o.json) io::write_file(*o.json, text_of(to_json(e.scores)));
     if (e.left_out == 0) return kDone;

@@ -22,6 +22,7 @@ struct EvalOptions {
 struct Evaluation {
     eval::Scores scores;
     std::size_t scans = 0, left_out = 0;  ///< left out: unreadable, or without labels
+    std::string note{};  ///< how the recording was read for the result; may be empty
 };
 
 /// Computes what `eval` prints, and throws the same errors.

@@ -14,10 +14,13 @@
 
 namespace dynamic_filter::app {
 
+/// As a pose file: the poses of the recording are not read. A file of that name is meant by ./none.
+inline constexpr const char* kNoPoses = "none";
+
 /// A recording, and how to read it.
 struct DataOptions {
     std::filesystem::path data;
-    std::optional<std::filesystem::path> poses{};  ///< "none": the recording's own are not read
+    std::optional<std::filesystem::path> poses{};  ///< or kNoPoses
     std::string format{};                          ///< name of a layout; empty: recognised
     std::string topic{}, pose_topic{};             ///< of a bag; empty: chosen
     std::string pose_fix = "none", time_unit = "s";

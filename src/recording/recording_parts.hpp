@@ -28,6 +28,9 @@ void check_selection(std::size_t first, std::optional<std::size_t> last, std::si
 void select(RecordingParts& parts, std::size_t first, std::optional<std::size_t> last,
             std::size_t stride);
 
+/// The scans of these indices, in this order.
+Recording chosen_scans(const Recording& recording, const std::vector<std::size_t>& indices);
+
 /// Transforms the points of a cloud in world coordinates into the sensor frame; in double, because
 /// the world may be far from its origin.
 Points into_sensor(const Cloud& cloud, const Pose& T_world_sensor);

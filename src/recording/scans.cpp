@@ -48,8 +48,7 @@ io::Recording open(const DataOptions& options) {
                         .pose_fix = pose_fix_of(options.pose_fix),
                         .points_in_world = options.points_in_world,
                         .time_unit = seconds_of(options.time_unit)};
-    // A file of that name would be meant by ./none.
-    if (how.poses == std::filesystem::path("none")) {
+    if (how.poses == std::filesystem::path(kNoPoses)) {
         how.poses.reset();
         how.without_poses = true;
     }

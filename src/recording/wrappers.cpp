@@ -28,6 +28,19 @@ std::vector<std::size_t> chosen_of(std::size_t size, std::size_t first, std::siz
     return chosen;
 }
 
+void keep_scans(RecordingParts& parts, const std::vector<std::size_t>& chosen) {
+    Info& info = parts.info;
+    keep(info.scan_files, chosen);
+    keep(info.label_files, chosen);
+    keep(info.T_world_sensor, chosen);
+    keep(info.stamps, chosen);
+    keep(info.pose_stamps, chosen);
+    keep(parts.velocities, chosen);
+    parts.read_cloud = [read = std::move(parts.read_cloud), chosen](std::size_t i) {
+        return read(chosen.at(i));
+    };
+}
+
 /// Why the motion within scans cannot be undone; empty if it can.
 std::string obstacle_to_deskew(const RecordingParts& parts) {
     const Info& info = parts.info;
@@ -52,23 +65,19 @@ void check_selection(std::size_t first, std::optional<std::size_t> last, std::si
 void select(RecordingParts& parts, std::size_t first, std::optional<std::size_t> last,
             std::size_t stride) {
     check_selection(first, last, stride);
-    Info& info = parts.info;
-    const std::size_t size = info.scan_files.size();
+    const std::size_t size = parts.info.scan_files.size();
     if (first >= size) {
         throw ConfigError(fmt::format("--first {} is beyond the last of {} scans (index {})", first,
                                       size, size - 1));
     }
     const auto chosen = chosen_of(size, first, last.value_or(size - 1), stride);
-    if (chosen.size() == size) return;
-    keep(info.scan_files, chosen);
-    keep(info.label_files, chosen);
-    keep(info.T_world_sensor, chosen);
-    keep(info.stamps, chosen);
-    keep(info.pose_stamps, chosen);
-    keep(parts.velocities, chosen);
-    parts.read_cloud = [read = std::move(parts.read_cloud), chosen](std::size_t i) {
-        return read(chosen.at(i));
-    };
+    if (chosen.size() != size) keep_scans(parts, chosen);
+}
+
+Recording chosen_scans(const Recording& recording, const std::vector<std::size_t>& indices) {
+    RecordingParts parts = recording.parts();
+    keep_scans(parts, indices);
+    return Recording(std::move(parts));
 }
 
 Recording slice(const Recording& recording, std::size_t first, std::optional<std::size_t> last,

@@ -24,6 +24,7 @@
 #include "page/run_view.hpp"
 #include "recording/scans.hpp"
 #include "run/label_store.hpp"
+#include "run/placed.hpp"
 #include "run/scored_scans.hpp"
 #include "run/write_scans.hpp"
 #include "score/report.hpp"
@@ -182,6 +183,8 @@ void filter_scans(Whole& whole) {
     finish(whole);
     add_notices(whole);
     use_poses(whole);
+    write_placed(whole.output.path(),
+                 placed_of(whole.recording, whole.o.data, whole.job.fingerprints.front()));
     const bool none =
         std::find(whole.accepted.begin(), whole.accepted.end(), true) == whole.accepted.end();
     if (none && !whole.summary.interrupted) {

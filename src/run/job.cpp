@@ -11,6 +11,7 @@
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/parallel.hpp"
 #include "recording/scans.hpp"
+#include "run/placed.hpp"
 #include "run/run_state.hpp"
 #include "settings/config_file.hpp"
 
@@ -57,6 +58,7 @@ Job open_tiled_job(const RunOptions& o, std::vector<DriveSource> sources) {
     Job job{.config = load_config(o.config),
             .sources = std::move(sources),
             .drives = {},
+            .fingerprints = {},
             .is_tiled = true,
             .part = {},
             .plan = {},
@@ -65,7 +67,10 @@ Job open_tiled_job(const RunOptions& o, std::vector<DriveSource> sources) {
     refuse_what_tiles_cannot(o, job.config);
     job.drives = open_drives(job.sources, o.data);
     job.mark = version_text() + fmt::format("tiles of {} voxels\n", o.tile_voxels);
-    for (const Drive& drive : job.drives) job.mark += state_of(drive.recording);
+    for (const Drive& drive : job.drives) {
+        job.mark += state_of(drive.recording);
+        job.fingerprints.push_back(fingerprint_of(drive.recording));
+    }
     job.mark += to_toml(job.config);
     return job;
 }
@@ -79,11 +84,13 @@ Job open_job(const RunOptions& o) {
     Job job{.config = load_config(o.config),
             .sources = {{.recording = o.data.data}},
             .drives = {},
+            .fingerprints = {},
             .is_tiled = false,
             .part = {},
             .plan = {},
             .mark = {}};
     job.drives.push_back({.name = o.data.data.filename().string(), .recording = open(o.data)});
+    job.fingerprints.push_back(fingerprint_of(job.drives.front().recording));
     return job;
 }
 

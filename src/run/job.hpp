@@ -19,6 +19,7 @@ struct Job {
     Config config;
     std::vector<DriveSource> sources;  ///< the recordings as they were given
     std::vector<Drive> drives;
+    std::vector<std::string> fingerprints;  ///< of the drives as they were opened; placed.hpp
     /// True: filtered tile by tile, which needs a plan. False: one recording, in memory.
     bool is_tiled = false;
     std::optional<PartNumber> part;  ///< empty: all tiles

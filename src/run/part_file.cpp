@@ -8,6 +8,7 @@
 
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
+#include "run/data_json.hpp"
 
 namespace dynamic_filter::app {
 
@@ -16,58 +17,14 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-std::string full(const fs::path& path) { return fs::absolute(path).lexically_normal().string(); }
-
 Json json_of(const std::vector<DriveSource>& sources) {
     Json json = Json::array();
     for (const DriveSource& source : sources) {
-        Json one{{"recording", full(source.recording)}};
-        if (source.poses) one["poses"] = full(*source.poses);
+        Json one{{"recording", full_path(source.recording)}};
+        if (source.poses) one["poses"] = full_path(*source.poses);
         json.push_back(one);
     }
     return json;
-}
-
-void add(Json& json, const char* name, const std::optional<fs::path>& value) {
-    if (value) json[name] = full(*value);
-}
-
-void add(Json& json, const char* name, const std::optional<std::size_t>& value) {
-    if (value) json[name] = *value;
-}
-
-template <class T>
-void add(Json& json, const char* name, const T& value) {
-    json[name] = value;
-}
-
-Json json_of(const DataOptions& data) {
-    Json json;
-    visit_reading(data, [&](const ReadingOption& option, const auto& value) {
-        add(json, option.name, value);
-    });
-    return json;
-}
-
-template <class T>
-void find(const Json& json, const char* name, T& value) {
-    json.at(name).get_to(value);
-}
-
-void find(const Json& json, const char* name, std::optional<fs::path>& value) {
-    if (json.contains(name)) value = json[name].get<std::string>();
-}
-
-void find(const Json& json, const char* name, std::optional<std::size_t>& value) {
-    if (json.contains(name)) value = json[name].get<std::size_t>();
-}
-
-DataOptions data_of(const Json& json) {
-    DataOptions data;
-    visit_reading(
-        data, [&](const ReadingOption& option, auto& value) { find(json, option.name, value); });
-    refuse_invalid(data, Asker::command);
-    return data;
 }
 
 }  // namespace
@@ -120,7 +77,7 @@ Part read_part(const fs::path& folder) {
             if (drive.contains("poses")) source.poses = drive["poses"].get<std::string>();
             part.sources.push_back(std::move(source));
         }
-        part.run.data = data_of(json.at("reading"));
+        part.run.data = data_options_of(json.at("reading"));
         part.run.tile_voxels = json.at("tile_voxels");
         part.run.maps = json.at("maps");
         part.run.report = json.at("report");

@@ -5,6 +5,7 @@
 
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
+#include "run/placed.hpp"
 
 namespace dynamic_filter::app {
 
@@ -19,7 +20,8 @@ constexpr std::string_view kComplete = "complete\n";
 const FolderFiles& result_files() {
     static const FolderFiles files{
         .files = {"static_map.pcd", "dynamic_points.pcd", "metrics.json", "timing.json",
-                  "config.toml", "run.log", "report.html", "map_gaps.bin", "part.json", kRunState},
+                  "config.toml", "run.log", "report.html", "poses.txt", kPlacedFile, "map_gaps.bin",
+                  "part.json", kRunState},
         .folders = {{"labels", ".label"},
                     {"unedited", ".label"},
                     {"unedited", ".pcd"},
@@ -38,7 +40,7 @@ const FolderFiles& result_files() {
     return files;
 }
 
-std::string state_of(const io::Recording& recording) {
+std::string scans_text(const io::Recording& recording) {
     std::error_code ignored;
     std::uintmax_t bytes =
         recording.info().layout == "bag" && fs::is_regular_file(recording.info().root, ignored)
@@ -47,10 +49,14 @@ std::string state_of(const io::Recording& recording) {
     for (const fs::path& file : recording.info().scan_files) {
         if (fs::is_regular_file(file, ignored)) bytes += fs::file_size(file, ignored);
     }
-    return fmt::format("input {}\nscans {} from {} to {}, {} bytes\n",
-                       fs::absolute(recording.info().root).lexically_normal().string(),
-                       recording.size(), io::stem(recording, 0),
+    return fmt::format("scans {} from {} to {}, {} bytes", recording.size(), io::stem(recording, 0),
                        io::stem(recording, recording.size() - 1), bytes);
+}
+
+std::string state_of(const io::Recording& recording) {
+    return fmt::format("input {}\n{}\n",
+                       fs::absolute(recording.info().root).lexically_normal().string(),
+                       scans_text(recording));
 }
 
 void refuse_foreign_labels(const fs::path& folder) {

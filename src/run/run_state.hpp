@@ -14,6 +14,8 @@ namespace dynamic_filter::app {
 /// What a run leaves.
 const FolderFiles& result_files();
 
+/// How many scans the recording has, the first and the last one, and their size.
+std::string scans_text(const io::Recording& recording);
 /// The recording: where it is, its scans and their size.
 std::string state_of(const io::Recording& recording);
 

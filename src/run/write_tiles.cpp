@@ -16,6 +16,7 @@
 #include "page/map_page.hpp"
 #include "page/page.hpp"
 #include "recording/scans.hpp"
+#include "run/placed.hpp"
 #include "run/run.hpp"
 #include "run/run_state.hpp"
 #include "run/tile_file.hpp"
@@ -107,8 +108,8 @@ void add_scores(const Tiles& tiles, std::uint32_t drive, RunSummary& summary) {
     summary.instant_scores = instant.scores();
 }
 
-RunSummary write_drive(const Job& job, const Tiles& tiles, std::uint32_t number, bool maps,
-                       const fs::path& folder, Progress& progress) {
+RunSummary write_drive(const Job& job, const Tiles& tiles, std::uint32_t number,
+                       const RunOptions& o, const fs::path& folder, Progress& progress) {
     const Drive& drive = job.drives[number];
     const PlannedDrive& planned = job.plan.drives[number];
     RunSummary summary;
@@ -122,7 +123,9 @@ RunSummary write_drive(const Job& job, const Tiles& tiles, std::uint32_t number,
         summary.count(verdict.labels);
         progress.advance();
     };
-    write_scans(drive.recording, used_scans(planned), job.config, maps, folder,
+    const DataOptions how = options_of(job.sources, o.data)[number];
+    write_placed(folder, placed_of(drive.recording, how, job.fingerprints[number]));
+    write_scans(drive.recording, used_scans(planned), job.config, o.maps, folder,
                 {.decide = decide, .use = use});
     add_scores(tiles, number, summary);
     io::write_file(folder / "metrics.json",
@@ -201,16 +204,16 @@ Totals totals_of(const Job& job, const Tiles& tiles, const std::vector<RunSummar
     return totals;
 }
 
-std::vector<RunSummary> write_drives(const Job& job, const Tiles& tiles, bool maps,
-                                     const fs::path& out, bool quiet) {
+std::vector<RunSummary> write_drives(const Job& job, const Tiles& tiles, const RunOptions& o,
+                                     const fs::path& out) {
     std::size_t scans = 0;
     for (const Drive& drive : job.drives) scans += drive.recording.size();
-    Progress progress("write", scans, quiet);
+    Progress progress("write", scans, o.quiet);
     std::vector<RunSummary> summaries;
     for (std::uint32_t d = 0; d < job.drives.size(); ++d) {
         const fs::path folder = folder_of(job, d, out);
         fs::create_directories(folder);
-        summaries.push_back(write_drive(job, tiles, d, maps, folder, progress));
+        summaries.push_back(write_drive(job, tiles, d, o, folder, progress));
     }
     return summaries;
 }
@@ -283,9 +286,8 @@ RunResult finish_tiles(const Job& job, const TileFolders& folders, const RunOpti
     {
         const Tiles tiles = open_tiles(job, folders);
         io::write_file(output.path() / "config.toml", to_toml(job.config));
-        with_threads(o.threads, [&] {
-            result.recordings = write_drives(job, tiles, o.maps, output.path(), o.quiet);
-        });
+        with_threads(o.threads,
+                     [&] { result.recordings = write_drives(job, tiles, o, output.path()); });
         write_map(job, tiles, folders, owns, output.path() / "map");
         clock.finish("write");
         const Totals totals = totals_of(job, tiles, result.recordings);

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -252,6 +254,47 @@ TEST_F(Command, EvalOfLabelsAndOfTheMapAgreeWithTheRun) {
     EXPECT_NEAR(map["voxel"]["excluded"]["f1"], labels["voxel"]["excluded"]["f1"], 0.002);
     EXPECT_NEAR(map["point"]["aa"], labels["point"]["aa"], 0.002);
     EXPECT_EQ(run("eval --truth " + recording().string()), 2);
+}
+
+/// x, y and z of all points of clouds, in an order that does not depend on that of the points.
+std::vector<std::array<double, 3>> sorted_points(const std::vector<fs::path>& files) {
+    std::vector<std::array<double, 3>> points;
+    for (const fs::path& file : files) {
+        const io::Cloud cloud = io::read_cloud(file);
+        const auto x = io::values(cloud, *cloud.find("x")), y = io::values(cloud, *cloud.find("y")),
+                   z = io::values(cloud, *cloud.find("z"));
+        for (std::size_t i = 0; i < cloud.size(); ++i) points.push_back({x[i], y[i], z[i]});
+    }
+    std::sort(points.begin(), points.end());
+    return points;
+}
+
+// Found poses, refined poses and motion that was undone: the result brings them all.
+TEST_F(Command, WhoTakesAResultHasThePointsOfItsRun) {
+    ASSERT_EQ(run("simulate crowd --frames 10 --pedestrians 10 --sweep -q -o sweeps"), 0);
+    const std::string still = recording().string();
+    for (const auto& [data, how] : {std::pair<std::string, std::string>{"sweeps", "--deskew on"},
+                                    {"sweeps", "--poses none --deskew on"},
+                                    {still, "--refine on --last 9"},
+                                    {still, "--pose-fix inverse --refine off"}}) {
+        ASSERT_EQ(run("run " + data + " --no-report --overwrite -o out " + how), 0) << said();
+        ASSERT_EQ(run("convert " + data + " all.pcd --overwrite --labels out"), 0) << said();
+        expect_said("the recording is read as by the run in out: with ");
+        EXPECT_EQ(
+            sorted_points({folder_ / "all.pcd"}),
+            sorted_points({folder_ / "out/static_map.pcd", folder_ / "out/dynamic_points.pcd"}))
+            << data << " " << how;
+        const auto metrics = nlohmann::json::parse(slurp(folder_ / "out/metrics.json"));
+        ASSERT_EQ(run("eval --truth " + data + " --labels out --json s.json"), 0) << said();
+        expect_said("the recording is read as by the run in out: with ");
+        const auto scores = nlohmann::json::parse(slurp(folder_ / "s.json"));
+        EXPECT_EQ(scores["voxel"], metrics["voxel"]) << data << " " << how;
+        EXPECT_EQ(scores["point"], metrics["point"]) << data << " " << how;
+    }
+    // What is given on the command line goes before.
+    ASSERT_EQ(run("convert " + still + " given --labels out --poses " + still + "/poses.txt"), 0)
+        << said();
+    EXPECT_EQ(slurp(folder_ / "given/poses.txt"), slurp(fs::path(still) / "poses.txt"));
 }
 
 TEST_F(Command, EvalRepeatsTheProtocolsOfOthers) {
