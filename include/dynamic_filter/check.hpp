@@ -102,12 +102,16 @@ struct MotionQuality {
     std::vector<PoseError> errors;
     Blur given;  ///< blur at the poses of the recording
     Blur found;  ///< blur at the poses of the odometry
+    /// 0..1: share of the upright structures of a scan that stand where those of others stand,
+    /// which are 1 to 20 scans apart, at the poses of the recording and at those of the odometry.
+    double given_overlay = 0.0, found_overlay = 0.0;
     /// True if the errors of the given poses over 20 scans are small everywhere: less than 1 m or a
     /// third of the distance, and less than 0.1 rad. Poses of a wrong frame, format or recording
     /// have larger errors.
     bool nearly_right = false;
 
-    /// True if scans overlay clearly better at other poses than the given ones.
+    /// True if scans overlay clearly more sharply at other poses than the given ones, and as many
+    /// structures overlay.
     [[nodiscard]] bool has_bad_poses() const;
 };
 

@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 
 #include "base/progress.hpp"
+#include "check/choose_poses.hpp"
 #include "dynamic_filter/check.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/writers.hpp"
@@ -26,13 +26,6 @@ bool has_times(const io::Recording& recording) {
 }
 
 std::string centimetres(double metres) { return fmt::format("{:.1f} cm", 100.0 * metres); }
-
-/// "by 0.21 m and 0.15 deg over 20 scans"
-std::string error_text(const io::MotionQuality& quality) {
-    const io::PoseError& last = quality.errors.back();
-    return fmt::format("they are off by {} and {:.2f} deg over {} scans", centimetres(last.shift),
-                       last.turn * 180.0 / std::numbers::pi, last.apart);
-}
 
 /// Chooses how the motion within scans is undone: by the times of the points, else by their
 /// azimuths. The recording then has these times. Returns a note, or "".
@@ -93,71 +86,76 @@ std::string to_text(const Track& track) {
     return text;
 }
 
-}  // namespace
-
-std::string track_text(const std::vector<std::optional<Tracked>>& tracked) {
-    return to_text(summary_of(tracked));
+/// Poses of all scans, and what they rest on. The recording has them afterwards.
+void use_found_poses(io::Recording& recording, const Config& config, const MotionChoice& choice,
+                     ChosenMotion& chosen) {
+    Progress progress("odometry", recording.size(), choice.quiet);
+    io::PosesChoice found =
+        io::choose_poses(recording, config.odometry, choice.refine == "on", [&] {
+            progress.advance();
+            return !interrupted();
+        });
+    for (std::string& note : found.notes) chosen.notes.push_back(std::move(note));
+    if (found.tracked.empty()) return;
+    const Track track = summary_of(found.tracked);
+    if (track.missing == found.tracked.size()) {
+        throw InputError(recording.info().root, "", "no scan is usable");
+    }
+    recording = io::with_poses(recording, found.tracked);
+    chosen.notes.push_back(to_text(track));
+    chosen.tracked = std::move(found.tracked);
 }
 
-std::vector<std::string> choose_motion(io::Recording& recording, Config& config,
-                                       const MotionChoice& choice) {
-    std::vector<std::string> notes;
-    config.odometry.refine = config.odometry.refine || choice.refine == "on";
+}  // namespace
+
+ChosenMotion choose_motion(io::Recording& recording, Config& config, const MotionChoice& choice) {
+    ChosenMotion chosen;
     const bool has_poses = recording.info().has_poses;
-    const bool asks_poses = has_poses && choice.refine == "auto";
     const io::Recording looked_at = choice.deskew == "off" ? recording : io::with_times(recording);
     const bool timed = has_times(looked_at);
-    io::MotionQuality quality;
-    if (asks_poses || (timed && choice.deskew == "auto")) {
-        quality = io::measure_motion(looked_at, config.odometry);
+    bool refines = has_poses && (choice.refine == "on" || config.odometry.refine);
+    if (has_poses && choice.refine == "auto" && !refines) {
+        const std::string doubt = io::doubt_about_poses(looked_at, config.odometry);
+        refines = !doubt.empty();
+        if (refines) {
+            chosen.notes.push_back(doubt + ", so the poses are refined; --refine off keeps them");
+        }
     }
-    if (asks_poses && !config.odometry.refine && quality.has_bad_poses()) {
-        config.odometry.refine = true;
-        notes.push_back(fmt::format(
-            "scans blur by {} at the given poses and by {} at refined ones ({}), so the poses are "
-            "refined; --refine off keeps them",
-            centimetres(quality.given.least()), centimetres(quality.found.least()),
-            error_text(quality)));
-    }
-    if (!has_poses) notes.emplace_back("no poses are used, so they are found by odometry");
-    if (!has_poses || config.odometry.refine) {
-        add(notes,
+    if (!has_poses) chosen.notes.emplace_back("no poses are used, so they are found by odometry");
+    config.odometry.refine = refines && choice.online;
+    const io::MotionQuality quality = timed && choice.deskew == "auto"
+                                          ? io::measure_motion(looked_at, config.odometry)
+                                          : io::MotionQuality{};
+    if (!has_poses || refines) {
+        add(chosen.notes,
             choose_deskew(recording, config.odometry, choice, timed, quality.found.is_distorted()));
-        return notes;
+        if (!choice.online) use_found_poses(recording, config, choice, chosen);
+        return chosen;
     }
     if (choice.deskew == "on" && !timed) {
-        add(notes, choose_deskew(recording, config.odometry, choice, timed, false));
+        add(chosen.notes, choose_deskew(recording, config.odometry, choice, timed, false));
         if (recording.info().sweep) recording = io::deskewed(recording);
     }
     if (choice.deskew == "auto" && quality.given.is_distorted()) {
         recording = io::deskewed(recording);
-        notes.push_back(fmt::format(
+        chosen.notes.push_back(fmt::format(
             "scans blur by {} as they are and by {} with the motion during each scan undone, so it "
             "is undone; --deskew off leaves it",
             centimetres(quality.given.as_measured), centimetres(quality.given.undone)));
     }
-    return notes;
+    return chosen;
 }
 
 void ensure_poses(io::Recording& recording, const Config& config, const std::string& deskew,
                   bool quiet) {
     if (recording.info().has_poses) return;
     Config chosen = config;
-    const auto notes = choose_motion(recording, chosen, {.deskew = deskew});
-    std::vector<std::optional<Tracked>> tracked;
-    {
-        Progress progress("odometry", recording.size(), quiet);
-        tracked = io::track_scans(recording, config.odometry, [&] {
-            progress.advance();
-            return !interrupted();
-        });
-    }
-    const Track track = summary_of(tracked);
-    if (track.missing == tracked.size()) {
-        throw InputError(recording.info().root, "", "no scan is usable");
-    }
-    recording = io::with_poses(io::with_notes(recording, notes), tracked);
-    recording = io::with_notes(recording, {to_text(track)});
+    const auto motion = choose_motion(recording, chosen, {.deskew = deskew, .quiet = quiet});
+    recording = io::with_notes(recording, motion.notes);
+}
+
+std::string track_text(const std::vector<std::optional<Tracked>>& tracked) {
+    return to_text(summary_of(tracked));
 }
 
 void write_poses(const std::filesystem::path& path, const io::Recording& recording) {

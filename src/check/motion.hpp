@@ -15,15 +15,24 @@ namespace dynamic_filter::app {
 /// How the motion of a recording is to be treated: "auto", "on" or "off" each.
 struct MotionChoice {
     std::string refine = "auto", deskew = "auto";
+    /// True: poses are found or refined scan by scan, while the scans are judged.
+    bool online = false;
+    bool quiet = true;  ///< false: shows how far the odometry is
 };
 
-/// For a run: whether poses are found or refined (`config.odometry.refine`) and whether the motion
-/// during scans is undone. With "auto", scans decide: those of some places are looked at, and good
-/// poses stay as they are. Returns what was decided and why, a sentence each.
-std::vector<std::string> choose_motion(io::Recording& recording, Config& config,
-                                       const MotionChoice& choice);
+/// What was decided about the motion of a recording.
+struct ChosenMotion {
+    std::vector<std::string> notes;                 ///< what was decided and why, a sentence each
+    std::vector<std::optional<Tracked>> tracked{};  ///< by scan; empty: no poses were found
+};
 
-/// For whatever needs poses: if the recording has none, they are found by odometry, and notes of
+/// For a run: finds or refines poses where that is needed, and undoes the motion during scans. With
+/// "auto", scans decide: those of some places are looked at, and good poses stay as they are.
+/// Afterwards the recording has the poses. Online, `config.odometry.refine` says what is left to
+/// do.
+ChosenMotion choose_motion(io::Recording& recording, Config& config, const MotionChoice& choice);
+
+/// For whatever needs poses: if the recording lacks some, they are found by odometry, and notes of
 /// the recording say how far that got. `deskew`: as in MotionChoice.
 void ensure_poses(io::Recording& recording, const Config& config, const std::string& deskew,
                   bool quiet);

@@ -8,8 +8,9 @@
 #include <tuple>
 
 #include "base/numbers.hpp"
+#include "check/pieces.hpp"
+#include "check/pose_fit.hpp"
 #include "check/pose_mistakes.hpp"
-#include "check/scan_input.hpp"
 #include "dynamic_filter/parallel.hpp"
 #include "tracking/beginning.hpp"
 #include "tracking/overlay_blur.hpp"
@@ -18,27 +19,8 @@ namespace dynamic_filter::io {
 namespace {
 
 // Number of places, and of consecutive scans at each.
-constexpr std::size_t kPlaces = 3, kInARow = 21;
+constexpr std::size_t kPlaces = 5, kInARow = 21;
 constexpr std::array<std::size_t, 4> kErrorsApart = {1, 5, 10, 20};
-
-/// Consecutive scans as input of the odometry.
-using Piece = std::vector<Scan>;
-
-std::vector<Piece> read_pieces(const Recording& recording, std::size_t in_a_row) {
-    std::vector<Piece> pieces;
-    const std::size_t n = recording.size();
-    const std::size_t places = std::clamp<std::size_t>(n / (2 * in_a_row), 1, kPlaces);
-    for (std::size_t k = 0; k < places; ++k) {
-        const std::size_t room = n > in_a_row ? n - in_a_row : 0;
-        const std::size_t first = places > 1 ? k * room / (places - 1) : room / 2;
-        Piece piece;
-        for (std::size_t i = first; i < std::min(n, first + in_a_row); ++i) {
-            if (auto scan = read_scan(recording, i)) piece.push_back(*std::move(scan));
-        }
-        pieces.push_back(std::move(piece));
-    }
-    return pieces;
-}
 
 std::vector<Tracked> track(const Piece& piece, const OdometryConfig& config) {
     Odometry odometry(config);
@@ -105,6 +87,7 @@ struct Compared {
     std::vector<double> stamps;
     std::vector<Pose> given, shown;
     Blur at_given, at_shown;
+    double given_overlay = 0.0, shown_overlay = 0.0;  // 0..1: see PoseFit
 };
 
 Compared compare(Piece piece, const OdometryConfig& config) {
@@ -118,12 +101,17 @@ Compared compare(Piece piece, const OdometryConfig& config) {
     }
     const auto look = [&](double Blur::*which) {
         const std::vector<Pose> shown = poses_of(track(piece, config));
-        compared.at_shown.*which = overlay_blur(piece, shown, config);
-        if (has_poses) {
-            compared.at_given.*which = overlay_blur(piece, compared.given, config);
+        const PoseFit at_shown = fit_of(piece, shown, config);
+        compared.at_shown.*which = at_shown.blur;
+        const bool best = at_shown.blur == compared.at_shown.least();
+        if (best) {
+            compared.shown = shown;
+            compared.shown_overlay = at_shown.mean_overlay();
         }
-        const bool best = compared.at_shown.*which == compared.at_shown.least();
-        if (best) compared.shown = shown;
+        if (!has_poses) return;
+        const PoseFit at_given = fit_of(piece, compared.given, config);
+        compared.at_given.*which = at_given.blur;
+        if (best) compared.given_overlay = at_given.mean_overlay();
     };
     if (has_times) look(&Blur::undone);
     for (Scan& scan : piece) scan.times.clear();
@@ -177,10 +165,9 @@ double usual_step(const Recording& recording) {
     return median(std::move(steps));
 }
 
-std::vector<Compared> compare_places(const Recording& recording, std::size_t in_a_row,
-                                     const OdometryConfig& config) {
-    std::vector<Piece> pieces = read_pieces(recording, in_a_row);
-    std::erase_if(pieces, [](const Piece& piece) { return piece.size() < 2; });
+std::vector<Compared> compare_places(const Recording& recording, std::size_t places,
+                                     std::size_t in_a_row, const OdometryConfig& config) {
+    std::vector<Piece> pieces = read_pieces(recording, places, in_a_row);
     std::vector<Compared> compared(pieces.size());
     parallel_for(pieces.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
@@ -198,6 +185,8 @@ MotionQuality quality_of(const std::vector<Compared>& compared, bool has_poses) 
             quality.given.*which += share * piece.at_given.*which;
             quality.found.*which += share * piece.at_shown.*which;
         }
+        quality.given_overlay += share * piece.given_overlay;
+        quality.found_overlay += share * piece.shown_overlay;
     }
     quality.nearly_right = has_poses && nearly_right(compared);
     for (const std::size_t apart : kErrorsApart) {
@@ -232,7 +221,7 @@ std::optional<Sweep> find_sweep(const Recording& recording, const OdometryConfig
     if (!(duration > 0.0) || duration > kLongest) return std::nullopt;
     const Piece* fastest = nullptr;
     double most_distorted = kLeast, as_it_is = 0.0;
-    std::vector<Piece> pieces = read_pieces(recording, kInARow);
+    std::vector<Piece> pieces = read_pieces(recording, 3, kInARow);
     for (Piece& piece : pieces) {
         if (piece.size() < 2 || !turns(piece.front())) continue;
         for (Scan& scan : piece) scan.times.clear();
@@ -270,17 +259,19 @@ bool Blur::is_distorted() const {
 
 bool MotionQuality::has_bad_poses() const {
     constexpr double kClearly = 1.1;
-    return given.least() > kClearly * found.least();
+    constexpr double kAsMuch = 0.97;  // factor of the overlay
+    return given.least() > kClearly * found.least() && found_overlay > kAsMuch * given_overlay;
 }
 
 MotionQuality measure_motion(const Recording& recording, const OdometryConfig& config) {
-    return quality_of(compare_places(recording, kInARow, config), recording.info().has_poses);
+    return quality_of(compare_places(recording, kPlaces, kInARow, config),
+                      recording.info().has_poses);
 }
 
 std::string find_pose_mistake(const Recording& recording, const OdometryConfig& config) {
     // Number of consecutive scans; long enough that the motion varies.
     constexpr std::size_t kLong = 60;
-    std::vector<Compared> compared = compare_places(recording, kLong, config);
+    std::vector<Compared> compared = compare_places(recording, 3, kLong, config);
     if (compared.empty() || !recording.info().has_poses) return "";
     const bool blur = quality_of(compared, true).has_bad_poses();
     std::vector<TwoTracks> tracks;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "check/track_scans.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -65,31 +67,9 @@ private:
     bool is_trusted_ = false;
 };
 
-/// The odometry over all scans; it begins a new map where it was lost for long.
-std::vector<std::optional<Tracked>> follow(const Recording& recording, const OdometryConfig& config,
-                                           const std::function<bool()>& after) {
-    std::vector<std::optional<Tracked>> tracked(recording.size());
-    Odometry odometry(config);
-    Guesses guesses;
-    guesses.begin(velocity_at(recording, 0, config));
-    Pose T_world_last = Pose::Identity();
-    for (std::size_t i = 0; i < recording.size(); ++i) {
-        if (const auto scan = read_scan(recording, i)) {
-            tracked[i] =
-                odometry.track(scan->points, scan->times, scan->stamp, guesses.before(*scan));
-            odometry.learn({});
-            guesses.after(T_world_last.inverse() * tracked[i]->T_world_sensor);
-            T_world_last = tracked[i]->T_world_sensor;
-            if (tracked[i]->begins_anew) guesses.begin(velocity_at(recording, i, config));
-        }
-        if (after && !after()) break;
-    }
-    return tracked;
-}
-
 /// Motions between neighbouring scans. Their errors add up over the way like those of a random
 /// walk.
-std::vector<Motion> neighbours(const std::vector<std::optional<Tracked>>& tracked) {
+std::vector<Motion> neighbours(const TrackedScans& tracked) {
     constexpr double kShift = 0.01, kTurn = 2e-4;            // [m], [rad] per root of a metre
     constexpr double kLeastShift = 1e-3, kLeastTurn = 4e-5;  // [m], [rad] of a sensor that rests
     constexpr double kLostShift = 2.0, kLostTurn = 0.2;      // [m], [rad] of a guess
@@ -124,20 +104,27 @@ MaybePoses given_poses(const Recording& recording) {
 }
 
 /// Where the trajectory begins in the world: so that the hint in the middle holds.
-Pose beginning_of(const std::vector<std::optional<Tracked>>& tracked,
-                  const std::vector<PoseHint>& hints) {
+Pose beginning_of(const TrackedScans& tracked, const std::vector<PoseHint>& hints) {
     if (hints.empty()) return Pose::Identity();
     const PoseHint& hint = hints[hints.size() / 2];
     return hint.T_world_sensor * tracked[hint.scan]->T_world_sensor.inverse();
 }
 
-void move_to(std::vector<std::optional<Tracked>>& tracked, const std::vector<Pose>& poses) {
+MaybePoses maybe_poses(const TrackedScans& tracked) {
+    MaybePoses poses(tracked.size());
+    for (std::size_t i = 0; i < tracked.size(); ++i) {
+        if (tracked[i]) poses[i] = tracked[i]->T_world_sensor;
+    }
+    return poses;
+}
+
+void move_to(TrackedScans& tracked, const std::vector<Pose>& poses) {
     for (std::size_t i = 0; i < tracked.size(); ++i) {
         if (tracked[i]) tracked[i]->T_world_sensor = poses[i];
     }
 }
 
-std::vector<Pose> poses_of(const std::vector<std::optional<Tracked>>& tracked) {
+std::vector<Pose> poses_of(const TrackedScans& tracked) {
     std::vector<Pose> poses(tracked.size(), Pose::Identity());
     for (std::size_t i = 0; i < tracked.size(); ++i) {
         if (tracked[i]) poses[i] = tracked[i]->T_world_sensor;
@@ -147,18 +134,33 @@ std::vector<Pose> poses_of(const std::vector<std::optional<Tracked>>& tracked) {
 
 }  // namespace
 
-std::vector<std::optional<Tracked>> track_scans(const Recording& recording,
-                                                const OdometryConfig& config,
-                                                const std::function<bool()>& after) {
-    constexpr int kRounds = 3;  // corrected poses meet at more places
-    std::vector<std::optional<Tracked>> tracked = follow(recording, config, after);
-    const std::vector<Motion> chain = neighbours(tracked);
-    MaybePoses shown(tracked.size());
-    for (std::size_t i = 0; i < tracked.size(); ++i) {
-        if (tracked[i]) shown[i] = tracked[i]->T_world_sensor;
+TrackedScans follow(const Recording& recording, const OdometryConfig& config,
+                    const std::function<bool()>& after) {
+    TrackedScans tracked(recording.size());
+    Odometry odometry(config);
+    Guesses guesses;
+    guesses.begin(velocity_at(recording, 0, config));
+    Pose T_world_last = Pose::Identity();
+    for (std::size_t i = 0; i < recording.size(); ++i) {
+        if (const auto scan = read_scan(recording, i)) {
+            tracked[i] =
+                odometry.track(scan->points, scan->times, scan->stamp, guesses.before(*scan));
+            odometry.learn({});
+            guesses.after(T_world_last.inverse() * tracked[i]->T_world_sensor);
+            T_world_last = tracked[i]->T_world_sensor;
+            if (tracked[i]->begins_anew) guesses.begin(velocity_at(recording, i, config));
+        }
+        if (after && !after()) break;
     }
-    const std::vector<PoseHint> hints = hints_of(given_poses(recording), shown);
+    return tracked;
+}
+
+TrackedScans bind(const Recording& recording, TrackedScans tracked, bool to_given) {
+    constexpr int kRounds = 3;  // corrected poses meet at more places
+    const std::vector<Motion> chain = neighbours(tracked);
+    std::vector<PoseHint> hints = hints_of(given_poses(recording), maybe_poses(tracked));
     const Pose T_world_odometry = beginning_of(tracked, hints);
+    if (!to_given) hints.clear();
     std::vector<Pose> start = poses_of(tracked);
     for (Pose& pose : start) pose = T_world_odometry * pose;
     std::vector<Motion> loops;
@@ -171,6 +173,11 @@ std::vector<std::optional<Tracked>> track_scans(const Recording& recording,
         loops = std::move(more);
     }
     return tracked;
+}
+
+TrackedScans track_scans(const Recording& recording, const OdometryConfig& config,
+                         const std::function<bool()>& after) {
+    return bind(recording, follow(recording, config, after), true);
 }
 
 }  // namespace dynamic_filter::io

@@ -92,7 +92,10 @@ void push(Whole& whole, Scan scan) {
         return;
     }
     auto& next = std::get<QueuedScan>(passed);
-    const bool restarts = std::exchange(whole.stretch, next.stretch) != next.stretch;
+    const std::size_t index = next.scan.index;
+    const auto& tracked = whole.job.tracked;
+    const bool breaks = !tracked.empty() && tracked[index] && tracked[index]->begins_anew;
+    const bool restarts = std::exchange(whole.stretch, next.stretch) != next.stretch || breaks;
     whole.keep(whole.maps.judge(std::move(next.scan), restarts));
     whole.maps.catch_up();
 }
@@ -143,6 +146,10 @@ void keep_pace(const Whole& whole, Clock::time_point start, double stamp) {
 
 /// The poses that were found or refined are the recording's from now on.
 void use_poses(Whole& whole) {
+    if (!whole.job.tracked.empty()) {
+        write_poses(whole.output.path() / "poses.txt", whole.recording);
+        return;
+    }
     const auto was_tracked = [](const auto& tracked) { return tracked.has_value(); };
     if (std::none_of(whole.tracked.begin(), whole.tracked.end(), was_tracked)) return;
     whole.recording = io::with_poses(whole.recording, whole.tracked);

@@ -59,6 +59,7 @@ Job open_tiled_job(const RunOptions& o, std::vector<DriveSource> sources) {
             .sources = std::move(sources),
             .drives = {},
             .fingerprints = {},
+            .tracked = {},
             .is_tiled = true,
             .part = {},
             .plan = {},
@@ -85,6 +86,7 @@ Job open_job(const RunOptions& o) {
             .sources = {{.recording = o.data.data}},
             .drives = {},
             .fingerprints = {},
+            .tracked = {},
             .is_tiled = false,
             .part = {},
             .plan = {},
@@ -97,9 +99,11 @@ Job open_job(const RunOptions& o) {
 void choose_job_motion(Job& job, const RunOptions& o) {
     io::Recording& recording = job.drives.front().recording;
     with_threads(o.threads, [&] {
-        const auto chosen =
-            choose_motion(recording, job.config, {.refine = o.refine, .deskew = o.data.deskew});
-        recording = io::with_notes(recording, chosen);
+        ChosenMotion chosen = choose_motion(
+            recording, job.config,
+            {.refine = o.refine, .deskew = o.data.deskew, .online = o.online, .quiet = o.quiet});
+        recording = io::with_notes(recording, chosen.notes);
+        job.tracked = std::move(chosen.tracked);
     });
     job.mark = version_text() + state_of(recording) + to_toml(job.config);
 }

@@ -20,6 +20,8 @@ struct Job {
     std::vector<DriveSource> sources;  ///< the recordings as they were given
     std::vector<Drive> drives;
     std::vector<std::string> fingerprints;  ///< of the drives as they were opened; placed.hpp
+    /// Of the only recording of a job in memory, by scan, if its poses were found or refined.
+    std::vector<std::optional<Tracked>> tracked;
     /// True: filtered tile by tile, which needs a plan. False: one recording, in memory.
     bool is_tiled = false;
     std::optional<PartNumber> part;  ///< empty: all tiles

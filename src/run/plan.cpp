@@ -224,7 +224,7 @@ void look_at(Drive& drive, const Config& config, const DataOptions& how, Planned
     planned.notes = drive.recording.info().notes;
     const auto chosen =
         choose_motion(drive.recording, unrefined, {.refine = "off", .deskew = how.deskew});
-    planned.notes.insert(planned.notes.end(), chosen.begin(), chosen.end());
+    planned.notes.insert(planned.notes.end(), chosen.notes.begin(), chosen.notes.end());
     planned.deskew = drive.recording.info().deskewed;
     planned.sweep = drive.recording.info().sweep;
     for (const auto& found : io::check_recording(drive.recording, io::Depth::quick).findings) {

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include "check/choose_poses.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+#include <utility>
+
+#include "check/pose_fit.hpp"
+#include "check/pose_outliers.hpp"
+#include "dynamic_filter/check.hpp"
+
+namespace dynamic_filter::io {
+namespace {
+
+std::string centimetres(double metres) { return fmt::format("{:.1f} cm", 100.0 * metres); }
+
+std::string blur_text(const MotionQuality& quality) {
+    std::string text =
+        fmt::format("scans blur by {} at the given poses and by {} at refined ones",
+                    centimetres(quality.given.least()), centimetres(quality.found.least()));
+    if (quality.errors.empty()) return text;
+    const PoseError& last = quality.errors.back();
+    return text + fmt::format(" (they are off by {} and {:.2f} deg over {} scans)",
+                              centimetres(last.shift), last.turn * 180.0 / std::numbers::pi,
+                              last.apart);
+}
+
+std::size_t count_missing(const Recording& recording) {
+    const auto& poses = recording.info().T_world_sensor;
+    return static_cast<std::size_t>(std::count_if(
+        poses.begin(), poses.end(), [](const Pose& pose) { return !pose.matrix().allFinite(); }));
+}
+
+/// A set of poses that may be used.
+struct Candidate {
+    std::string name;
+    PoseFit fit;
+    TrackedScans tracked;  // empty: the given poses
+};
+
+Candidate candidate(const std::string& name, const Recording& recording,
+                    const OdometryConfig& config, TrackedScans tracked) {
+    const PoseFit fit = fit_of(with_poses(recording, tracked), config);
+    return {name, fit, std::move(tracked)};
+}
+
+/// "given: 40, 20 % ..., blur 9.1 cm; refined: ...: the refined ones are used"
+std::string evidence(const std::vector<Candidate>& candidates, const Candidate& best) {
+    std::string text = "upright structures overlay";
+    for (const Candidate& c : candidates) {
+        text += fmt::format("{} at {} poses by {}", &c == candidates.data() ? "" : ";", c.name,
+                            to_text(c.fit));
+    }
+    return text + fmt::format(": the {} ones are used", best.name);
+}
+
+}  // namespace
+
+std::string doubt_about_poses(const Recording& recording, const OdometryConfig& config) {
+    const std::size_t missing = count_missing(recording);
+    if (missing > 0) {
+        return fmt::format("{} of {} scans have no pose of their own", missing, recording.size());
+    }
+    const auto outliers = outliers_of(recording.info().T_world_sensor, recording.info().stamps);
+    if (!outliers.empty()) {
+        return fmt::format(
+            "{} given poses lie apart from those of their neighbours (the first is "
+            "that of {})",
+            outliers.size(), stem(recording, outliers.front()));
+    }
+    const MotionQuality quality = measure_motion(recording, config);
+    return quality.has_bad_poses() ? blur_text(quality) : "";
+}
+
+PosesChoice choose_poses(const Recording& recording, const OdometryConfig& config, bool asked,
+                         const std::function<bool()>& after) {
+    const TrackedScans followed = follow(recording, config, after);
+    PosesChoice choice;
+    if (!recording.info().has_poses) {
+        choice.tracked = bind(recording, followed, false);
+        return choice;
+    }
+    std::vector<Candidate> candidates;
+    const bool is_complete = count_missing(recording) == 0;
+    if (is_complete) candidates.push_back({"given", fit_of(recording, config), {}});
+    candidates.push_back(candidate("refined", recording, config, bind(recording, followed, true)));
+    candidates.push_back(candidate("found", recording, config, bind(recording, followed, false)));
+    // The given poses know the long way, so others must be better to be used.
+    std::size_t best = asked && is_complete ? 1 : 0;
+    for (std::size_t k = best + 1; k < candidates.size(); ++k) {
+        if (is_better(candidates[k].fit, candidates[best].fit)) best = k;
+    }
+    choice.notes.push_back(evidence(candidates, candidates[best]));
+    choice.tracked = std::move(candidates[best].tracked);
+    return choice;
+}
+
+}  // namespace dynamic_filter::io

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#include "check/pieces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "check/scan_input.hpp"
+
+namespace dynamic_filter::io {
+
+std::vector<Piece> read_pieces(const Recording& recording, std::size_t most, std::size_t in_a_row) {
+    constexpr double kGoldenRatio = 0.6180339887498949;
+    std::vector<Piece> pieces;
+    const std::size_t n = recording.size();
+    const std::size_t places = std::clamp<std::size_t>(n / (2 * in_a_row), 1, most);
+    const auto room = static_cast<double>(n > in_a_row ? n - in_a_row : 0);
+    for (std::size_t k = 0; k < places; ++k) {
+        const double whole = 0.5 + static_cast<double>(k) * kGoldenRatio;
+        const auto first = static_cast<std::size_t>((whole - std::floor(whole)) * room);
+        Piece piece;
+        for (std::size_t i = first; i < std::min(n, first + in_a_row); ++i) {
+            if (auto scan = read_scan(recording, i)) piece.push_back(*std::move(scan));
+        }
+        if (piece.size() > 1) pieces.push_back(std::move(piece));
+    }
+    return pieces;
+}
+
+}  // namespace dynamic_filter::io

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+/// Consecutive scans at several places of a recording.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "dynamic_filter/recording.hpp"
+
+namespace dynamic_filter::io {
+
+/// Consecutive scans as input of the odometry.
+using Piece = std::vector<Scan>;
+
+/// Up to `most` pieces of `in_a_row` scans, which cover at most half of the recording. Their places
+/// are spread irregularly, so that errors with a period do not hide between them. Scans that cannot
+/// be read are left out, and pieces of fewer than two scans.
+std::vector<Piece> read_pieces(const Recording& recording, std::size_t most, std::size_t in_a_row);
+
+}  // namespace dynamic_filter::io
