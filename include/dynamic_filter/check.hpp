@@ -119,9 +119,10 @@ struct MotionQuality {
 /// the recording, with the times of their points if they have them (with_times()).
 MotionQuality measure_motion(const Recording& recording, const OdometryConfig& config);
 
-/// Describes the mistake in the poses, if scans overlay clearly better at other poses, or if the
-/// poses belong to another frame or are delayed. Returns one sentence with the measured values;
-/// empty if there is no mistake. Reads up to 180 scans.
+/// Describes the mistake in the poses, if a run would replace them because scans overlay better at
+/// other poses, or if they belong to another frame or are delayed. Returns one sentence with the
+/// measured values; empty if there is no mistake. Reads up to 180 scans; all, if the poses of those
+/// look bad.
 std::string find_pose_mistake(const Recording& recording, const OdometryConfig& config);
 
 /// What the places that two drives pass say about the frames of their poses.

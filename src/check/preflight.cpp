@@ -320,7 +320,7 @@ void judge_motion(Preflight& result, const Recording& given) {
     const Info& info = given.info();
     const Recording recording = info.deskewed ? given : with_times(given);
     const OdometryConfig config;
-    const std::string mistake = find_pose_mistake(recording, config);
+    const std::string mistake = info.tracked ? "" : find_pose_mistake(recording, config);
     if (!mistake.empty()) {
         result.findings.push_back({mistake,
                                    "`run` refines such poses of a single recording without being "

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "base/numbers.hpp"
+#include "check/choose_poses.hpp"
 #include "check/pieces.hpp"
 #include "check/pose_fit.hpp"
 #include "check/pose_mistakes.hpp"
@@ -208,6 +209,12 @@ bool sharpens_both_halves(const Piece& piece, const Sweep& sweep, const Odometry
     return true;
 }
 
+/// True if a run would replace the poses, because other ones make the scans overlay better.
+bool would_be_replaced(const Recording& recording, const OdometryConfig& config) {
+    if (doubt_about_poses(recording, config).empty()) return false;
+    return !choose_poses(recording, config, false, {}).tracked.empty();
+}
+
 }  // namespace
 
 std::optional<Sweep> find_sweep(const Recording& recording, const OdometryConfig& given) {
@@ -273,12 +280,12 @@ std::string find_pose_mistake(const Recording& recording, const OdometryConfig& 
     constexpr std::size_t kLong = 60;
     std::vector<Compared> compared = compare_places(recording, 3, kLong, config);
     if (compared.empty() || !recording.info().has_poses) return "";
-    const bool blur = quality_of(compared, true).has_bad_poses();
     std::vector<TwoTracks> tracks;
     for (Compared& piece : compared) {
         tracks.push_back({std::move(piece.stamps), std::move(piece.given), std::move(piece.shown)});
     }
-    return blur ? name_mistake(tracks) : name_constant_mistake(tracks);
+    return would_be_replaced(recording, config) ? name_mistake(tracks)
+                                                : name_constant_mistake(tracks);
 }
 
 }  // namespace dynamic_filter::io

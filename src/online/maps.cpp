@@ -36,12 +36,13 @@ Maps::Stretch Maps::new_stretch(std::size_t first_index) const {
     return {first_index, std::make_unique<PaperPipeline>(config_, horizon_of(options_))};
 }
 
-Maps::Judged Maps::judge(Scan scan, bool restarts) {
-    if (restarts) tracker_.restart();
+Maps::Judged Maps::judge(Scan scan, Follows follows) {
+    if (follows == Follows::restarts) tracker_.restart();
     const std::optional<Tracked> tracked = tracker_.place(scan);
     if (tracked) untold_[scan.index] = *tracked;
+    if (tracked && tracked->begins_anew && follows == Follows::on) follows = Follows::lost;
     Judged judged;
-    if (auto notice = break_before(scan, restarts, tracked)) {
+    if (auto notice = break_before(scan, follows)) {
         // A map that is removed right after this is not decided, because nobody would see it.
         judged = end_stretch(options_.horizon == 0.0 || !judges_each_scan());
         judged.notice = std::move(notice);
@@ -72,17 +73,18 @@ Maps::Judged Maps::judge(Scan scan, bool restarts) {
 
 /// After a break, poses do not fit those before it, so the old evidence would be compared with the
 /// wrong places.
-std::optional<Notice> Maps::break_before(const Scan& scan, bool restarts,
-                                         const std::optional<Tracked>& tracked) {
-    const bool lost = tracked && tracked->begins_anew;
-    const auto jump = restarts || lost
-                          ? std::nullopt
-                          : pose_jump(before_last_, last_, {scan.T_world_sensor, scan.stamp});
-    if (!restarts && !jump && !lost) return std::nullopt;
+std::optional<Notice> Maps::break_before(const Scan& scan, Follows follows) {
+    const auto jump = follows == Follows::on
+                          ? pose_jump(before_last_, last_, {scan.T_world_sensor, scan.stamp})
+                          : std::nullopt;
+    if (follows == Follows::on && !jump) return std::nullopt;
     before_last_ = last_ = std::nullopt;
+    const bool restarts = follows == Follows::restarts;
     Notice notice{restarts ? NoticeKind::restart : NoticeKind::jump, scan.index,
                   "stamps went back by more than a second; a new map begins"};
-    if (lost) notice.text = "the odometry has been lost for some scans; a new map begins";
+    if (follows == Follows::lost) {
+        notice.text = "the odometry has been lost for some scans; a new map begins";
+    }
     if (jump) {
         notice.text = "the pose is " + std::to_string(std::lround(*jump)) +
                       " m from where the previous poses lead; a new map begins";

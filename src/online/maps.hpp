@@ -34,9 +34,14 @@ public:
         /// On the scan; with the preset `paper`, on the scans of the window that was closed.
         std::vector<Verdict> instant;
     };
+    /// How a scan follows those before.
+    enum class Follows {
+        on,        ///< as usual
+        restarts,  ///< the stamps went back, so that nothing before fits
+        lost       ///< its pose relative to those before is not known
+    };
     /// Finds the pose of a scan, begins a new map where the trajectory breaks, and judges the scan.
-    /// `restarts`: the stamps went back, so that nothing before fits.
-    Judged judge(Scan scan, bool restarts);
+    Judged judge(Scan scan, Follows follows);
     /// Does the work that can wait until the verdict is delivered. Returns the settled verdicts
     /// that are due. Call it after each judge().
     std::vector<Verdict> catch_up();
@@ -74,8 +79,7 @@ private:
         Filter filter;
     };
     [[nodiscard]] Stretch new_stretch(std::size_t first_index) const;
-    std::optional<Notice> break_before(const Scan& scan, bool restarts,
-                                       const std::optional<Tracked>& tracked);
+    std::optional<Notice> break_before(const Scan& scan, Follows follows);
     Judged end_stretch(bool decide);
     std::vector<Verdict> settle_until(std::size_t left);
     void forget_far(DynamicFilter& filter);

@@ -108,8 +108,9 @@ void ScanWorker::judge(QueuedScan& next) {
         Maps::Judged judged;
         {
             const std::lock_guard hold(map_lock_);
+            const bool restarts = std::exchange(stretch_, next.stretch) != next.stretch;
             judged = maps_.judge(std::move(next.scan),
-                                 std::exchange(stretch_, next.stretch) != next.stretch);
+                                 restarts ? Maps::Follows::restarts : Maps::Follows::on);
         }
         latency_.add(seconds_since(next.since));
         deliver(std::move(judged), &next, index);

@@ -94,9 +94,12 @@ void push(Whole& whole, Scan scan) {
     auto& next = std::get<QueuedScan>(passed);
     const std::size_t index = next.scan.index;
     const auto& tracked = whole.job.tracked;
-    const bool breaks = !tracked.empty() && tracked[index] && tracked[index]->begins_anew;
-    const bool restarts = std::exchange(whole.stretch, next.stretch) != next.stretch || breaks;
-    whole.keep(whole.maps.judge(std::move(next.scan), restarts));
+    const bool is_lost = !tracked.empty() && tracked[index] && tracked[index]->begins_anew;
+    const bool restarts = std::exchange(whole.stretch, next.stretch) != next.stretch;
+    const auto follows = restarts  ? Maps::Follows::restarts
+                         : is_lost ? Maps::Follows::lost
+                                   : Maps::Follows::on;
+    whole.keep(whole.maps.judge(std::move(next.scan), follows));
     whole.maps.catch_up();
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "dynamic_filter/error.hpp"
+#include "tracking/beginning.hpp"
 
 namespace dynamic_filter {
 
@@ -35,14 +36,52 @@ std::optional<Tracked> Tracker::place(Scan& scan) {
     if (scan.has_pose) {
         tracked = refine(scan);
     } else {
-        if (!odometry_) odometry_.emplace(config_);
-        tracked = odometry_->track(scan.points, scan.times, scan.stamp);
+        tracked = find(scan);
     }
     scan.T_world_sensor = tracked.T_world_sensor;
     scan.has_pose = true;
     if (!scan.times.empty()) scan.points = undo_motion(scan.points, scan.times, tracked.velocity);
     scan.times.clear();
     times_.add(seconds_since(start));
+    return tracked;
+}
+
+Tracked Tracker::find(const Scan& scan) {
+    if (!odometry_) odometry_.emplace(config_);
+    Tracked tracked = odometry_->track(scan.points, scan.times, scan.stamp);
+    if (tracked.begins_anew) beginning_.clear();
+    if (beginning_.size() == kBeginning) return tracked;
+    if (beginning_.size() == 1) {
+        T_first_second_ = T_world_first_.inverse() * tracked.T_world_sensor;
+    }
+    if (beginning_.empty()) T_world_first_ = tracked.T_world_sensor;
+    beginning_.push_back(scan);
+    if (beginning_.size() == kBeginning) {
+        if (const auto again = begin_again()) return *again;
+    }
+    return tracked;
+}
+
+/// When the first scans are known, they show whether the odometry set out with the right velocity.
+/// If not, it tracks them again, and a new map begins. Returns the pose of the newest one then.
+std::optional<Tracked> Tracker::begin_again() {
+    constexpr double kSame = 1.0;  // [m/s]
+    const std::vector<Scan> scans = std::exchange(beginning_, std::vector<Scan>(kBeginning));
+    const auto velocity = initial_velocity(scans, config_);
+    const double passed = scans[1].stamp - scans[0].stamp;
+    if (!velocity || !(passed > 0.0)) return std::nullopt;
+    const Twist set_out = log(*T_first_second_) / passed;
+    if ((set_out - *velocity).head<3>().norm() < kSame) return std::nullopt;
+    odometry_.emplace(config_);
+    Tracked tracked;
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+        std::optional<Pose> guess;
+        if (i == 0) guess = T_world_first_;
+        if (i == 1) guess = exp(*velocity * passed);
+        tracked = odometry_->track(scans[i].points, scans[i].times, scans[i].stamp, guess);
+        if (i + 1 < scans.size()) odometry_->learn({});
+    }
+    tracked.begins_anew = true;
     return tracked;
 }
 

@@ -38,7 +38,7 @@ Config every_scan() {
 }
 
 Maps::Judged push(Maps& maps, const Scan& scan, bool restarts = false) {
-    Maps::Judged judged = maps.judge(scan, restarts);
+    Maps::Judged judged = maps.judge(scan, restarts ? Maps::Follows::restarts : Maps::Follows::on);
     for (Verdict& verdict : maps.catch_up()) judged.settled.push_back(std::move(verdict));
     return judged;
 }
