@@ -45,12 +45,14 @@ Pose fixed(PoseFix fix, const Pose& pose);
 /// Contents of a pose file.
 struct PoseFile {
     std::vector<Pose> poses;  ///< T_world_sensor as written; rows of NaN (lost tracking) stay NaN
-    std::vector<double> stamps;  ///< [s]; empty for KITTI rows and g2o
+    std::vector<double> stamps;  ///< [s]; empty for KITTI rows without a stamp, and g2o
 };
 
 /// Reads a pose file. The format is recognized by the contents:
 ///
-/// - KITTI: rows of 12 numbers, a row-major 3x4 matrix.
+/// - KITTI: rows of 12 numbers, a row-major 3x4 matrix; or of 13, the same after a stamp [s] or
+/// after
+///   an index that counts the rows.
 /// - TUM: rows of t x y z qx qy qz qw.
 /// - CSV with a header: EuRoC (ns, x y z, qw qx qy qz), or other named columns.
 /// - CSV of 13 columns without a header: MulRan (ns and a row-major 3x4 matrix).

@@ -75,6 +75,10 @@ struct Info {
     bool measured_stamps = false;  ///< true: the stamps come from the recording
     /// All poses of the recording, as dense in time as they are; may be empty.
     Trajectory trajectory;
+    /// True: scans between the poses of `trajectory` are too far in time from them to have a pose,
+    /// for instance between key frames. They are to be placed by odometry that is tied to these
+    /// poses; until then, T_world_sensor has none for them, and they cannot be read.
+    bool sparse_poses = false;
     std::optional<Sweep> sweep;    ///< tells the times of points if the scans do not hold them
     bool deskewed = false;         ///< true: the points are those of deskewed()
     bool points_in_world = false;  ///< true: the files have points in the frame of the poses

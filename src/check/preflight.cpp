@@ -266,7 +266,7 @@ void judge_pose_stamps(Preflight& result, const Recording& recording, double ste
         offsets.push_back(poses[i] - scans[i] - (relative ? poses.front() - scans.front() : 0.0));
     }
     const double offset = median(std::move(offsets));
-    if (std::abs(offset) < 1.5 * step) return;
+    if (std::abs(offset) < 0.75 * step) return;
     result.findings.push_back(
         {fmt::format("the poses' stamps are {:.3g} s {} those of the scans, which are {:.3g} s "
                      "apart; they were matched by order",

@@ -14,7 +14,9 @@
 #include "formats/messages/packets.hpp"
 #include "formats/poses/rigid.hpp"
 #include "recording/bag_contents.hpp"
+#include "recording/matching.hpp"
 #include "recording/pose_source.hpp"
+#include "recording/poses_at_scans.hpp"
 
 namespace dynamic_filter::io {
 namespace {
@@ -99,24 +101,26 @@ std::vector<FoundScan> in_order(CloudTopic topic, std::vector<std::string>& note
 
 /// Chooses the source of the poses. If there are none, returns nothing, and a note says why.
 std::optional<PoseSource> choose_poses(const BagContents& contents, const CloudTopic& clouds,
-                                       const OpenOptions& options,
+                                       const OpenOptions& options, const LinkLookup& lookup,
                                        std::vector<std::string>& notes) {
     if (options.without_poses) return std::nullopt;
     const FrameTree& frames = contents.frames;
     const bool by_frames = frames.moves(clouds.frame);
     const auto named = contents.poses.find(options.pose_topic);
     const auto source = [&](const auto& topic) {
-        return from_topic(topic.first, topic.second, frames, clouds.frame);
+        return from_topic(topic.first, topic.second, frames, clouds.frame, lookup);
     };
     if (!options.pose_topic.empty()) {
-        if (options.pose_topic == "/tf" && by_frames) return from_frames(frames, clouds.frame);
+        if (options.pose_topic == "/tf" && by_frames) {
+            return from_frames(frames, clouds.frame, {}, lookup);
+        }
         if (named != contents.poses.end()) return source(*named);
         std::string known = topic_names(contents.poses);
         if (by_frames) known += (known.empty() ? "" : ", ") + std::string("/tf");
         throw ConfigError(fmt::format("no poses on topic {}; there are: {}", options.pose_topic,
                                       known.empty() ? "none" : known));
     }
-    if (by_frames) return from_frames(frames, clouds.frame);
+    if (by_frames) return from_frames(frames, clouds.frame, {}, lookup);
     if (contents.poses.empty()) {
         notes.push_back(
             fmt::format("no poses of the frame '{}' found; looked for /tf that leads to it, "
@@ -130,6 +134,13 @@ std::optional<PoseSource> choose_poses(const BagContents& contents, const CloudT
             fmt::format(" (of {}; choose with --pose-topic)", topic_names(contents.poses));
     }
     return first;
+}
+
+void assign_at_scans(Info& info, const std::function<std::optional<Pose>(double)>& known) {
+    PosesAtScans found = poses_at_scans(info.stamps, info.trajectory, known);
+    info.T_world_sensor = std::move(found.T_world_sensor);
+    info.sparse_poses = found.are_sparse;
+    if (found.are_sparse) info.notes.push_back(found.note);
 }
 
 /// Assigns poses from a file: interpolated if it has stamps, otherwise one row per scan.
@@ -147,20 +158,18 @@ void assign_file_poses(Info& info, const std::filesystem::path& file) {
         info.notes.push_back("poses matched to the scans by their order");
         return;
     }
+    const double unit = unit_between(poses.stamps, info.stamps);
+    for (double& stamp : poses.stamps) stamp *= unit;
     info.trajectory = {std::move(poses.stamps), std::move(poses.poses)};
     put_in_order(info.trajectory);
-    for (const double stamp : info.stamps) {
-        info.T_world_sensor.push_back(
-            pose_at(info.trajectory, stamp, 1.0, 0.2).value_or(lost_pose()));
-    }
+    const double gap = limits_for(info.stamps).apart;
+    assign_at_scans(info, [&](double stamp) { return pose_at(info.trajectory, stamp, gap, 0.2); });
     info.notes.push_back("poses interpolated at the scans' stamps, from " + file.string());
 }
 
 void assign_poses(Info& info, const PoseSource& source) {
-    for (const double stamp : info.stamps) {
-        info.T_world_sensor.push_back(source.T_world_sensor(stamp).value_or(lost_pose()));
-    }
     info.trajectory = trajectory_of(source);
+    assign_at_scans(info, source.T_world_sensor);
     info.notes.push_back(source.note);
 }
 
@@ -201,9 +210,10 @@ RecordingParts open_bag(const std::filesystem::path& data, const OpenOptions& op
     }
     info.measured_stamps = true;
     scans->topic = clouds.topic;
+    const LinkLookup lookup{.gap = limits_for(info.stamps).apart, .holds = true};
     if (options.poses) {
         assign_file_poses(info, *options.poses);
-    } else if (const auto source = choose_poses(contents, clouds, options, info.notes)) {
+    } else if (const auto source = choose_poses(contents, clouds, options, lookup, info.notes)) {
         assign_poses(info, *source);
         info.points_in_world = source->points_in_world;
     }

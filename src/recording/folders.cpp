@@ -59,9 +59,7 @@ Paths list_files(const fs::path& folder, const std::set<std::string>& extensions
             files.push_back(path);
         }
     }
-    std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
-        return natural_less(a.filename().string(), b.filename().string());
-    });
+    sort_naturally(files);
     return files;
 }
 

@@ -2,8 +2,27 @@
 #include "recording/frame_tree.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace dynamic_filter::io {
+namespace {
+
+double way_of(const std::vector<Pose>& poses) {
+    double way = 0.0;
+    for (std::size_t i = 1; i < poses.size(); ++i) {
+        way += (poses[i].translation() - poses[i - 1].translation()).norm();
+    }
+    return way;
+}
+
+/// The last pose before `stamp`; the first one if there is none before.
+Pose held_pose(const Trajectory& poses, double stamp) {
+    const auto after = std::upper_bound(poses.stamps.begin(), poses.stamps.end(), stamp);
+    const auto last = after == poses.stamps.begin() ? after : after - 1;
+    return poses.poses[static_cast<std::size_t>(last - poses.stamps.begin())];
+}
+
+}  // namespace
 
 void FrameTree::add(const PoseMessage& transform, bool is_static) {
     const auto [it, fresh] = links_.try_emplace(transform.child);
@@ -18,7 +37,10 @@ void FrameTree::add(const PoseMessage& transform, bool is_static) {
 }
 
 void FrameTree::put_in_order() {
-    for (auto& [child, link] : links_) io::put_in_order(link.T_parent_child);
+    for (auto& [child, link] : links_) {
+        io::put_in_order(link.T_parent_child);
+        link.way = way_of(link.T_parent_child.poses);
+    }
 }
 
 void FrameTree::forget_before(double stamp) {
@@ -49,23 +71,29 @@ std::vector<std::string> FrameTree::above(const std::string& frame) const {
     return chain;
 }
 
-std::optional<Pose> FrameTree::in_root(const std::string& frame, double stamp) const {
+std::optional<Pose> FrameTree::in_root(const std::string& frame, double stamp,
+                                       const LinkLookup& lookup) const {
     Pose pose = Pose::Identity();
+    const Link* const leading = leading_link(frame);
     const std::vector<std::string> chain = above(frame);
     for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
         const Link& link = links_.at(chain[i]);
-        const auto step = link.is_static ? std::optional(link.T_parent_child.poses.front())
-                                         : pose_at(link.T_parent_child, stamp, 1.0, 0.2);
+        const Trajectory& poses = link.T_parent_child;
+        auto step = link.is_static ? std::optional(poses.poses.front())
+                                   : pose_at(poses, stamp, lookup.gap, 0.2);
+        const bool corrects = leading != nullptr && &link != leading &&
+                              leading->T_parent_child.stamps.size() > poses.stamps.size();
+        if (!step && lookup.holds && corrects) step = held_pose(poses, stamp);
         if (!step) return std::nullopt;
         pose = *step * pose;
     }
     return pose;
 }
 
-std::optional<Pose> FrameTree::pose(const std::string& of, const std::string& in,
-                                    double stamp) const {
+std::optional<Pose> FrameTree::pose(const std::string& of, const std::string& in, double stamp,
+                                    const LinkLookup& lookup) const {
     if (above(of).back() != above(in).back()) return std::nullopt;
-    const auto T_root_of = in_root(of, stamp), T_root_in = in_root(in, stamp);
+    const auto T_root_of = in_root(of, stamp, lookup), T_root_in = in_root(in, stamp, lookup);
     if (!T_root_of || !T_root_in) return std::nullopt;
     return T_root_in->inverse() * *T_root_of;
 }
@@ -83,15 +111,25 @@ std::optional<double> FrameTree::newest(const std::string& frame) const {
     return newest;
 }
 
-std::vector<double> FrameTree::stamps_above(const std::string& frame) const {
-    std::vector<double> most;
+const FrameTree::Link* FrameTree::leading_link(const std::string& frame) const {
+    const Link* leading = nullptr;
+    const auto order_of = [](const Link& link) {
+        return std::pair(link.way, link.T_parent_child.stamps.size());
+    };
     for (const std::string& child : above(frame)) {
         const auto link = links_.find(child);
         if (link == links_.end() || link->second.is_static) continue;
-        const auto& stamps = link->second.T_parent_child.stamps;
-        if (stamps.size() > 1 && stamps.size() > most.size()) most = stamps;
+        if (link->second.T_parent_child.stamps.size() < 2) continue;  // one pose is no motion
+        if (leading == nullptr || order_of(link->second) > order_of(*leading)) {
+            leading = &link->second;
+        }
     }
-    return most;
+    return leading;
+}
+
+std::vector<double> FrameTree::stamps_above(const std::string& frame) const {
+    const Link* const leading = leading_link(frame);
+    return leading == nullptr ? std::vector<double>{} : leading->T_parent_child.stamps;
 }
 
 }  // namespace dynamic_filter::io

@@ -12,6 +12,15 @@
 
 namespace dynamic_filter::io {
 
+/// How poses of moving links are known between the times at which they were published.
+struct LinkLookup {
+    double gap = 1.0;  ///< [s] longest between two poses that are interpolated
+    /// True: a link keeps its last pose until the next one (before the first one, it has that) if
+    /// another link between the frame and its root goes farther and is published more often. That
+    /// one is the motion, and this one corrects it, as map -> odom does.
+    bool holds = false;
+};
+
 class FrameTree {
 public:
     /// Adds a link, or its pose at another time. A frame keeps its first parent, and a static link
@@ -29,13 +38,13 @@ public:
     [[nodiscard]] std::vector<std::string> above(const std::string& frame) const;
     /// Pose of one frame in another at a time; empty if they are not linked, or not at that time.
     [[nodiscard]] std::optional<Pose> pose(const std::string& of, const std::string& in,
-                                           double stamp) const;
+                                           double stamp, const LinkLookup& lookup = {}) const;
     /// True if a link between `frame` and its root changes over time.
     [[nodiscard]] bool moves(const std::string& frame) const;
     /// The newest time at which all moving links between `frame` and its root are known; empty if
     /// none of them moves.
     [[nodiscard]] std::optional<double> newest(const std::string& frame) const;
-    /// Stamps of the link above a frame that was published most often.
+    /// Stamps of the link above a frame that goes farthest, or was published most often.
     [[nodiscard]] std::vector<double> stamps_above(const std::string& frame) const;
 
 private:
@@ -43,8 +52,13 @@ private:
         std::string parent;
         Trajectory T_parent_child;
         bool is_static = false;
+        double way = 0.0;  ///< [m] length of its path
     };
-    [[nodiscard]] std::optional<Pose> in_root(const std::string& frame, double stamp) const;
+    [[nodiscard]] std::optional<Pose> in_root(const std::string& frame, double stamp,
+                                              const LinkLookup& lookup) const;
+    /// The moving link above a frame that goes farthest; of equal ones, the one that was published
+    /// most often. nullptr if none moves.
+    [[nodiscard]] const Link* leading_link(const std::string& frame) const;
     std::map<std::string, Link> links_;  // keys: child frame
 };
 

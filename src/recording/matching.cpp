@@ -4,108 +4,215 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <optional>
 
-#include "base/text.hpp"
+#include "base/numbers.hpp"
 #include "dynamic_filter/error.hpp"
+#include "recording/layouts/numbers.hpp"
+#include "recording/poses_at_scans.hpp"
+#include "recording/times_in_names.hpp"
 
 namespace dynamic_filter::io {
 namespace {
 
-constexpr double most_gap = 0.05;            // [s] half the period of a 10 Hz LiDAR
-constexpr double least_epoch_seconds = 1e8;  // smaller whole numbers are indices, not times
-constexpr double least_nanoseconds = 1e15;   // larger than any number of seconds
+double span_of(const std::vector<double>& stamps) { return stamps.back() - stamps.front(); }
 
-/// SECONDS_NANOSECONDS at the end of a name, as in "cloud_1583836591_182590976".
-std::optional<double> split_time_in(const std::string& name) {
-    constexpr std::size_t digits = 9;
-    const std::size_t low = name.rfind('_');
-    if (low == std::string::npos || low == 0 || name.size() - low - 1 != digits) {
-        return std::nullopt;
+double usual_step(const std::vector<double>& stamps) {
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < stamps.size(); ++i) steps.push_back(stamps[i] - stamps[i - 1]);
+    return median(std::move(steps));
+}
+
+bool overlap(const std::vector<double>& a, const std::vector<double>& b) {
+    return a.front() <= b.back() && b.front() <= a.back();
+}
+
+/// Stamps in whole seconds, or all equal, do not tell which pose belongs to which scan.
+bool repeat(const std::vector<double>& stamps) {
+    return std::adjacent_find(stamps.begin(), stamps.end()) != stamps.end();
+}
+
+/// Stamps of one clock. One that begins at 0 counts from its own beginning, so the other one is
+/// another clock, unless it begins within the same second.
+bool are_of_one_clock(const std::vector<double>& poses, const std::vector<double>& scans) {
+    constexpr double at_once = 1.0;  // [s]
+    const bool begin_together = std::abs(poses.front() - scans.front()) < at_once;
+    const bool one_begins_at_zero = (poses.front() == 0.0) != (scans.front() == 0.0);
+    return overlap(poses, scans) && (begin_together || !one_begins_at_zero);
+}
+
+/// The poses that are known, which rows of lost tracking are not.
+Trajectory trajectory_of(const PoseFile& file) {
+    Trajectory trajectory;
+    for (std::size_t i = 0; i < file.poses.size(); ++i) {
+        if (!file.poses[i].matrix().allFinite()) continue;
+        trajectory.stamps.push_back(file.stamps[i]);
+        trajectory.poses.push_back(file.poses[i]);
     }
-    const std::size_t high = name.rfind('_', low - 1);  // npos + 1 is 0
-    const std::string whole = name.substr(high + 1, low - high - 1), part = name.substr(low + 1);
-    const bool numeric = (whole + part).find_first_not_of("0123456789") == std::string::npos;
-    const auto seconds = parse_real(whole), nanoseconds = parse_real(part);
-    if (!numeric || !seconds || !nanoseconds || *seconds < least_epoch_seconds) return std::nullopt;
-    return *seconds + *nanoseconds * 1e-9;
+    put_in_order(trajectory);
+    return trajectory;
 }
 
-/// Reads a file name as a time; empty for indices such as "000123".
-std::optional<double> time_in(const std::string& name) {
-    if (const auto time = split_time_in(name)) return time;
-    const bool numeric = name.find_first_not_of("0123456789.") == std::string::npos;
-    const auto value = numeric ? parse_real(name) : std::nullopt;
-    if (!value) return std::nullopt;
-    if (name.find('.') != std::string::npos) return value;
-    if (*value >= least_nanoseconds) return *value * 1e-9;
-    return *value >= least_epoch_seconds ? value : std::nullopt;
+/// True if each row is that of its scan: the numbers agree, and no two stamps are apart.
+bool are_parallel(const std::vector<double>& poses, const std::vector<double>& scans) {
+    const double most = limits_for(scans).nearest;
+    const auto is_near = [&](double a, double b) { return std::abs(a - b) <= most; };
+    return std::equal(poses.begin(), poses.end(), scans.begin(), scans.end(), is_near);
 }
 
-std::vector<double> times_in_names(const Paths& scans) {
-    std::vector<double> times;
-    for (const auto& scan : scans) {
-        const auto time = time_in(scan.stem().string());
-        if (!time) return {};
-        times.push_back(*time);
+/// Poses in a file are often rounded to milliseconds; a row that near is that of the scan, also one
+/// of lost tracking.
+std::optional<Pose> row_at(const Trajectory& rows, double stamp) {
+    constexpr double rounding = 1e-3;  // [s]
+    const auto row = std::lower_bound(rows.stamps.begin(), rows.stamps.end(), stamp - rounding);
+    if (row == rows.stamps.end() || *row > stamp + rounding) return std::nullopt;
+    return rows.poses[static_cast<std::size_t>(row - rows.stamps.begin())];
+}
+
+/// "; the poses begin 0.2 s after the scans; 1 scan has no pose", as far as that is so.
+std::string misfit_text(const std::vector<double>& poses, const std::vector<double>& scans,
+                        const std::vector<Pose>& matched) {
+    std::string text;
+    const double offset = poses.front() - scans.front();
+    const bool is_shifted = poses.size() == scans.size() && !are_parallel(poses, scans);
+    if (is_shifted && std::abs(offset) > 0.5 * usual_step(scans)) {
+        text += fmt::format("; the poses begin {:.3g} s {} the scans", std::abs(offset),
+                            offset < 0.0 ? "before" : "after");
     }
-    return times;
+    const auto lost = std::count_if(matched.begin(), matched.end(),
+                                    [](const Pose& pose) { return !pose.matrix().allFinite(); });
+    if (lost > 0)
+        text += fmt::format("; {} {} no pose", lost, lost == 1 ? "scan has" : "scans have");
+    return text;
 }
 
-std::size_t nearest(const std::vector<double>& stamps, double time) {
-    const auto after = std::lower_bound(stamps.begin(), stamps.end(), time);
-    if (after == stamps.begin()) return 0;
-    const auto before = after - 1;
-    const bool later = after != stamps.end() && *after - time < time - *before;
-    return static_cast<std::size_t>((later ? after : before) - stamps.begin());
+[[noreturn]] void refuse_without_any(const Layout& layout, const PoseFile& file,
+                                     const std::vector<double>& times) {
+    double gap = std::abs(file.stamps.front() - times.front());
+    for (const double stamp : file.stamps) gap = std::min(gap, std::abs(stamp - times.front()));
+    throw InputError(layout.scans.front(), "",
+                     fmt::format("no scan has a pose: {} scans but {} poses in {}, and no pose "
+                                 "within {:.3g} s of this scan's time {}; the nearest is {:.3g} s "
+                                 "away",
+                                 layout.scans.size(), file.poses.size(), layout.poses->string(),
+                                 limits_for(times).nearest, times.front(), gap));
 }
 
-Match match_by_time(const Layout& layout, const PoseFile& file, std::vector<double> times,
-                    const std::string& source) {
-    Match match;
-    for (std::size_t i = 0; i < times.size(); ++i) {
-        const std::size_t pose = nearest(file.stamps, times[i]);
-        const double gap = std::abs(file.stamps[pose] - times[i]);
-        if (!(gap <= most_gap)) {
-            throw InputError(layout.scans[i], "",
-                             fmt::format("{} scans but {} poses in {}, and no pose within {} s of "
-                                         "this scan's time {}; the nearest is {:.3g} s away",
-                                         layout.scans.size(), file.poses.size(),
-                                         layout.poses->string(), most_gap, times[i], gap));
-        }
-        match.poses.push_back(file.poses[pose]);
+Match match_by_time(const Layout& layout, const PoseFile& file, const std::vector<double>& times,
+                    const char* source) {
+    Match match{.poses = {}, .stamps = times, .note = {}};
+    match.trajectory = trajectory_of(file);
+    if (are_parallel(file.stamps, times)) {
+        match.poses = file.poses;
+    } else {
+        Trajectory rows{file.stamps, file.poses};
+        put_in_order(rows);
+        const PoseLimits limits = limits_for(times);
+        PosesAtScans found = poses_at_scans(times, match.trajectory, [&](double stamp) {
+            const auto row = row_at(rows, stamp);
+            return row ? row : pose_at(match.trajectory, stamp, limits.apart);
+        });
+        match.poses = std::move(found.T_world_sensor);
+        match.are_sparse = found.are_sparse;
+        match.sparse_note = std::move(found.note);
     }
-    match.stamps = std::move(times);
-    match.note = fmt::format("{} scans matched to {} poses by time ({})", layout.scans.size(),
-                             file.poses.size(), source);
+    const bool none = std::none_of(match.poses.begin(), match.poses.end(),
+                                   [](const Pose& pose) { return pose.matrix().allFinite(); });
+    if (none) refuse_without_any(layout, file, times);
+    match.note = fmt::format("{} scans matched to {} poses by time ({})", times.size(),
+                             file.poses.size(), source) +
+                 (match.are_sparse ? "" : misfit_text(file.stamps, times, match.poses));
     return match;
+}
+
+Match match_by_order(const PoseFile& file, const std::vector<double>& own) {
+    const std::string note = fmt::format("{} scans matched to poses by order", file.poses.size());
+    if (file.stamps.empty()) return {file.poses, own, note};
+    if (own.empty()) return {file.poses, file.stamps, note};
+    return {file.poses, own, note, file.stamps};
+}
+
+Match match_by_rows(const PoseFile& file, const std::vector<std::size_t>& rows,
+                    const std::vector<double>& times) {
+    Match match{.poses = {}, .stamps = times, .note = {}};
+    for (const std::size_t row : rows) {
+        match.poses.push_back(file.poses[row]);
+        if (times.empty() && !file.stamps.empty()) match.stamps.push_back(file.stamps[row]);
+    }
+    match.note = fmt::format("{} scans matched to {} poses by the numbers of their names",
+                             rows.size(), file.poses.size());
+    return match;
+}
+
+/// Stamps of poses may be in seconds although those of the scans are not.
+PoseFile in_seconds(PoseFile file, const std::vector<double>& scans, std::optional<double> unit) {
+    if (!unit || file.stamps.empty()) return file;
+    const double span = span_of(file.stamps);
+    const bool are_seconds =
+        !scans.empty() && std::abs(span - span_of(scans)) < std::abs(*unit * span - span_of(scans));
+    if (are_seconds) return file;
+    for (double& stamp : file.stamps) stamp *= *unit;
+    return file;
 }
 
 }  // namespace
 
-std::vector<double> growing_times_in_names(const Paths& scans) {
-    std::vector<double> times = times_in_names(scans);
-    if (!std::is_sorted(times.begin(), times.end())) times.clear();
-    return times;
+double unit_between(const std::vector<double>& poses, const std::vector<double>& scans) {
+    if (poses.empty() || scans.empty() || !(span_of(scans) > 0.0)) return 1.0;
+    // A thousand times as long, the poses may be those of a longer drive.
+    if (overlap(poses, scans) && poses.size() != scans.size()) return 1.0;
+    const double ratio = span_of(poses) / span_of(scans);
+    for (const double factor : {1e-3, 1e-6, 1e-9, 1e3, 1e6, 1e9}) {
+        if (std::abs(ratio * factor - 1.0) < 0.5) return factor;
+    }
+    return 1.0;
 }
 
-Match match_poses(const Layout& layout, const PoseFile& file, const std::vector<double>& times) {
-    const std::size_t scans = layout.scans.size();
-    if (file.poses.size() == scans) {
-        const std::string note = fmt::format("{} scans matched to poses by order", scans);
-        if (file.stamps.empty()) {
-            return {file.poses, times.empty() ? growing_times_in_names(layout.scans) : times, note};
-        }
-        const std::vector<double> own = times.empty() ? times_in_names(layout.scans) : times;
-        if (own.empty()) return {file.poses, file.stamps, note};
-        return {file.poses, own, note, file.stamps};
+std::vector<std::size_t> rows_in_names(const Paths& scans, std::size_t rows) {
+    constexpr std::size_t first_time = 100'000'000;  // larger numbers are times
+    std::vector<std::size_t> numbers;
+    for (const auto& scan : scans) {
+        const auto number = index_of(scan);
+        const bool follows = number && (numbers.empty() || *number > numbers.back());
+        if (!follows || *number >= first_time) return {};
+        numbers.push_back(*number);
     }
-    if (!file.stamps.empty()) {
-        const char* source = layout.times ? "times.txt" : "the recording's stamps";
-        if (times.size() == scans) return match_by_time(layout, file, times, source);
-        const std::vector<double> named = times_in_names(layout.scans);
-        if (!named.empty()) return match_by_time(layout, file, named, "file names");
+    // The last scan is that of the last row, so this tells whether the first row is number 0 or 1.
+    if (numbers.empty() || scans.size() >= rows) return {};
+    if (numbers.back() + 1 == rows) return numbers;
+    if (numbers.back() != rows || numbers.front() == 0) return {};
+    for (std::size_t& number : numbers) --number;
+    return numbers;
+}
+
+Match match_poses(const Layout& layout, const PoseFile& given, const std::vector<double>& times,
+                  std::optional<double> unit) {
+    const std::size_t scans = layout.scans.size();
+    std::vector<double> own = times.empty() ? times_in_names(layout.scans, unit) : times;
+    PoseFile file = in_seconds(given, own, unit);
+    const bool are_as_many = file.poses.size() == scans;
+    if (!file.stamps.empty() && !own.empty()) {
+        const double factor = unit_between(file.stamps, own);
+        // Of poses that order can match, `check` names the unit.
+        if (!are_as_many) {
+            for (double& stamp : file.stamps) stamp *= factor;
+        }
+        const bool time_decides = factor == 1.0 && !repeat(file.stamps) && !repeat(own) &&
+                                  are_of_one_clock(file.stamps, own);
+        if (!are_as_many || time_decides) {
+            const char* source = times.empty()  ? "file names"
+                                 : layout.times ? "times.txt"
+                                                : "the recording's stamps";
+            return match_by_time(layout, file, own, source);
+        }
+    }
+    if (are_as_many) {
+        if (!std::is_sorted(own.begin(), own.end())) own.clear();
+        return match_by_order(file, own);
+    }
+    if (const auto rows = rows_in_names(layout.scans, file.poses.size()); !rows.empty()) {
+        return match_by_rows(file, rows, times);
     }
     throw InputError(
         *layout.poses, "",

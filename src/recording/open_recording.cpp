@@ -15,15 +15,26 @@
 #include "recording/layouts/registry.hpp"
 #include "recording/matching.hpp"
 #include "recording/recording_parts.hpp"
+#include "recording/times_in_names.hpp"
 
 namespace dynamic_filter::io {
 namespace {
 
 constexpr double assumed_period = 0.1;  // [s] the usual setting of LiDARs
 
+/// The unit of the numbers that are stamps, if it is given.
+std::optional<double> unit_of(const OpenOptions& options) {
+    return options.time_unit == 1.0 ? std::nullopt : std::optional(options.time_unit);
+}
+
 std::vector<double> times_of(const Layout& layout) {
     if (!layout.times) return {};
     std::vector<double> times = read_times(*layout.times);
+    if (const auto rows = rows_in_names(layout.scans, times.size()); !rows.empty()) {
+        std::vector<double> of_scans;
+        for (const std::size_t row : rows) of_scans.push_back(times[row]);
+        times = std::move(of_scans);
+    }
     if (times.size() != layout.scans.size()) {
         throw InputError(*layout.times, "",
                          fmt::format("{} times but {} scans in {}", times.size(),
@@ -50,19 +61,24 @@ void from_camera_poses(Info& info, const std::filesystem::path& calib) {
 }
 
 /// Assigns the poses. Returns the stamps, if the recording has any.
-std::vector<double> assign_poses(Info& info, const Layout& layout) {
+std::vector<double> assign_poses(Info& info, const Layout& layout, std::optional<double> unit) {
     info.pose_source = layout.poses.value_or(layout.pose_source);
+    const bool has_own = !layout.stamps.empty() || !layout.T_world_sensor.empty();
+    std::vector<double> times = has_own ? layout.stamps : times_of(layout);
+    for (double& time : times) time *= unit.value_or(1.0);
     if (!layout.T_world_sensor.empty()) {
         info.T_world_sensor = layout.T_world_sensor;
-        return layout.stamps;
+        return times;
     }
-    std::vector<double> times = layout.stamps.empty() ? times_of(layout) : layout.stamps;
-    if (!layout.poses) return times.empty() ? growing_times_in_names(layout.scans) : times;
+    if (!layout.poses) return times.empty() ? growing_times_in_names(layout.scans, unit) : times;
     const PoseFile file = read_poses(*layout.poses);
-    Match match = match_poses(layout, file, times);
+    Match match = match_poses(layout, file, times, unit);
     info.T_world_sensor = std::move(match.poses);
     info.notes.push_back(match.note);
     info.pose_stamps = std::move(match.pose_stamps);
+    info.trajectory = std::move(match.trajectory);
+    info.sparse_poses = match.are_sparse;
+    if (match.are_sparse) info.notes.push_back(match.sparse_note);
     if (layout.calib && file.stamps.empty()) {
         if (info.pose_fix == PoseFix::lidar) {
             info.pose_fix = PoseFix::none;
@@ -106,8 +122,12 @@ RecordingParts open_folder(const std::filesystem::path& data, const OpenOptions&
     info.notes = layout.notes;
     info.points_in_world = layout.points_in_world;
     info.label_files = find_labels(layout, info.notes);
-    assign_stamps(info, assign_poses(info, layout));
-    if (options.without_poses) info.T_world_sensor.clear();
+    assign_stamps(info, assign_poses(info, layout, unit_of(options)));
+    if (options.without_poses) {
+        info.T_world_sensor.clear();
+        info.trajectory = {};
+        info.sparse_poses = false;
+    }
     info.has_poses =
         !options.without_poses && (layout.poses_in_scans || !info.T_world_sensor.empty());
     if (layout.poses_in_scans && info.has_poses) require_viewpoints(info);
@@ -123,25 +143,16 @@ RecordingParts open_folder(const std::filesystem::path& data, const OpenOptions&
 RecordingParts open_selected_bag(const std::filesystem::path& data, const OpenOptions& options) {
     RecordingParts parts = open_bag(data, options);
     parts.info.pose_fix = options.pose_fix;
+    for (auto* stamps : {&parts.info.stamps, &parts.info.trajectory.stamps}) {
+        for (double& stamp : *stamps) stamp *= options.time_unit;
+    }
     select(parts, options.first, options.last, options.stride);
     return parts;
 }
 
-void apply_fixes(Info& info, const OpenOptions& options) {
+void apply_fix(Info& info) {
     for (auto* poses : {&info.T_world_sensor, &info.trajectory.poses}) {
         for (Pose& pose : *poses) pose = fixed(info.pose_fix, pose);
-    }
-    if (!info.measured_stamps) return;
-    std::vector<double>& of_poses = info.pose_stamps;
-    const auto span = [](const std::vector<double>& s) { return s.back() - s.front(); };
-    const double unit = options.time_unit;
-    // Stamps of poses matched by order may be in seconds although those of the scans are not.
-    if (!of_poses.empty() && std::abs(span(of_poses) - span(info.stamps)) <
-                                 std::abs(span(of_poses) - unit * span(info.stamps))) {
-        for (double& stamp : of_poses) stamp *= unit;
-    }
-    for (auto* stamps : {&info.stamps, &info.trajectory.stamps}) {
-        for (double& stamp : *stamps) stamp *= unit;
     }
 }
 
@@ -168,7 +179,7 @@ Recording open_recording(const std::filesystem::path& data, const OpenOptions& o
     Info& info = parts.info;
     if (options.points_in_world) info.points_in_world = true;
     if (!info.has_poses) refuse_world_frame(info, data);
-    apply_fixes(info, options);
+    apply_fix(info);
     const Recording recording(std::move(parts));
     const bool deskew = options.deskew && recording.info().has_poses;
     return deskew ? deskewed(recording) : recording;

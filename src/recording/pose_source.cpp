@@ -17,19 +17,21 @@ Trajectory trajectory_of(const PoseSource& source) {
     return trajectory;
 }
 
-PoseSource from_frames(const FrameTree& frames, const std::string& sensor,
-                       const std::string& world) {
+PoseSource from_frames(const FrameTree& frames, const std::string& sensor, const std::string& world,
+                       const LinkLookup& lookup) {
     const std::string root = world.empty() ? frames.above(sensor).back() : world;
-    return {[&frames, sensor, root](double stamp) { return frames.pose(sensor, root, stamp); },
+    return {[&frames, sensor, root, lookup](double stamp) {
+                return frames.pose(sensor, root, stamp, lookup);
+            },
             frames.stamps_above(sensor), false, root,
             fmt::format("poses from /tf: frame '{}' in '{}'", sensor, root)};
 }
 
 PoseSource from_topic(const std::string& name, const PoseTopic& topic, const FrameTree& frames,
-                      const std::string& sensor) {
+                      const std::string& sensor, const LinkLookup& lookup) {
     const Trajectory& trajectory = topic.trajectory;
-    const auto body_pose = [&trajectory](double stamp) {
-        return pose_at(trajectory, stamp, 1.0, 0.2);
+    const auto body_pose = [&trajectory, lookup](double stamp) {
+        return pose_at(trajectory, stamp, lookup.gap, 0.2);
     };
     if (sensor == topic.parent) {
         return {body_pose, trajectory.stamps, true, topic.parent,
@@ -42,7 +44,7 @@ PoseSource from_topic(const std::string& name, const PoseTopic& topic, const Fra
     if (linked) {
         return {[=, &frames, child = topic.child](double stamp) -> std::optional<Pose> {
                     const auto T_world_body = body_pose(stamp);
-                    const auto T_body_sensor = frames.pose(sensor, child, stamp);
+                    const auto T_body_sensor = frames.pose(sensor, child, stamp, lookup);
                     if (!T_world_body || !T_body_sensor) return std::nullopt;
                     return *T_world_body * *T_body_sensor;
                 },

@@ -33,11 +33,11 @@ Trajectory trajectory_of(const PoseSource& source);
 /// Poses from /tf: of the frame `sensor` in the frame `world` (empty: its root). The result refers
 /// to `frames`.
 PoseSource from_frames(const FrameTree& frames, const std::string& sensor,
-                       const std::string& world = {});
+                       const std::string& world = {}, const LinkLookup& lookup = {});
 
 /// Poses of the topic `name`. If /tf links its frame to the frame `sensor`, that transform is
 /// applied. The result refers to `topic` and `frames`.
 PoseSource from_topic(const std::string& name, const PoseTopic& topic, const FrameTree& frames,
-                      const std::string& sensor);
+                      const std::string& sensor, const LinkLookup& lookup = {});
 
 }  // namespace dynamic_filter::io

@@ -2,6 +2,8 @@
 // Recordings that are made of others.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/recording.hpp"
 #include "formats/poses/rigid.hpp"
@@ -36,6 +38,8 @@ void keep_scans(RecordingParts& parts, const std::vector<std::size_t>& chosen) {
     keep(info.stamps, chosen);
     keep(info.pose_stamps, chosen);
     keep(parts.velocities, chosen);
+    info.sparse_poses &= std::any_of(info.T_world_sensor.begin(), info.T_world_sensor.end(),
+                                     [](const Pose& pose) { return !pose.matrix().allFinite(); });
     parts.read_cloud = [read = std::move(parts.read_cloud), chosen](std::size_t i) {
         return read(chosen.at(i));
     };
@@ -118,6 +122,7 @@ Recording with_poses(const Recording& recording,
     RecordingParts parts = recording.parts();
     Info& info = parts.info;
     info.has_poses = info.tracked = true;
+    info.sparse_poses = false;
     info.T_world_sensor.assign(recording.size(), lost_pose());
     parts.velocities.assign(recording.size(), Twist::Zero());
     for (std::size_t i = 0; i < recording.size(); ++i) {
@@ -134,6 +139,7 @@ Recording without_poses(const Recording& recording) {
     info.T_world_sensor.clear();
     info.trajectory = {};
     info.has_poses = info.tracked = info.points_in_world = info.deskewed = false;
+    info.sparse_poses = false;
     parts.velocities.clear();
     return Recording(std::move(parts));
 }

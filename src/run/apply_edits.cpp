@@ -59,9 +59,7 @@ std::vector<fs::path> label_files(const fs::path& folder) {
     for (const auto& entry : fs::directory_iterator(folder)) {
         if (entry.path().extension() == ".label") files.push_back(entry.path());
     }
-    std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
-        return io::natural_less(a.filename(), b.filename());
-    });
+    io::sort_naturally(files);
     return files;
 }
 

@@ -56,7 +56,9 @@ Json json_of(const Sweep& sweep) {
 }
 
 Sweep sweep_of(const Json& json) {
-    return {json.at("clockwise"), json.at("seam"), json.at("duration")};
+    return {.clockwise = json.at("clockwise"),
+            .seam = json.at("seam"),
+            .duration = json.at("duration")};
 }
 
 /// A line for each scan, because a line of a megabyte is no pleasure in an editor.

@@ -299,8 +299,8 @@ TEST_F(Stamps, OfUsualScansAreFine) {
         EXPECT_TRUE(with(step, 0.0).findings.empty()) << step;
     }
     EXPECT_TRUE(with(1e6, 0.0, 0.0, false).findings.empty()) << "assumed stamps";
-    EXPECT_TRUE(with(0.125, 1e9, 0.18).findings.empty()) << "within one and a half scans";
-    EXPECT_TRUE(with(0.125, 1e9, -0.18).findings.empty());
+    EXPECT_TRUE(with(0.125, 1e9, 0.09).findings.empty()) << "within three quarters of a scan";
+    EXPECT_TRUE(with(0.125, 1e9, -0.09).findings.empty());
 }
 
 TEST_F(Stamps, InOtherUnitsAreNamedWithTheUnit) {
@@ -321,7 +321,7 @@ TEST_F(Stamps, OfNoUnitAreNamed) {
 TEST_F(Stamps, OfPosesThatAreNotThoseOfTheScansAreNamed) {
     expect_only(with(0.125, 1e9, 0.25), "0.25 s after those of the scans, which are 0.125 s apart",
                 "--poses");
-    expect_only(with(0.125, 1e9, -0.1875), "0.188 s before those of the scans", "--poses");
+    expect_only(with(0.125, 1e9, -0.125), "0.125 s before those of the scans", "--poses");
 }
 
 TEST_F(Stamps, OfTwoScansSayNothing) {

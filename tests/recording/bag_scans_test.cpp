@@ -165,6 +165,33 @@ TEST_F(BagScansTest, ScansBeyondThePosesAreRejectedOneByOne) {
     EXPECT_HAS(error_of([&] { (void)recording.read(4); }), "no pose is known at its time");
 }
 
+TEST_F(BagScansTest, ScansBetweenSparsePosesAreLeftToTheOdometry) {
+    scans(21, "lidar");
+    for (const double t : {0.0, 1.0, 2.0}) transform("odom", "lidar", moved(t), kStart + t);
+    const Recording recording = opened();
+    EXPECT_TRUE(recording.info().sparse_poses);
+    EXPECT_TRUE(has_note(recording, "poses at 1 of 10 scans"));
+    ASSERT_EQ(recording.info().trajectory.stamps.size(), 3U);
+    EXPECT_EQ(recording.info().trajectory.poses[2].translation().x(), 2.0);
+    for (std::size_t i = 0; i < 21; ++i) {
+        EXPECT_EQ(recording.info().T_world_sensor[i].matrix().allFinite(), i % 10 == 0) << i;
+    }
+}
+
+TEST_F(BagScansTest, CorrectionsOfAMapHoldUntilTheNextOne) {
+    scans(21, "lidar");
+    for (double t = -0.5; t < 2.5; t += 0.05) transform("odom", "lidar", moved(t), kStart + t);
+    for (const double t : {0.52, 1.52}) transform("map", "odom", moved(t), kStart + t);
+    const Recording recording = opened();
+    EXPECT_FALSE(recording.info().sparse_poses);
+    for (std::size_t i = 0; i < 21; ++i) {
+        const double correction = i < 16 ? 0.52 : 1.52;
+        EXPECT_NEAR(recording.read(i).T_world_sensor.translation().x(),
+                    correction + 0.1 * static_cast<double>(i), 1e-6)
+            << i;
+    }
+}
+
 TEST_F(BagScansTest, ScansThatCannotBeReadAreLossesAndOtherMessagesAreNot) {
     scans(2, "lidar");
     drive("odom", "lidar");

@@ -89,5 +89,45 @@ TEST(FrameTree, TurningLinksCompose) {
     EXPECT_TRUE(frames.pose("b", "c", 0.0)->isApprox(c.inverse() * a * b, 1e-12));
 }
 
+/// odom -> base moves 1 m/s, every 0.1 s; map -> odom corrects it every 3 s.
+FrameTree corrected(double odometry_step = 0.1) {
+    FrameTree frames;
+    for (double t = 0.0; t <= 10.0; t += odometry_step) {
+        frames.add({t, "odom", "base", along(t)}, false);
+    }
+    for (const double t : {1.0, 4.0, 7.0}) frames.add({t, "map", "odom", along(0.2 * t)}, false);
+    frames.put_in_order();
+    return frames;
+}
+
+TEST(FrameTree, CorrectionsAreHeld) {
+    const FrameTree frames = corrected();
+    const LinkLookup holding{.gap = 0.25, .holds = true};
+    for (double t = 0.03; t < 10.0; t += 0.1) {
+        const double correction = t < 4.0 ? 0.2 : t < 7.0 ? 0.8 : 1.4;
+        const auto pose = frames.pose("base", "map", t, holding);
+        ASSERT_TRUE(pose) << t;
+        EXPECT_NEAR(pose->translation().x(), t + correction, 1e-9) << t;
+    }
+    EXPECT_FALSE(frames.pose("base", "map", 2.5))
+        << "live, a correction that is late is waited for";
+    EXPECT_EQ(frames.stamps_above("base").size(), 101U);
+}
+
+TEST(FrameTree, TheMotionItselfIsNotHeld) {
+    const FrameTree frames = corrected(1.0);
+    const LinkLookup holding{.gap = 0.25, .holds = true};
+    EXPECT_TRUE(frames.pose("base", "map", 5.0, holding));
+    EXPECT_FALSE(frames.pose("base", "map", 5.5, holding));
+    // Nor if a joint of the vehicle is published more often.
+    FrameTree with_joint = corrected(1.0);
+    for (double t = 0.0; t <= 10.0; t += 0.02) {
+        with_joint.add({t, "base", "lidar", along(0.5)}, false);
+    }
+    with_joint.put_in_order();
+    EXPECT_FALSE(with_joint.pose("lidar", "map", 5.5, holding));
+    EXPECT_EQ(with_joint.stamps_above("lidar").size(), 11U);
+}
+
 }  // namespace frame_tree_test
 }  // namespace dynamic_filter::io

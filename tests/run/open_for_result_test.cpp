@@ -82,18 +82,18 @@ TEST_F(OpenForResult, ARecordingWithoutPosesGetsThoseOfTheRun) {
 }
 
 TEST_F(OpenForResult, OptionsThatAreGivenGoBefore) {
-    leave_result({.poses = kNoPoses});
+    leave_result({.data = {}, .poses = kNoPoses});
     data.put("others.txt", kitti_rows(3) + kitti_rows(17));
-    EXPECT_EQ(x_of(opened({.poses = data / "others.txt"}).recording, 7), 4.0);
-    EXPECT_EQ(x_of(opened({.pose_fix = "inverse"}).recording, 7), -7.0);
-    EXPECT_EQ(x_of(opened({.poses = kNoPoses}).recording, 7), 107.0);
+    EXPECT_EQ(x_of(opened({.data = {}, .poses = data / "others.txt"}).recording, 7), 4.0);
+    EXPECT_EQ(x_of(opened({.data = {}, .pose_fix = "inverse"}).recording, 7), -7.0);
+    EXPECT_EQ(x_of(opened({.data = {}, .poses = kNoPoses}).recording, 7), 107.0);
     EXPECT_EQ(x_of(opened().recording, 7), 107.0);
 }
 
 TEST_F(OpenForResult, TheRecordingIsReadAsByTheRun) {
     const io::Recording recording = app::open({.data = data.path(), .pose_fix = "inverse"});
-    write_placed(result_.path(),
-                 placed_of(recording, {.pose_fix = "inverse"}, fingerprint_of(recording)));
+    write_placed(result_.path(), placed_of(recording, {.data = {}, .pose_fix = "inverse"},
+                                           fingerprint_of(recording)));
     EXPECT_EQ(x_of(opened().recording, 7), -7.0);
     EXPECT_NE(opened().note.find("--pose-fix inverse"), std::string::npos) << opened().note;
 }
@@ -108,10 +108,10 @@ TEST_F(OpenForResult, NothingIsSaidIfNothingDiffers) {
 // Every selection of the run, and every one that is asked for: scans have the poses of their own
 // rows.
 TEST_F(OpenForResult, SelectionsMeet) {
-    for (const DataOptions& how : {DataOptions{}, DataOptions{.first = 4},
-                                   DataOptions{.first = 3, .last = 17, .stride = 2}}) {
+    for (const DataOptions& how : {DataOptions{}, DataOptions{.data = {}, .first = 4},
+                                   DataOptions{.data = {}, .first = 3, .last = 17, .stride = 2}}) {
         leave_result(how);
-        EXPECT_EQ(x_of(opened().recording, 1), 100.0 + how.first + how.stride);
+        EXPECT_EQ(x_of(opened().recording, 1), 100.0 + static_cast<double>(how.first + how.stride));
         for (const std::size_t first : {0, 5, 9}) {
             for (const std::size_t stride : {1, 2, 3}) {
                 if (first == 0 && stride == 1) continue;
@@ -122,7 +122,7 @@ TEST_F(OpenForResult, SelectionsMeet) {
                     if (in_run) expected.push_back(i);
                 }
                 const io::Recording found =
-                    opened({.first = first, .last = 15, .stride = stride}).recording;
+                    opened({.data = {}, .first = first, .last = 15, .stride = stride}).recording;
                 ASSERT_EQ(found.size(), expected.size());
                 for (std::size_t k = 0; k < expected.size(); ++k) {
                     EXPECT_EQ(io::stem(found, k), number(expected[k]));
@@ -131,7 +131,7 @@ TEST_F(OpenForResult, SelectionsMeet) {
             }
         }
     }
-    EXPECT_THROW(opened({.first = 18}), ConfigError);
+    EXPECT_THROW(opened({.data = {}, .first = 18}), ConfigError);
 }
 
 TEST_F(OpenForResult, PosesBesideForeignLabelsServeWhereThereAreNone) {

@@ -45,7 +45,7 @@ TEST_F(PlacedTest, GivesBackEveryBit) {
     motions[2].reset();
     const io::Recording recording = io::with_poses(
         io::with_times(opened(), Sweep{.clockwise = true, .seam = 0.1, .duration = 0.3}), motions);
-    write_placed(result_.path(), placed_of(recording, {.first = 2}, "these"));
+    write_placed(result_.path(), placed_of(recording, {.data = {}, .first = 2}, "these"));
     const auto placed = read_placed(result_.path());
     ASSERT_TRUE(placed);
     EXPECT_EQ(placed->fingerprint, "these");

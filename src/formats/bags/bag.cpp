@@ -52,9 +52,7 @@ std::vector<fs::path> bags_in(const fs::path& folder) {
             files.push_back(path);
         }
     }
-    std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
-        return natural_less(a.filename().string(), b.filename().string());
-    });
+    sort_naturally(files);
     return files;
 }
 

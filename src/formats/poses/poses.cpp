@@ -19,7 +19,7 @@
 namespace dynamic_filter::io {
 namespace {
 
-constexpr std::size_t kitti_columns = 12, tum_columns = 8;
+constexpr std::size_t kitti_columns = 12, tum_columns = 8, stamped_columns = 13;
 
 std::vector<double> numbers(std::string_view line, const Lines& lines) {
     std::vector<double> row;
@@ -32,11 +32,12 @@ std::vector<double> numbers(std::string_view line, const Lines& lines) {
 }
 
 [[noreturn]] void explain_columns(std::size_t columns, const Lines& lines) {
-    std::string hint = "expected 12 (KITTI, 3x4 row by row) or 8 (TUM: t x y z qx qy qz qw)";
+    std::string hint =
+        "expected 12 (KITTI, 3x4 row by row), 13 (the same after a stamp or an index) or 8 (TUM: t "
+        "x y z qx qy qz qw)";
     if (columns == 16) hint += "; 16 look like a 4x4 matrix: keep the first 12";
     if (columns == 7) hint += "; 7 look like TUM without its stamp: put one first";
     if (columns == 17) hint += "; 17 look like a 4x4 matrix after an index: keep columns 2 to 13";
-    if (columns == 13) hint += "; 13 look like KITTI after a stamp or an index: remove the first";
     lines.fail(fmt::format("{} columns; {}", columns, hint));
 }
 
@@ -44,9 +45,19 @@ bool is_finite(const std::vector<double>& row) {
     return std::all_of(row.begin(), row.end(), [](double v) { return std::isfinite(v); });
 }
 
-Pose kitti_pose(const std::vector<double>& row, const Lines& lines) {
+/// `first`: column of the first number of the matrix.
+Pose kitti_pose(const std::vector<double>& row, std::size_t first, const Lines& lines) {
     if (!is_finite(row)) return lost_pose();
-    return pose_from_rows(Eigen::Map<const Rows34>(row.data()), lines);
+    return pose_from_rows(Eigen::Map<const Rows34>(row.data() + first), lines);
+}
+
+/// True if the stamps only count the rows, from any whole number.
+bool are_indices(const std::vector<double>& stamps) {
+    constexpr double first_time = 1e8;  // larger whole numbers are times
+    for (std::size_t i = 0; i < stamps.size(); ++i) {
+        if (stamps[i] != stamps[0] + static_cast<double>(i)) return false;
+    }
+    return stamps.size() > 1 && stamps[0] == std::floor(stamps[0]) && stamps[0] < first_time;
 }
 
 Pose tum_pose(const std::vector<double>& row, const Lines& lines) {
@@ -69,7 +80,10 @@ PoseFile read_rows(Lines& lines) {
             lines.fail(fmt::format("{} columns; the rows before have {}", row.size(), columns));
         }
         if (columns == kitti_columns) {
-            file.poses.push_back(kitti_pose(row, lines));
+            file.poses.push_back(kitti_pose(row, 0, lines));
+        } else if (columns == stamped_columns) {
+            file.poses.push_back(kitti_pose(row, 1, lines));
+            append_stamp(file, row[0], lines);
         } else if (columns == tum_columns) {
             file.poses.push_back(tum_pose(row, lines));
             append_stamp(file, row[0], lines);
@@ -77,6 +91,7 @@ PoseFile read_rows(Lines& lines) {
             explain_columns(columns, lines);
         }
     }
+    if (columns == stamped_columns && are_indices(file.stamps)) file.stamps.clear();
     return file;
 }
 
@@ -197,7 +212,7 @@ Pose read_calib_tr(const std::filesystem::path& file) {
         if (row.size() != kitti_columns || !is_finite(row)) {
             lines.fail("Tr: needs 12 finite numbers, a 3x4 matrix row by row");
         }
-        return kitti_pose(row, lines);
+        return kitti_pose(row, 0, lines);
     }
     throw InputError(file, "",
                      "has no line 'Tr:' (velodyne to camera); add it, or remove the file "

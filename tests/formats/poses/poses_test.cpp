@@ -41,6 +41,22 @@ TEST_F(Poses, TumQuaternionIsXyzw) {
     EXPECT_FALSE(file.poses[1].matrix().allFinite());
 }
 
+TEST_F(Poses, KittiRowsAfterAStampOrAnIndex) {
+    const std::string row = " 1 0 0 7 0 1 0 8 0 0 1 9\n";
+    const PoseFile stamped = read("1700000000.5" + row + "1700000001.25" + row);
+    EXPECT_EQ(stamped.stamps, (std::vector<double>{1700000000.5, 1700000001.25}));
+    EXPECT_EQ(stamped.poses.at(1).translation(), Eigen::Vector3d(7, 8, 9));
+    EXPECT_EQ(read("0.1" + row + "1.1" + row).stamps.size(), 2U);
+    for (const std::string first : {"0", "1", "17"}) {
+        const PoseFile indexed = read(first + row + std::to_string(std::stoi(first) + 1) + row);
+        EXPECT_TRUE(indexed.stamps.empty()) << first;
+        EXPECT_EQ(indexed.poses.size(), 2U);
+    }
+    EXPECT_FALSE(read("1 nan 0 0 7 0 1 0 8 0 0 1 9\n").poses.at(0).matrix().allFinite());
+    EXPECT_HAS(error("nan" + row), "not finite");
+    EXPECT_HAS(error("2" + row + "1" + row), "line 2");
+}
+
 TEST_F(Poses, BadRowsAreNamed) {
     EXPECT_HAS(error(""), "no pose");
     EXPECT_HAS(error("1 2 3\n"), "3 columns");

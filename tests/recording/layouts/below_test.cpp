@@ -91,7 +91,9 @@ TEST_F(Below, WithoutPosesNamesThatAreTimesAreStamps) {
         data.put("scans/" + std::string(name) + ".bin", floats({1, 2, 3, 4}));
     }
     EXPECT_NEAR(open().info().stamps[2] - open().info().stamps[0], 0.3, 1e-6);
-    data.put("scans/1500000000.55.bin", floats({1, 2, 3, 4}));  // 55 is behind 8 as a number
+    data.put("scans/1500000000.55.bin", floats({1, 2, 3, 4}));
+    EXPECT_NEAR(open().info().stamps[1] - open().info().stamps[0], 0.05, 1e-6);
+    data.put("scans/1500000000.7.8.bin", floats({1, 2, 3, 4}));  // no number
     EXPECT_FALSE(open().info().measured_stamps);
 }
 
