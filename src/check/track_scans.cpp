@@ -16,6 +16,38 @@ namespace {
 
 using MaybePoses = std::vector<std::optional<Pose>>;
 
+MaybePoses given_poses(const Recording& recording) {
+    MaybePoses given(recording.size());
+    const auto& poses = recording.info().T_world_sensor;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        if (poses[i].matrix().allFinite()) given[i] = poses[i];
+    }
+    return given;
+}
+
+/// Scans without a pose can be read from it as well, if their points are not in the world.
+Recording readable_without_poses(const Recording& recording) {
+    const auto& poses = recording.info().T_world_sensor;
+    const bool are_complete = std::all_of(
+        poses.begin(), poses.end(), [](const Pose& pose) { return pose.matrix().allFinite(); });
+    return are_complete || recording.info().points_in_world ? recording : without_poses(recording);
+}
+
+/// The given poses at the scans nearest to them in time, brought to their stamps.
+MaybePoses anchors(const Recording& recording, const TrackedScans& tracked) {
+    const auto& [stamps, poses] = recording.info().trajectory;
+    const std::vector<double>& scans = recording.info().stamps;
+    MaybePoses given(recording.size());
+    for (std::size_t k = 0; k < stamps.size(); ++k) {
+        const auto next = std::lower_bound(scans.begin(), scans.end(), stamps[k]);
+        if (next == scans.end() || (next == scans.begin() && *next != stamps[k])) continue;
+        const bool is_before = next != scans.begin() && stamps[k] - *(next - 1) < *next - stamps[k];
+        const auto i = static_cast<std::size_t>(next - scans.begin()) - (is_before ? 1 : 0);
+        if (tracked[i]) given[i] = poses[k] * exp(tracked[i]->velocity * (scans[i] - stamps[k]));
+    }
+    return given;
+}
+
 /// The velocity at scan i, where a map begins.
 std::optional<Twist> velocity_at(const Recording& recording, std::size_t i,
                                  const OdometryConfig& config) {
@@ -33,17 +65,17 @@ public:
         velocity_ = velocity;
         last_ = std::nullopt;
     }
-    std::optional<Pose> before(const Scan& scan) {
+    std::optional<Pose> before(double stamp, const std::optional<Pose>& T_world_given) {
         std::optional<Pose> guess;
         if (last_) {
-            if (velocity_) guess = exp(*velocity_ * (scan.stamp - last_->stamp));
-            given_ = scan.has_pose && last_->has_pose
-                         ? std::optional(last_->T_world_sensor.inverse() * scan.T_world_sensor)
+            if (velocity_) guess = exp(*velocity_ * (stamp - last_->stamp));
+            given_ = T_world_given && last_->T_world_given
+                         ? std::optional(last_->T_world_given->inverse() * *T_world_given)
                          : std::nullopt;
             if (given_ && is_trusted_) guess = given_;
             velocity_ = std::nullopt;
         }
-        last_ = StampedScan{scan.stamp, scan.T_world_sensor, scan.has_pose};
+        last_ = Last{stamp, T_world_given};
         return guess;
     }
     /// `moved`: what the odometry found.
@@ -56,13 +88,12 @@ public:
     }
 
 private:
-    struct StampedScan {
+    struct Last {
         double stamp;
-        Pose T_world_sensor;
-        bool has_pose;
+        std::optional<Pose> T_world_given;
     };
     std::optional<Twist> velocity_;
-    std::optional<StampedScan> last_;
+    std::optional<Last> last_;
     std::optional<Pose> given_;
     bool is_trusted_ = false;
 };
@@ -92,15 +123,6 @@ std::vector<Motion> neighbours(const TrackedScans& tracked) {
         last = i;
     }
     return motions;
-}
-
-MaybePoses given_poses(const Recording& recording) {
-    MaybePoses given(recording.size());
-    const auto& poses = recording.info().T_world_sensor;
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-        if (poses[i].matrix().allFinite()) given[i] = poses[i];
-    }
-    return given;
 }
 
 /// Where the trajectory begins in the world: so that the hint in the middle holds.
@@ -136,19 +158,21 @@ std::vector<Pose> poses_of(const TrackedScans& tracked) {
 
 TrackedScans follow(const Recording& recording, const OdometryConfig& config,
                     const std::function<bool()>& after) {
+    const Recording readable = readable_without_poses(recording);
+    const MaybePoses given = given_poses(recording);
     TrackedScans tracked(recording.size());
     Odometry odometry(config);
     Guesses guesses;
-    guesses.begin(velocity_at(recording, 0, config));
+    guesses.begin(velocity_at(readable, 0, config));
     Pose T_world_last = Pose::Identity();
     for (std::size_t i = 0; i < recording.size(); ++i) {
-        if (const auto scan = read_scan(recording, i)) {
-            tracked[i] =
-                odometry.track(scan->points, scan->times, scan->stamp, guesses.before(*scan));
+        if (const auto scan = read_scan(readable, i)) {
+            tracked[i] = odometry.track(scan->points, scan->times, scan->stamp,
+                                        guesses.before(scan->stamp, given[i]));
             odometry.learn({});
             guesses.after(T_world_last.inverse() * tracked[i]->T_world_sensor);
             T_world_last = tracked[i]->T_world_sensor;
-            if (tracked[i]->begins_anew) guesses.begin(velocity_at(recording, i, config));
+            if (tracked[i]->begins_anew) guesses.begin(velocity_at(readable, i, config));
         }
         if (after && !after()) break;
     }
@@ -158,7 +182,9 @@ TrackedScans follow(const Recording& recording, const OdometryConfig& config,
 TrackedScans bind(const Recording& recording, TrackedScans tracked, bool to_given) {
     constexpr int kRounds = 3;  // corrected poses meet at more places
     const std::vector<Motion> chain = neighbours(tracked);
-    std::vector<PoseHint> hints = hints_of(given_poses(recording), maybe_poses(tracked));
+    const MaybePoses given = recording.info().sparse_poses ? anchors(recording, tracked)
+                                                           : given_poses(recording);
+    std::vector<PoseHint> hints = hints_of(given, maybe_poses(tracked));
     const Pose T_world_odometry = beginning_of(tracked, hints);
     if (!to_given) hints.clear();
     std::vector<Pose> start = poses_of(tracked);
