@@ -54,21 +54,20 @@ bool is_step_between_scans(double seconds) {
     return seconds >= shortest_step && seconds <= longest_step;
 }
 
-/// Whole numbers are no times unless one unit gives both a date or an uptime and usual steps.
+/// The unit of whole numbers that are times: a date, or the uptime of a sensor. One unit at most
+/// makes a date of a number, and one at most a usual step of a difference. The date counts first,
+/// because scans may be minutes apart; `check` names steps that are too long.
 std::optional<double> unit_of(const std::vector<double>& numbers) {
     constexpr double first_date = 1e8, last_date = 1e10;  // [s] since 1970: 1973 to 2286
     const double size = numbers[numbers.size() / 2], step = median_step(numbers);
+    std::optional<double> by_date, by_step;
     for (const double unit : units) {
         const double seconds = size * unit;
-        const bool is_date = seconds >= first_date && seconds < last_date;
-        // A single scan has no step.
-        if (is_date && (step == 0.0 || is_step_between_scans(step * unit))) return unit;
+        if (seconds >= first_date && seconds < last_date) by_date = unit;
+        if (seconds < first_date && is_step_between_scans(step * unit)) by_step = unit;
     }
-    for (const double unit : units) {
-        const bool is_uptime = size * unit < first_date;
-        if (is_uptime && is_step_between_scans(step * unit)) return unit;
-    }
-    return std::nullopt;
+    const bool is_too_fast = by_date && step > 0.0 && step * *by_date < shortest_step;
+    return by_date && !(by_step && is_too_fast) ? by_date : by_step;
 }
 
 std::vector<double> scaled(std::vector<double> numbers, double unit) {

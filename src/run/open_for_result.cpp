@@ -101,9 +101,9 @@ io::Recording selected(const io::Recording& recording, const DataOptions& asked,
     }
     if (rows.empty()) {
         throw ConfigError(fmt::format(
-            "--first, --last and --stride select none of the scans of the run, which are every {}. "
-            "one from {} to {}",
-            of_run.stride, of_run.first, of_run.first + (recording.size() - 1) * of_run.stride));
+            "--first, --last and --stride select none of the scans of the run, which are {} to {} "
+            "in steps of {}",
+            of_run.first, of_run.first + (recording.size() - 1) * of_run.stride, of_run.stride));
     }
     return io::chosen_scans(recording, rows);
 }

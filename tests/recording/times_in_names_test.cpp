@@ -57,6 +57,10 @@ TEST(TimesInNames, SizeAndStepsTellTheUnitOfWholeNumbers) {
         expect_times(in_unit(uptime, per_second), uptime, 1e-3);
     }
     expect_times(named({"1500000000200000000"}), {1.5e9 + 0.2}, 1e-6);  // no step
+    const auto minutes = every(60.0, 1.7e9);
+    for (const double per_second : {1.0, 1e6, 1e9}) {
+        expect_times(in_unit(minutes, per_second), minutes, 1e-3);
+    }
 }
 
 TEST(TimesInNames, AUnitThatIsGivenCounts) {
