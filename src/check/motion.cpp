@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/progress.hpp"
+#include "check/sensor_place.hpp"
 #include "dynamic_filter/check.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/writers.hpp"
@@ -102,6 +103,7 @@ std::string track_text(const std::vector<std::optional<Tracked>>& tracked) {
 std::vector<std::string> choose_motion(io::Recording& recording, Config& config,
                                        const MotionChoice& choice) {
     std::vector<std::string> notes;
+    add(notes, choose_sensor_place(recording));
     config.odometry.refine = config.odometry.refine || choice.refine == "on";
     const bool has_poses = recording.info().has_poses;
     const bool asks_poses = has_poses && choice.refine == "auto";
@@ -141,6 +143,8 @@ std::vector<std::string> choose_motion(io::Recording& recording, Config& config,
 
 void ensure_poses(io::Recording& recording, const Config& config, const std::string& deskew,
                   bool quiet) {
+    const std::string place = choose_sensor_place(recording);
+    if (!place.empty()) recording = io::with_notes(recording, {place});
     if (recording.info().has_poses) return;
     Config chosen = config;
     const auto notes = choose_motion(recording, chosen, {.deskew = deskew});
@@ -160,7 +164,8 @@ void ensure_poses(io::Recording& recording, const Config& config, const std::str
     recording = io::with_notes(recording, {to_text(track)});
 }
 
-void write_poses(const std::filesystem::path& path, const io::Recording& recording) {
+void write_poses(const std::filesystem::path& path, const io::Recording& sensor) {
+    const io::Recording recording = io::with_sensor_at(sensor, Eigen::Vector3d::Zero());
     if (path.extension() == ".tum") {
         io::write_poses_tum(path, recording.info().stamps, recording.info().T_world_sensor);
     } else {

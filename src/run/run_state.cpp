@@ -47,8 +47,11 @@ std::string state_of(const io::Recording& recording) {
     for (const fs::path& file : recording.info().scan_files) {
         if (fs::is_regular_file(file, ignored)) bytes += fs::file_size(file, ignored);
     }
-    return fmt::format("input {}\nscans {} from {} to {}, {} bytes\n",
-                       fs::absolute(recording.info().root).lexically_normal().string(),
+    const Eigen::Vector3d at = recording.info().sensor_at.value_or(Eigen::Vector3d::Zero());
+    const std::string sensor =
+        at.isZero() ? "" : fmt::format("sensor at {} {} {}\n", at.x(), at.y(), at.z());
+    return fmt::format("input {}\n{}scans {} from {} to {}, {} bytes\n",
+                       fs::absolute(recording.info().root).lexically_normal().string(), sensor,
                        recording.size(), io::stem(recording, 0),
                        io::stem(recording, recording.size() - 1), bytes);
 }
