@@ -77,6 +77,11 @@ std::vector<std::optional<Tracked>> track_scans(const Recording& recording,
 /// scans at several places of the recording.
 std::optional<Sweep> find_sweep(const Recording& recording, const OdometryConfig& config);
 
+/// Where the beams of the sensor meet [m], in the frame of the points of the files: one place, or
+/// two if the scans of two sensors are merged. Empty if the scans do not show it: those of sensors
+/// that do not rotate, or whose points were put in another order. Reads five scans.
+std::vector<Eigen::Vector3d> find_sensor_places(const Recording& recording);
+
 /// Difference between the recorded poses and the motion that the scans show, for pairs of scans
 /// with a given separation. All values are medians.
 struct PoseError {

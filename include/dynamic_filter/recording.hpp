@@ -3,7 +3,9 @@
 /// A recording: scans in order, a pose and a stamp for each scan, and ground truth if there is any.
 ///
 /// - Units: [m]; stamps [s].
-/// - Frames: points in the sensor frame, poses T_world_sensor; other conventions are converted.
+/// - Frames: points in the sensor frame, poses T_world_sensor; other conventions are converted. The
+///   files may hold points in another frame with the same axes, such as the vehicle's; then
+///   Info::sensor_at is where the sensor is in it.
 /// - Shapes: arrays of an Info have one entry per scan, those of a FullScan one per point.
 /// - Ownership: values; copies of a Recording share its open bag and its Info.
 /// - Threads: a Recording never changes; its members and functions that take one are thread-safe.
@@ -54,6 +56,9 @@ struct OpenOptions {
     /// True: points are in the frame of the poses, not in the sensor frame.
     bool points_in_world = false;
     double time_unit = 1.0;  ///< [s] per unit of the stamps of scans and poses
+    /// [m] Place of the sensor in the frame of the points; empty: what the recording says, or not
+    /// known.
+    std::optional<Eigen::Vector3d> sensor_at;
 };
 
 /// What is known of a recording without reading the scans.
@@ -84,6 +89,10 @@ struct Info {
     bool points_in_world = false;  ///< true: the files have points in the frame of the poses
     /// For poses in the files of the scans; all other poses are already corrected.
     PoseFix pose_fix = PoseFix::none;
+    /// [m] Place of the sensor in the frame of the points of the files, which has the axes of the
+    /// sensor frame; empty: not known, so taken for the origin. The poses above, and the points and
+    /// the pose of a FullScan, are those of the sensor.
+    std::optional<Eigen::Vector3d> sensor_at;
     bool intensity_is_truth = false;  ///< `benchmark` with ground truth in the intensity
     std::vector<std::string> notes;   ///< assumptions that were made, as sentences for the user
     /// Parts of a bag that cannot be read, so that scans are missing.
@@ -160,6 +169,9 @@ Recording deskewed(const Recording& recording, std::optional<Sweep> sweep = {});
 /// times, the motion within each scan is undone with the velocities, and scans then have none.
 Recording with_poses(const Recording& recording,
                      const std::vector<std::optional<Tracked>>& tracked);
+
+/// The same with the sensor at another place in the frame of the points of the files [m].
+Recording with_sensor_at(const Recording& recording, const Eigen::Vector3d& at);
 
 /// The same without poses; points are as in the files.
 Recording without_poses(const Recording& recording);

@@ -75,6 +75,7 @@ class _Reading(TypedDict, total=False):
     pose_topic: str
     pose_fix: str
     points_in_world: bool
+    sensor_at: str
     time_unit: str
     deskew: _Switch
     first: int

@@ -133,6 +133,8 @@ poses of the recording are not read, and DynamicFilter estimates them.
 topic, pose_topic: topics of the scans and of the poses of a bag.
 pose_fix: none, inverse, camera, lidar, wxyz, xyzw or mm, as `dynamicfilter check` advises.
 points_in_world: True if points are in the frame of the poses.
+sensor_at: "X,Y,Z" [m], place of the sensor in the frame of the points, if that is the vehicle's; points
+and poses are then those of the sensor.
 time_unit: unit of the stamps: s, ms, us or ns.
 deskew: True does motion compensation of each scan with the poses and the times of the points.
 first, last, stride: selection of scans.

@@ -7,6 +7,7 @@
 
 #include "base/progress.hpp"
 #include "check/choose_poses.hpp"
+#include "check/sensor_place.hpp"
 #include "dynamic_filter/check.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/writers.hpp"
@@ -110,6 +111,7 @@ void use_found_poses(io::Recording& recording, const Config& config, const Motio
 
 ChosenMotion choose_motion(io::Recording& recording, Config& config, const MotionChoice& choice) {
     ChosenMotion chosen;
+    add(chosen.notes, choose_sensor_place(recording));
     const bool has_poses = recording.info().has_poses;
     const io::Recording looked_at = choice.deskew == "off" ? recording : io::with_times(recording);
     const bool timed = has_times(looked_at);
@@ -148,6 +150,8 @@ ChosenMotion choose_motion(io::Recording& recording, Config& config, const Motio
 
 void ensure_poses(io::Recording& recording, const Config& config, const std::string& deskew,
                   bool quiet) {
+    const std::string place = choose_sensor_place(recording);
+    if (!place.empty()) recording = io::with_notes(recording, {place});
     if (recording.info().has_poses) return;
     Config chosen = config;
     const auto motion = choose_motion(recording, chosen, {.deskew = deskew, .quiet = quiet});
@@ -158,7 +162,8 @@ std::string track_text(const std::vector<std::optional<Tracked>>& tracked) {
     return to_text(summary_of(tracked));
 }
 
-void write_poses(const std::filesystem::path& path, const io::Recording& recording) {
+void write_poses(const std::filesystem::path& path, const io::Recording& sensor) {
+    const io::Recording recording = io::with_sensor_at(sensor, Eigen::Vector3d::Zero());
     if (path.extension() == ".tum") {
         io::write_poses_tum(path, recording.info().stamps, recording.info().T_world_sensor);
     } else {

@@ -40,7 +40,8 @@ void ensure_poses(io::Recording& recording, const Config& config, const std::str
 /// How far the odometry got, in a sentence.
 std::string track_text(const std::vector<std::optional<Tracked>>& tracked);
 
-/// The recording's poses: .tum with stamps, otherwise KITTI's rows.
-void write_poses(const std::filesystem::path& path, const io::Recording& recording);
+/// The recording's poses, of the frame of the points of its files: .tum with stamps, otherwise
+/// KITTI's rows.
+void write_poses(const std::filesystem::path& path, const io::Recording& sensor);
 
 }  // namespace dynamic_filter::app

@@ -209,6 +209,22 @@ void judge_poses(Preflight& result, const Recording& recording, const Samples& s
     }
 }
 
+/// A finding if the scans of two sensors are merged. Returns true if there is one.
+bool judge_sensors(Preflight& result, const Recording& recording) {
+    const auto places = find_sensor_places(recording);
+    if (places.size() < 2) return false;
+    const auto& a = places.front();
+    const auto& b = places.back();
+    result.findings.push_back(
+        {fmt::format(
+             "the beams meet in two places, ({:.2f}, {:.2f}, {:.2f}) m and ({:.2f}, {:.2f}, "
+             "{:.2f}) m from the origin of the points' frame: several sensors are merged "
+             "into one scan",
+             a.x(), a.y(), a.z(), b.x(), b.y(), b.z()),
+         "use the scans of one sensor, each with its own pose"});
+    return true;
+}
+
 void judge_points(Preflight& result, const Samples& samples) {
     constexpr double kSuspicious = 0.2;
     std::vector<double> doubled;
@@ -366,7 +382,7 @@ Preflight check_recording(const Recording& recording, Depth depth) {
     judge_stamps(result, recording);
     judge_order(result, recording, samples);
     judge_unit(result, samples);
-    judge_points(result, samples);
+    if (!judge_sensors(result, recording)) judge_points(result, samples);
     if (result.overlays.empty()) return result;
     std::optional<bool> known;  // evaluated once, because it reads scans
     const auto nearly_right = [&] {

@@ -13,6 +13,7 @@
 #include "dynamic_filter/error.hpp"
 #include "formats/clouds/time_field.hpp"
 #include "geometry/voxel.hpp"
+#include "recording/recording_parts.hpp"
 
 namespace dynamic_filter::io {
 namespace {
@@ -101,7 +102,9 @@ std::optional<double> began_of(const Cloud& cloud) {
 /// The points without motion compensation, after which they are seen from several places and
 /// naturally lie behind each other.
 Points as_measured(const Recording& recording, const FullScan& scan) {
-    return recording.info().points_in_world ? scan.points : positions(scan.cloud);
+    const Info& info = recording.info();
+    if (info.points_in_world) return scan.points;
+    return seen_from(info.sensor_at.value_or(Eigen::Vector3d::Zero()), positions(scan.cloud));
 }
 
 float typical_range(const Points& points) {

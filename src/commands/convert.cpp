@@ -87,6 +87,8 @@ int convert_recording(const ConvertOptions& o) {
     io::Recording recording = opened.recording;
     say(opened.note);
     ensure_poses(recording, preset("default"), o.data.deskew, false);
+    // What is written is of the frame that the files have.
+    recording = io::with_sensor_at(recording, Eigen::Vector3d::Zero());
     for (const std::string& note : recording.info().notes) fmt::print(stderr, "note: {}\n", note);
     for (const std::string& line : recording.info().losses)
         fmt::print(stderr, "lost     {}\n", line);

@@ -5,6 +5,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 
 #include "dynamic_filter/error.hpp"
 
@@ -14,6 +16,9 @@ namespace {
 
 /// Empty if the value is possible, otherwise what is wrong with it.
 std::string fault_of(const ReadingOption& option, const std::string& value) {
+    if (option.is_place && !value.empty() && !place_of(value)) {
+        return fmt::format("'{}' is no place; expected X,Y,Z in metres, such as 0.9,0,1.6", value);
+    }
     const auto& choices = option.choices;
     const bool is_free = choices.empty() || value.empty();
     if (is_free || std::find(choices.begin(), choices.end(), value) != choices.end()) return "";
@@ -37,6 +42,18 @@ std::vector<std::string> pose_fix_names() {
     std::vector<std::string> names{"none"};
     for (const io::PoseFix fix : io::pose_fixes()) names.push_back(io::to_string(fix));
     return names;
+}
+
+std::optional<Eigen::Vector3d> place_of(const std::string& text) {
+    Eigen::Vector3d place;
+    const char *at = text.data(), *const end = at + text.size();
+    for (int axis = 0; axis < 3; ++axis) {
+        if (axis > 0 && (at == end || *at++ != ',')) return std::nullopt;
+        const auto [behind, error] = std::from_chars(at, end, place[axis]);
+        if (error != std::errc{} || !std::isfinite(place[axis])) return std::nullopt;
+        at = behind;
+    }
+    return at == end ? std::optional(place) : std::nullopt;
 }
 
 std::string as_option(const ReadingOption& option) {

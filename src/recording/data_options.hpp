@@ -25,6 +25,7 @@ struct DataOptions {
     std::string topic{}, pose_topic{};             ///< of a bag; empty: chosen
     std::string pose_fix = "none", time_unit = "s";
     bool points_in_world = false;
+    std::string sensor_at{};  ///< "X,Y,Z" [m]; empty: not known
     std::string deskew = "auto";
     std::size_t first = 0;
     std::optional<std::size_t> last{};
@@ -38,6 +39,7 @@ struct ReadingOption {
     std::vector<std::string> choices{};  ///< empty: any text
     const char* alone = nullptr;         ///< the choice if the command's option has no word
     std::uint64_t low = 0;               ///< smallest whole number
+    bool is_place = false;               ///< true: three numbers with commas, or empty
     bool selects = false;                ///< true: chooses scans, and does not change them
 };
 
@@ -67,6 +69,11 @@ void visit_reading(Options& options, const Visit& visit) {
     row({.name = "points_in_world",
          .help = "the points are in the world frame, not in the sensor's frame"},
         options.points_in_world);
+    row({.name = "sensor_at",
+         .help = "X,Y,Z [m] of the sensor in the frame of the points, if that is the vehicle's "
+                 "(default: found from the rings of a rotating sensor, or from /tf_static)",
+         .is_place = true},
+        options.sensor_at);
     row({.name = "time_unit", .help = "unit of the stamps", .choices = {"s", "ms", "us", "ns"}},
         options.time_unit);
     row({.name = "deskew",
@@ -84,6 +91,9 @@ void visit_reading(Options& options, const Visit& visit) {
 
 /// Name of a row as the command spells it: "--pose-fix".
 std::string as_option(const ReadingOption& option);
+
+/// The numbers of "X,Y,Z"; empty if they are no three finite numbers.
+std::optional<Eigen::Vector3d> place_of(const std::string& text);
 
 /// Who gave the options, and so how messages spell them.
 enum class Asker { command, python };

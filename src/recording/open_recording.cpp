@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <utility>
 
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/poses.hpp"
@@ -180,7 +181,9 @@ Recording open_recording(const std::filesystem::path& data, const OpenOptions& o
     if (options.points_in_world) info.points_in_world = true;
     if (!info.has_poses) refuse_world_frame(info, data);
     apply_fix(info);
-    const Recording recording(std::move(parts));
+    const auto at = options.sensor_at ? options.sensor_at : std::exchange(info.sensor_at, {});
+    const Recording opened(std::move(parts));
+    const Recording recording = at ? with_sensor_at(opened, *at) : opened;
     const bool deskew = options.deskew && recording.info().has_poses;
     return deskew ? deskewed(recording) : recording;
 }

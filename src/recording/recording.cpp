@@ -88,14 +88,17 @@ void check_pose(const Info& info, std::size_t i) {
 /// Poses and points: those of the file in the sensor frame.
 void place(FullScan& scan, const Info& info, std::size_t i) {
     scan.has_pose = info.has_poses;
+    const Eigen::Vector3d at = info.sensor_at.value_or(Eigen::Vector3d::Zero());
     if (info.has_poses && info.T_world_sensor.empty()) {
-        scan.T_world_sensor = fixed(info.pose_fix, scan.cloud.viewpoint.value_or(Pose::Identity()));
+        scan.T_world_sensor =
+            fixed(info.pose_fix, scan.cloud.viewpoint.value_or(Pose::Identity())) *
+            Eigen::Translation3d(at);
         refuse_absurd(scan.T_world_sensor, info.scan_files[i]);
     } else if (info.has_poses) {
         scan.T_world_sensor = info.T_world_sensor[i];
     }
-    scan.points =
-        info.points_in_world ? into_sensor(scan.cloud, scan.T_world_sensor) : positions(scan.cloud);
+    scan.points = info.points_in_world ? into_sensor(scan.cloud, scan.T_world_sensor)
+                                       : seen_from(at, positions(scan.cloud));
     if (std::none_of(scan.points.begin(), scan.points.end(), is_measured)) {
         throw InputError(info.scan_files[i], "", "has no finite point away from the sensor");
     }
@@ -118,6 +121,17 @@ bool is_absurdly_far(const Pose& T_world_sensor) {
     constexpr double kEarth = 4e7;  // [m]
     // Not "greater": a coordinate that is no number is absurd, too.
     return !(T_world_sensor.translation().cwiseAbs().maxCoeff() <= kEarth);
+}
+
+Points seen_from(const Eigen::Vector3d& at, Points points) {
+    constexpr float kNoReturn = 0.05F;  // [m] no sensor measures as near
+    const Point shift = at.cast<float>();
+    if (shift.isZero(0.0F)) return points;
+    for (Point& p : points) {
+        p -= shift;
+        if (p.squaredNorm() < kNoReturn * kNoReturn) p.setZero();
+    }
+    return points;
 }
 
 Points into_sensor(const Cloud& cloud, const Pose& T_world_sensor) {

@@ -35,6 +35,11 @@ Recording chosen_scans(const Recording& recording, const std::vector<std::size_t
 /// the world may be far from its origin.
 Points into_sensor(const Cloud& cloud, const Pose& T_world_sensor);
 
+/// Points of the frame in which the sensor is at `at` [m], moved into the sensor frame. Those at
+/// the sensor itself are no returns, which were (0, 0, 0) before they were moved into the other
+/// frame; they are so again.
+Points seen_from(const Eigen::Vector3d& at, Points points);
+
 /// True if the pose is farther away than the circumference of the Earth; such a value is a wrong
 /// number or has a wrong unit.
 bool is_absurdly_far(const Pose& T_world_sensor);

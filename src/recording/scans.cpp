@@ -37,6 +37,7 @@ void require_extension(const std::filesystem::path& output, const std::string& e
 }
 
 io::Recording open(const DataOptions& options) {
+    refuse_invalid(options, Asker::command);
     io::OpenOptions how{.layout = options.format,
                         .poses = options.poses,
                         .first = options.first,
@@ -47,7 +48,8 @@ io::Recording open(const DataOptions& options) {
                         .deskew = options.deskew == "on",
                         .pose_fix = pose_fix_of(options.pose_fix),
                         .points_in_world = options.points_in_world,
-                        .time_unit = seconds_of(options.time_unit)};
+                        .time_unit = seconds_of(options.time_unit),
+                        .sensor_at = place_of(options.sensor_at)};
     if (how.poses == std::filesystem::path(kNoPoses)) {
         how.poses.reset();
         how.without_poses = true;

@@ -133,6 +133,21 @@ Recording with_poses(const Recording& recording,
     return Recording(std::move(parts));
 }
 
+Recording with_sensor_at(const Recording& recording, const Eigen::Vector3d& at) {
+    RecordingParts parts = recording.parts();
+    Info& info = parts.info;
+    const Eigen::Vector3d move = at - info.sensor_at.value_or(Eigen::Vector3d::Zero());
+    info.sensor_at = at;
+    if (move.isZero(0.0)) return Recording(std::move(parts));
+    for (auto* poses : {&info.T_world_sensor, &info.trajectory.poses}) {
+        for (Pose& pose : *poses) pose = pose * Eigen::Translation3d(move);
+    }
+    for (Twist& velocity : parts.velocities) {
+        velocity.head<3>() += velocity.tail<3>().cross(move);
+    }
+    return Recording(std::move(parts));
+}
+
 Recording without_poses(const Recording& recording) {
     RecordingParts parts = recording.parts();
     Info& info = parts.info;

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <array>
+
 #include <nlohmann/json.hpp>
 #include <span>
 
@@ -86,7 +88,8 @@ Placed placed_of(const io::Recording& recording, const DataOptions& how,
                   .fingerprint = fingerprint,
                   .has_times = parts.with_times,
                   .deskewed = info.deskewed,
-                  .sweep = info.sweep};
+                  .sweep = info.sweep,
+                  .sensor_at = info.sensor_at};
     if (!info.tracked) return placed;
     for (std::size_t i = 0; i < recording.size(); ++i) {
         const Pose& pose = info.T_world_sensor[i];
@@ -106,6 +109,10 @@ void write_placed(const fs::path& folder, const Placed& placed) {
               {"times", placed.has_times},
               {"deskewed", placed.deskewed},
               {"sweep", placed.sweep ? json_of(*placed.sweep) : Json()}};
+    if (placed.sensor_at) {
+        const Eigen::Vector3d& at = *placed.sensor_at;
+        json["sensor_at"] = {at.x(), at.y(), at.z()};
+    }
     std::string text = json.dump(2);
     if (!placed.tracked.empty()) {
         text.resize(text.size() - 2);  // the line end and the brace
@@ -127,6 +134,10 @@ std::optional<Placed> read_placed(const fs::path& folder) {
                       .has_times = json.at("times"),
                       .deskewed = json.at("deskewed")};
         if (!json.at("sweep").is_null()) placed.sweep = sweep_of(json["sweep"]);
+        if (json.contains("sensor_at")) {
+            const auto at = json["sensor_at"].get<std::array<double, 3>>();
+            placed.sensor_at = Eigen::Vector3d(at[0], at[1], at[2]);
+        }
         if (!json.contains("poses_and_velocities")) return placed;
         for (const Json& scan : json["poses_and_velocities"]) {
             placed.tracked.push_back(tracked_of(scan));
@@ -141,6 +152,7 @@ std::optional<Placed> read_placed(const fs::path& folder) {
 }
 
 io::Recording placed_again(io::Recording recording, const Placed& placed) {
+    if (placed.sensor_at) recording = io::with_sensor_at(recording, *placed.sensor_at);
     if (placed.deskewed && !recording.info().deskewed) {
         recording = io::deskewed(recording, placed.sweep);
     }

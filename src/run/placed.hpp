@@ -21,6 +21,7 @@ struct Placed {
     bool has_times = false;   ///< true: scans had the times of their points
     bool deskewed = false;    ///< true: see io::deskewed()
     std::optional<Sweep> sweep{};
+    std::optional<Eigen::Vector3d> sensor_at{};  ///< [m] see io::Info
     /// Poses that were found or refined, and velocities; empty: those of the recording stayed.
     std::vector<std::optional<Tracked>> tracked{};
 

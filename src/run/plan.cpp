@@ -227,6 +227,7 @@ void look_at(Drive& drive, const Config& config, const DataOptions& how, Planned
     planned.notes.insert(planned.notes.end(), chosen.notes.begin(), chosen.notes.end());
     planned.deskew = drive.recording.info().deskewed;
     planned.sweep = drive.recording.info().sweep;
+    planned.sensor_at = drive.recording.info().sensor_at.value_or(Eigen::Vector3d::Zero());
     for (const auto& found : io::check_recording(drive.recording, io::Depth::quick).findings) {
         planned.warnings.push_back(warning_of(found, how));
     }
@@ -349,6 +350,7 @@ Plan make_plan(std::vector<Drive>& drives, const Config& config, const DataOptio
 void prepare(std::vector<Drive>& drives, const Plan& plan) {
     for (std::size_t d = 0; d < drives.size(); ++d) {
         io::Recording& recording = drives[d].recording;
+        recording = io::with_sensor_at(recording, plan.drives[d].sensor_at);
         if (!plan.drives[d].deskew || recording.info().deskewed) continue;
         recording = io::deskewed(recording, plan.drives[d].sweep);
     }

@@ -32,6 +32,7 @@ struct PlannedDrive {
     /// How the motion during each scan is undone, as Recording has it.
     bool deskew = false;
     std::optional<Sweep> sweep;
+    Eigen::Vector3d sensor_at = Eigen::Vector3d::Zero();  ///< [m] as in io::Info
 };
 
 /// Indices of the scans that were not rejected.

@@ -48,6 +48,8 @@ PlanJson json_of(const PlannedDrive& drive) {
                   {"around", blob(around)},       {"rejected", drive.rejected},
                   {"notes", drive.notes},         {"warnings", drive.warnings},
                   {"deskew", drive.deskew},       {"most_points", drive.most_points}};
+    const auto& at = drive.sensor_at;
+    json["sensor_at"] = {at.x(), at.y(), at.z()};
     if (drive.sweep) {
         json["sweep"] = {drive.sweep->clockwise, drive.sweep->seam, drive.sweep->duration};
     }
@@ -62,6 +64,8 @@ PlannedDrive drive_of(const PlanJson& json) {
                        .most_points = json.at("most_points"),
                        .deskew = json.at("deskew"),
                        .sweep = {}};
+    const PlanJson& at = json.at("sensor_at");
+    drive.sensor_at = Eigen::Vector3d(at.at(0).get<double>(), at.at(1).get<double>(), at.at(2).get<double>());
     if (json.contains("sweep")) {
         const PlanJson& sweep = json["sweep"];
         drive.sweep = Sweep{.clockwise = sweep[0], .seam = sweep[1], .duration = sweep[2]};

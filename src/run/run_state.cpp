@@ -54,8 +54,11 @@ std::string scans_text(const io::Recording& recording) {
 }
 
 std::string state_of(const io::Recording& recording) {
-    return fmt::format("input {}\n{}\n",
-                       fs::absolute(recording.info().root).lexically_normal().string(),
+    const Eigen::Vector3d at = recording.info().sensor_at.value_or(Eigen::Vector3d::Zero());
+    const std::string sensor =
+        at.isZero() ? "" : fmt::format("sensor at {} {} {}\n", at.x(), at.y(), at.z());
+    return fmt::format("input {}\n{}{}\n",
+                       fs::absolute(recording.info().root).lexically_normal().string(), sensor,
                        scans_text(recording));
 }
 
