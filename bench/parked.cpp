@@ -170,7 +170,8 @@ void compare(const fs::path& truth, const fs::path& out, const Rule& rule) {
     }
     if (names.empty())
         throw InputError(truth, "", "holds no recording with labels, expected drive_1");
-    std::sort(names.begin(), names.end(), io::natural_less);
+    std::sort(names.begin(), names.end(),
+              [](const std::string& a, const std::string& b) { return io::natural_less(a, b); });
     std::vector<Row> rows;
     for (const std::string& name : names) {
         rows.push_back(measure(truth / name, out / "drives" / name / "labels", rule));

@@ -182,8 +182,8 @@ TrackedScans follow(const Recording& recording, const OdometryConfig& config,
 TrackedScans bind(const Recording& recording, TrackedScans tracked, bool to_given) {
     constexpr int kRounds = 3;  // corrected poses meet at more places
     const std::vector<Motion> chain = neighbours(tracked);
-    const MaybePoses given = recording.info().sparse_poses ? anchors(recording, tracked)
-                                                           : given_poses(recording);
+    const MaybePoses given =
+        recording.info().sparse_poses ? anchors(recording, tracked) : given_poses(recording);
     std::vector<PoseHint> hints = hints_of(given, maybe_poses(tracked));
     const Pose T_world_odometry = beginning_of(tracked, hints);
     if (!to_given) hints.clear();

@@ -2,52 +2,18 @@
 #include "dynamic_filter/check.hpp"
 
 #include <array>
-#include <optional>
 
-#include "dynamic_filter/simulation.hpp"
-#include "support/drive.hpp"
 #include "support/random.hpp"
-#include "support/recording.hpp"
+#include "support/street_recording.hpp"
 
 namespace dynamic_filter::io {
 namespace recorded_motion_test {
 
-constexpr std::size_t kScans = 30;
-
-/// From the middle of the street; without times, as KITTI's scans are.
-const test::Drive& street(bool sweep) {
-    static std::array<std::optional<test::Drive>, 2> drives;
-    auto& drive = drives[sweep ? 1 : 0];
-    if (drive) return *drive;
-    sim::SimulationOptions options;
-    options.scene = "street";
-    options.sensor = "hdl32";
-    options.rate_hz = 5.0;  // 1 m between scans
-    options.sweep = sweep;
-    sim::Simulation simulation(options);
-    drive.emplace();
-    for (std::size_t i = 0; i < kScans; ++i) {
-        sim::SimulatedScan s = simulation.scan(30 + i);
-        drive->truth.push_back(s.T_world_sensor);
-        drive->scans.push_back({std::move(s.points), Pose::Identity(), s.stamp, i, false});
-    }
-    return *drive;
-}
+constexpr std::size_t kScans = kStreetScans;
 
 /// Recordings of which some scans may be bad, with any poses.
-class RecordedMotion : public RecordingFiles {
+class RecordedMotion : public StreetRecording {
 protected:
-    void put(const test::Drive& drive, const std::vector<Pose>& poses) const {
-        std::filesystem::create_directories(data / "velodyne");
-        std::vector<double> stamps;
-        for (const Scan& scan : drive.scans) {
-            write_bin(data / ("velodyne/" + number(scan.index) + ".bin"), scan.points,
-                      std::vector<float>(scan.points.size(), 0.5F));
-            stamps.push_back(scan.stamp);
-        }
-        write_times(data / "times.txt", stamps);
-        if (!poses.empty()) write_poses_kitti(data / "poses.txt", poses);
-    }
     [[nodiscard]] MotionQuality quality(const std::vector<Pose>& poses) const {
         put(street(false), poses);
         return measure_motion(open(), {});

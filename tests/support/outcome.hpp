@@ -30,7 +30,7 @@ inline Outcome run(const std::vector<RoomScan>& scans, const Config& config) {
         for (Verdict& v : judged.instant) result.instant.push_back(std::move(v));
     };
     for (const RoomScan& s : scans) {
-        add(maps.judge(s.scan, false));
+        add(maps.judge(s.scan, Maps::Follows::on));
         maps.catch_up();
     }
     add(maps.finish());
