@@ -179,7 +179,7 @@ TrackedScans follow(const Recording& recording, const OdometryConfig& config,
     return tracked;
 }
 
-TrackedScans bind(const Recording& recording, TrackedScans tracked, bool to_given) {
+TrackedScans bind_poses(const Recording& recording, TrackedScans tracked, bool to_given) {
     constexpr int kRounds = 3;  // corrected poses meet at more places
     const std::vector<Motion> chain = neighbours(tracked);
     const MaybePoses given =
@@ -203,7 +203,7 @@ TrackedScans bind(const Recording& recording, TrackedScans tracked, bool to_give
 
 TrackedScans track_scans(const Recording& recording, const OdometryConfig& config,
                          const std::function<bool()>& after) {
-    return bind(recording, follow(recording, config, after), true);
+    return bind_poses(recording, follow(recording, config, after), true);
 }
 
 }  // namespace dynamic_filter::io

@@ -24,6 +24,6 @@ TrackedScans follow(const Recording& recording, const OdometryConfig& config,
 /// Closes loops, and ties the trajectory to the poses of the recording, if it has some and
 /// `to_given`: over short distances the odometry holds, over long ones the given poses. The frame
 /// is that of the given poses.
-TrackedScans bind(const Recording& recording, TrackedScans tracked, bool to_given);
+TrackedScans bind_poses(const Recording& recording, TrackedScans tracked, bool to_given);
 
 }  // namespace dynamic_filter::io

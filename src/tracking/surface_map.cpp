@@ -12,8 +12,7 @@ constexpr float kFewest = 5.0F;  // smallest number of points of a plane
 constexpr float kMostPerPlane = 1000.0F;
 // Of the voxel size: smallest spread of the points in both directions of a plane.
 constexpr float kSpread = 0.1F;
-constexpr float kWideSpread = 0.2F;  // of the voxel size: spread above which planes are not tilted
-constexpr float kNoise = 0.01F;      // [m] smallest roughness of a surface
+constexpr float kNoise = 0.01F;  // [m] smallest roughness of a surface
 // [m] largest roughness of a surface, with the uncertainty of its position.
 constexpr float kRoughest = 0.5F;
 // Share of the points, because errors of neighboring points are similar.
@@ -84,10 +83,6 @@ Surface SurfaceMap::surface_of(const Level& level, std::uint32_t voxel) {
     surface.normal = axes.col(0);
     surface.along = {axes.col(1) / std::sqrt(spread[1]), axes.col(2) / std::sqrt(spread[2])};
     surface.variance = spread[0] * m.count / (m.count - 3.0F) + kNoise * kNoise;
-    // The plane of a narrow strip, such as a ring on the ground, is tilted by the noise along the
-    // beams, and more so the narrower it is.
-    const float wide = kWideSpread * kWideSpread * level.size * level.size;
-    if (spread[1] < wide) surface.variance *= (wide / spread[1]) * (wide / spread[1]);
     surface.count = m.count;
     return surface;
 }

@@ -24,7 +24,7 @@ double mean_error(const TrackedScans& tracked, const Pose& T_truth_world) {
 
 TEST_F(TrackScans, WithoutPosesTheWorldIsTheFirstScan) {
     put(street(false), {});
-    const TrackedScans tracked = bind(open(), follow(open(), {}, {}), false);
+    const TrackedScans tracked = bind_poses(open(), follow(open(), {}, {}), false);
     EXPECT_TRUE(tracked.front()->T_world_sensor.isApprox(Pose::Identity(), 1e-6));
     EXPECT_LT(mean_error(tracked, street(false).truth.front()), 0.1);
 }
@@ -35,7 +35,7 @@ TEST_F(TrackScans, IsTiedToPosesThatAreKnownNowAndThen) {
         if (i % 10 != 0) poses[i].matrix().setConstant(std::numeric_limits<double>::quiet_NaN());
     }
     put(street(false), poses);
-    const TrackedScans tracked = bind(open(), follow(open(), {}, {}), true);
+    const TrackedScans tracked = bind_poses(open(), follow(open(), {}, {}), true);
     ASSERT_TRUE(tracked[5]);
     EXPECT_LT(mean_error(tracked, Pose::Identity()), 0.1);
 }
