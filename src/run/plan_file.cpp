@@ -65,7 +65,8 @@ PlannedDrive drive_of(const PlanJson& json) {
                        .deskew = json.at("deskew"),
                        .sweep = {}};
     const PlanJson& at = json.at("sensor_at");
-    drive.sensor_at = Eigen::Vector3d(at.at(0).get<double>(), at.at(1).get<double>(), at.at(2).get<double>());
+    drive.sensor_at =
+        Eigen::Vector3d(at.at(0).get<double>(), at.at(1).get<double>(), at.at(2).get<double>());
     if (json.contains("sweep")) {
         const PlanJson& sweep = json["sweep"];
         drive.sweep = Sweep{.clockwise = sweep[0], .seam = sweep[1], .duration = sweep[2]};
