@@ -4,8 +4,10 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
+#include <bitset>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 #include "base/degree.hpp"
@@ -246,7 +248,20 @@ std::optional<Cone> fit(const Chains& chains, Cone cone) {
     return std::nullopt;
 }
 
-/// The apices of both halves of a scan, if each half is clearly sharper at its own.
+/// The azimuths [in sectors] of the chains' points, as seen from the apex.
+std::bitset<24> sectors_of(const Chains& chains, const Cone& cone) {
+    std::bitset<24> sectors;
+    for (const Chain& chain : chains) {
+        const Eigen::Vector3d ray = chain.points.front() - cone.apex;
+        const double turns = std::atan2(ray.y(), ray.x()) / (2.0 * std::numbers::pi) + 0.5;
+        sectors.set(static_cast<std::size_t>(turns * 24.0) % 24);
+    }
+    return sectors;
+}
+
+/// The apices of both halves of a scan, if each half is clearly sharper at its own. Two sensors see
+/// the same surroundings. The halves of one sweep are also seen from two places, if the sensor's
+/// motion was undone, but in different directions.
 std::vector<Eigen::Vector3d> of_two_sensors(const Chains& chains) {
     constexpr double kApart = 2.0 * kLeastAway;
     std::array<Chains, 2> halves;
@@ -255,7 +270,8 @@ std::vector<Eigen::Vector3d> of_two_sensors(const Chains& chains) {
     if (!first || !second || (first->apex - second->apex).norm() < kApart) return {};
     const bool differ = spread_of(halves[0], *second) > kClearly * spread_of(halves[0], *first) &&
                         spread_of(halves[1], *first) > kClearly * spread_of(halves[1], *second);
-    if (!differ) return {};
+    const auto one = sectors_of(halves[0], *first), other = sectors_of(halves[1], *second);
+    if (!differ || 2 * (one & other).count() < (one | other).count()) return {};
     return {first->apex, second->apex};
 }
 

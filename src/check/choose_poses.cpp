@@ -85,8 +85,10 @@ PosesChoice choose_poses(const Recording& recording, const OdometryConfig& confi
     std::vector<Candidate> candidates;
     const bool is_complete = count_missing(recording) == 0;
     if (is_complete) candidates.push_back({"given", fit_of(recording, config), {}});
-    candidates.push_back(candidate("refined", recording, config, bind_poses(recording, followed, true)));
-    candidates.push_back(candidate("found", recording, config, bind_poses(recording, followed, false)));
+    candidates.push_back(
+        candidate("refined", recording, config, bind_poses(recording, followed, true)));
+    candidates.push_back(
+        candidate("found", recording, config, bind_poses(recording, followed, false)));
     // The given poses know the long way, so others must be better to be used.
     std::size_t best = asked && is_complete ? 1 : 0;
     for (std::size_t k = best + 1; k < candidates.size(); ++k) {

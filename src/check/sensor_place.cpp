@@ -13,6 +13,7 @@
 #include "check/beam_origins.hpp"
 #include "dynamic_filter/check.hpp"
 #include "dynamic_filter/error.hpp"
+#include "recording/recording_parts.hpp"
 
 namespace dynamic_filter::io {
 namespace {
@@ -41,19 +42,29 @@ std::optional<Eigen::Vector3d> common(const Places& places, std::size_t scans) {
     return 2 * static_cast<std::size_t>(alike) > scans ? std::optional(middle) : std::nullopt;
 }
 
+/// The points as in the files: undone motion would have moved the places that they were seen from.
+Recording as_in_files(const Recording& recording) {
+    RecordingParts parts = with_sensor_at(recording, Eigen::Vector3d::Zero()).parts();
+    parts.info.deskewed = false;
+    parts.velocities.clear();
+    return Recording(std::move(parts));
+}
+
 }  // namespace
 
 std::vector<Eigen::Vector3d> find_sensor_places(const Recording& recording) {
     constexpr std::size_t kScans = 5;
-    const Recording as_in_files = with_sensor_at(recording, Eigen::Vector3d::Zero());
+    const Recording files = as_in_files(recording);
     const std::size_t count = std::min(kScans, recording.size());
     std::array<Places, 2> found;
     std::size_t scans = 0;
     Places single;
     for (std::size_t k = 0; k < count; ++k) {
         try {
-            const FullScan scan = as_in_files.read(k * recording.size() / count);
-            const Places places = beam_origins(scan.points);
+            const FullScan scan = files.read(k * recording.size() / count);
+            // As measured, because rings are no cones any more where motion was undone.
+            const bool in_world = as_in_files.info().points_in_world;
+            const Places places = beam_origins(in_world ? scan.points : positions(scan.cloud));
             ++scans;
             if (places.size() == 1) single.push_back(places.front());
             if (places.size() != 2) continue;

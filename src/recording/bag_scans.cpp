@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <functional>
 #include <map>
 
@@ -173,6 +175,41 @@ void assign_poses(Info& info, const PoseSource& source) {
     info.notes.push_back(source.note);
 }
 
+/// True for the names that drivers give to the frames of their LiDARs.
+bool names_lidar(std::string frame) {
+    std::transform(frame.begin(), frame.end(), frame.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    constexpr std::array<std::string_view, 9> kNames = {"lidar",  "laser",     "velodyne",
+                                                        "ouster", "os_sensor", "hesai",
+                                                        "pandar", "livox",     "robosense"};
+    return std::any_of(kNames.begin(), kNames.end(), [&](std::string_view name) {
+        return frame.find(name) != std::string::npos;
+    });
+}
+
+/// Clouds in the frame of a vehicle are seen from its LiDAR, if /tf_static has a single one. A
+/// frame that has another one of these names below it is a housing.
+void find_sensor(Info& info, const FrameTree& frames, const std::string& of_clouds) {
+    if (names_lidar(of_clouds)) return;
+    std::vector<std::string> lidars = frames.fixed_below(of_clouds);
+    std::erase_if(lidars, [](const std::string& frame) { return !names_lidar(frame); });
+    const std::vector<std::string> named = lidars;
+    std::erase_if(lidars, [&](const std::string& frame) {
+        return std::any_of(named.begin(), named.end(), [&](const std::string& other) {
+            const auto chain = frames.above(other);
+            return other != frame && std::find(chain.begin(), chain.end(), frame) != chain.end();
+        });
+    });
+    if (lidars.size() != 1) return;
+    const auto pose = frames.pose(lidars.front(), of_clouds, info.stamps.front());
+    if (!pose) return;
+    info.sensor_at = pose->translation();
+    info.notes.push_back(fmt::format(
+        "points in the frame '{}' are seen from '{}', which is at ({:.2f}, {:.2f}, {:.2f}) m by "
+        "/tf_static; --sensor-at 0,0,0 takes its origin",
+        of_clouds, lidars.front(), info.sensor_at->x(), info.sensor_at->y(), info.sensor_at->z()));
+}
+
 void refuse_if_all_lost(const Info& info, const std::filesystem::path& data) {
     const bool all_lost = std::all_of(info.T_world_sensor.begin(), info.T_world_sensor.end(),
                                       [](const Pose& pose) { return !pose.matrix().allFinite(); });
@@ -217,6 +254,7 @@ RecordingParts open_bag(const std::filesystem::path& data, const OpenOptions& op
         assign_poses(info, *source);
         info.points_in_world = source->points_in_world;
     }
+    if (!options.sensor_at) find_sensor(info, contents.frames, clouds.frame);
     info.has_poses = !info.T_world_sensor.empty();
     if (info.has_poses) refuse_if_all_lost(info, data);
     const std::size_t digits =

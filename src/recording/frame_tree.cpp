@@ -71,6 +71,20 @@ std::vector<std::string> FrameTree::above(const std::string& frame) const {
     return chain;
 }
 
+std::vector<std::string> FrameTree::fixed_below(const std::string& frame) const {
+    std::vector<std::string> below;
+    for (const auto& [child, own] : links_) {
+        const std::vector<std::string> chain = above(child);
+        const auto end = std::find(chain.begin(), chain.end(), frame);
+        const bool fixed = std::all_of(chain.begin(), end, [&](const std::string& each) {
+            const auto link = links_.find(each);
+            return link != links_.end() && link->second.is_static;
+        });
+        if (end != chain.begin() && end != chain.end() && fixed) below.push_back(child);
+    }
+    return below;
+}
+
 std::optional<Pose> FrameTree::in_root(const std::string& frame, double stamp,
                                        const LinkLookup& lookup) const {
     Pose pose = Pose::Identity();

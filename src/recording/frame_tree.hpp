@@ -36,6 +36,8 @@ public:
 
     /// `frame` and its ancestors; the root is last.
     [[nodiscard]] std::vector<std::string> above(const std::string& frame) const;
+    /// The frames below `frame` that are fixed to it, by name.
+    [[nodiscard]] std::vector<std::string> fixed_below(const std::string& frame) const;
     /// Pose of one frame in another at a time; empty if they are not linked, or not at that time.
     [[nodiscard]] std::optional<Pose> pose(const std::string& of, const std::string& in,
                                            double stamp, const LinkLookup& lookup = {}) const;

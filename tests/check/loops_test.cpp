@@ -18,7 +18,7 @@ protected:
         for (std::size_t i = kStreetScans; i-- > 0;) {
             Scan scan = street(false).scans[i];
             scan.index = drive.scans.size();
-            scan.stamp = 0.2 * static_cast<double>(scan.index);
+            scan.stamp = drive.scans.back().stamp + 0.2;
             drive.scans.push_back(std::move(scan));
             drive.truth.push_back(street(false).truth[i]);
         }

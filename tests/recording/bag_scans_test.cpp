@@ -98,6 +98,32 @@ TEST_F(BagScansTest, OdometryReachesTheSensorByTheFrames) {
     EXPECT_TRUE(recording.read(2).T_world_sensor.translation().isApprox(expected, 1e-6));
 }
 
+TEST_F(BagScansTest, CloudsOfAVehicleAreSeenFromItsOnlyLidar) {
+    scans(3, "base");
+    transform("base", "velodyne_base", moved(0, 0.5, 0), kStart, "/tf_static");
+    transform("velodyne_base", "velodyne", moved(0, 0, 1), kStart, "/tf_static");
+    transform("base", "camera", moved(2, 0, 0), kStart, "/tf_static");
+    drive("odom", "base");
+    const Recording recording = opened();
+    EXPECT_TRUE(
+        has_note(recording, "'base' are seen from 'velodyne', which is at (0.00, 0.50, 1.00)"));
+    const FullScan full = recording.read(2);
+    EXPECT_TRUE(full.T_world_sensor.translation().isApprox(Eigen::Vector3d(0.2, 0.5, 1), 1e-6));
+    EXPECT_NEAR(full.points[0].x(), 7.0, 1e-5);
+    OpenOptions options;
+    options.sensor_at = Eigen::Vector3d::Zero();
+    EXPECT_NEAR(opened(options).read(2).T_world_sensor.translation().z(), 0.0, 1e-6);
+}
+
+TEST_F(BagScansTest, OfSeveralLidarsNoneIsTaken) {
+    scans(3, "base");
+    for (const char* name : {"lidar_left", "lidar_right"}) {
+        transform("base", name, moved(0, 0.5, 0), kStart, "/tf_static");
+    }
+    drive("odom", "base");
+    EXPECT_FALSE(opened().info().sensor_at);
+}
+
 TEST_F(BagScansTest, FramesThatNothingLinksAreTakenForTheSameAndThatIsSaid) {
     scans(3, "lidar");
     drive("odom", "base");

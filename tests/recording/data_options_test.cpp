@@ -19,7 +19,7 @@ TEST(DataOptions, EachRowHasANameOfItsOwnAndHelp) {
                       EXPECT_NE(std::string(option.help), "");
                       if (option.selects) selecting.insert(option.name);
                   });
-    EXPECT_EQ(names.size(), 11U);
+    EXPECT_EQ(names.size(), 12U);
     EXPECT_EQ(selecting, (std::set<std::string>{"first", "last", "stride"}));
 }
 
@@ -45,6 +45,16 @@ TEST(DataOptions, FaultsAreNamedAsTheAskerTypesThem) {
     for (const std::string& name : io::layout_names()) {
         EXPECT_HAS(fault(options, Asker::python), name);
     }
+}
+
+TEST(DataOptions, APlaceIsThreeNumbersWithCommas) {
+    EXPECT_EQ(place_of("0.9,-1,1.6"), Eigen::Vector3d(0.9, -1, 1.6));
+    for (const char* text : {"", "1,2", "1,2,3,4", "1, 2,3", "1,2,nan", "1;2;3", "1,2,3m"}) {
+        EXPECT_FALSE(place_of(text)) << text;
+    }
+    DataOptions options;
+    options.sensor_at = "1,2";
+    EXPECT_HAS(fault(options, Asker::command), "--sensor-at: '1,2' is no place; expected X,Y,Z");
 }
 
 }  // namespace data_options_test

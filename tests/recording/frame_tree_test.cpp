@@ -32,6 +32,15 @@ TEST(FrameTree, Chain) {
     EXPECT_TRUE(frames.pose("lidar", "lidar", 2.5)->isApprox(Pose::Identity(), 1e-12));
 }
 
+TEST(FrameTree, WhatIsFixedBelow) {
+    FrameTree frames = vehicle();
+    frames.add({0.0, "lidar", "optics", along(1)}, true);
+    EXPECT_EQ(frames.fixed_below("base"), (std::vector<std::string>{"lidar", "optics"}));
+    EXPECT_EQ(frames.fixed_below("map"), std::vector<std::string>{"odom"});
+    EXPECT_TRUE(frames.fixed_below("optics").empty());
+    EXPECT_TRUE(frames.fixed_below("stranger").empty());
+}
+
 TEST(FrameTree, TimesThatAreNotKnown) {
     const FrameTree frames = vehicle();
     EXPECT_FALSE(frames.pose("lidar", "map", 11.0));

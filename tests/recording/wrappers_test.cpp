@@ -124,6 +124,33 @@ TEST_F(Wrappers, MotionIsUndoneWithThePosesOfTheRecording) {
     EXPECT_TRUE(deskewed(with_times(open())).read(3).times.empty());
 }
 
+TEST_F(Wrappers, ASensorElsewhereSeesTheSamePlacesInTheWorld) {
+    const Eigen::Vector3d at(0.5, -1.0, 2.0);
+    const auto world = [](const FullScan& scan, std::size_t i) -> Eigen::Vector3d {
+        return scan.T_world_sensor * scan.points[i].cast<double>();
+    };
+    const Recording given = with_poses(with_times(open()), tracked(10));
+    for (const Recording& recording : {open(), deskewed(open()), given}) {
+        const Recording elsewhere = with_sensor_at(recording, at);
+        EXPECT_EQ(elsewhere.info().sensor_at, at);
+        for (std::size_t i = 0; i < recording.size(); ++i) {
+            const FullScan scan = recording.read(i), other = elsewhere.read(i);
+            for (std::size_t p = 0; p < 2; ++p) {
+                EXPECT_LT((world(scan, p) - world(other, p)).norm(), 1e-4) << i;
+            }
+            EXPECT_TRUE(other.T_world_sensor.translation().isApprox(scan.T_world_sensor * at));
+        }
+        const Recording back = with_sensor_at(elsewhere, Eigen::Vector3d::Zero());
+        EXPECT_TRUE(back.info().T_world_sensor[3].isApprox(recording.info().T_world_sensor[3]));
+    }
+}
+
+TEST_F(Wrappers, PointsAtTheSensorAreNoReturns) {
+    const FullScan scan = with_sensor_at(open(), {4, 5, 6.001}).read(0);
+    EXPECT_TRUE(is_measured(scan.points[0]));
+    EXPECT_FALSE(is_measured(scan.points[1]));
+}
+
 TEST_F(Wrappers, FoundPosesReplaceThoseThatThereAre) {
     auto found = tracked(10);
     found[4].reset();
