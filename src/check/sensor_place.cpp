@@ -62,9 +62,7 @@ std::vector<Eigen::Vector3d> find_sensor_places(const Recording& recording) {
     for (std::size_t k = 0; k < count; ++k) {
         try {
             const FullScan scan = files.read(k * recording.size() / count);
-            // As measured, because rings are no cones any more where motion was undone.
-            const bool in_world = as_in_files.info().points_in_world;
-            const Places places = beam_origins(in_world ? scan.points : positions(scan.cloud));
+            const Places places = beam_origins(scan.points);
             ++scans;
             if (places.size() == 1) single.push_back(places.front());
             if (places.size() != 2) continue;
