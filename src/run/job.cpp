@@ -60,6 +60,7 @@ Job open_tiled_job(const RunOptions& o, std::vector<DriveSource> sources) {
             .drives = {},
             .fingerprints = {},
             .tracked = {},
+            .with_given_poses = {},
             .is_tiled = true,
             .part = {},
             .plan = {},
@@ -87,6 +88,7 @@ Job open_job(const RunOptions& o) {
             .drives = {},
             .fingerprints = {},
             .tracked = {},
+            .with_given_poses = {},
             .is_tiled = false,
             .part = {},
             .plan = {},
@@ -99,11 +101,13 @@ Job open_job(const RunOptions& o) {
 void choose_job_motion(Job& job, const RunOptions& o) {
     io::Recording& recording = job.drives.front().recording;
     with_threads(o.threads, [&] {
+        const io::Recording opened = recording;
         ChosenMotion chosen = choose_motion(
             recording, job.config,
             {.refine = o.refine, .deskew = o.data.deskew, .online = o.online, .quiet = o.quiet});
         recording = io::with_notes(recording, chosen.notes);
         job.tracked = std::move(chosen.tracked);
+        if (!job.tracked.empty() && opened.info().has_poses) job.with_given_poses = opened;
     });
     job.mark = version_text() + state_of(recording) + to_toml(job.config);
 }
@@ -126,7 +130,9 @@ void tell_notes(const Job& job, const RunOptions& o) {
     if (!job.is_tiled) {
         const io::Recording& recording = job.drives.front().recording;
         for (const std::string& text : recording.info().notes) note(text);
-        for (const auto& found : io::check_recording(recording, io::Depth::quick).findings) {
+        // The mistake in poses that were replaced is worth a word as well.
+        const io::Recording judged = job.with_given_poses.value_or(recording);
+        for (const auto& found : io::check_recording(judged, io::Depth::quick).findings) {
             warn(warning_of(found, o.data));
         }
         return;

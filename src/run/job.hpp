@@ -22,6 +22,8 @@ struct Job {
     std::vector<std::string> fingerprints;  ///< of the drives as they were opened; placed.hpp
     /// Of the only recording of a job in memory, by scan, if its poses were found or refined.
     std::vector<std::optional<Tracked>> tracked;
+    /// The same as it was opened, if its own poses were replaced.
+    std::optional<io::Recording> with_given_poses;
     /// True: filtered tile by tile, which needs a plan. False: one recording, in memory.
     bool is_tiled = false;
     std::optional<PartNumber> part;  ///< empty: all tiles

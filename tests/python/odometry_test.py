@@ -61,7 +61,7 @@ class ScansAlone(unittest.TestCase):
                                              ("sweep-paper", crowd(sweep=True), PAPER, True)):
             filter = push_alone(df.DynamicFilter(config), folder)
             filter.finish()
-            self.same_labels(filter, labels_of_run(name, folder, poses="none", config=config, deskew=deskew))
+            self.same_labels(filter, labels_of_run(name, folder, poses="none", online=True, config=config, deskew=deskew))
 
     def test_the_motion_during_the_scans_is_undone(self):
         folder = crowd(sweep=True)
@@ -138,7 +138,7 @@ class GivenPoses(unittest.TestCase):
                  for poses in (filter.poses(), np.array(given))]
         self.assertLess(steps[0], 0.2 * steps[1])
         filter.finish()
-        expected = labels_of_run("refined", folder, refine=True, deskew=False)
+        expected = labels_of_run("refined", folder, refine=True, online=True, deskew=False)
         for i, labels in enumerate(expected):
             np.testing.assert_array_equal(filter.labels(i), labels)
 

@@ -18,6 +18,7 @@ DataOptions unusual() {
     options.time_unit = "ms";
     options.points_in_world = true;
     options.deskew = "off";
+    options.sensor_at = "1,0,2";
     options.first = 5;
     options.last = 90;
     options.stride = 3;
