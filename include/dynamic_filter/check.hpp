@@ -107,8 +107,8 @@ struct MotionQuality {
     std::vector<PoseError> errors;
     Blur given;  ///< blur at the poses of the recording
     Blur found;  ///< blur at the poses of the odometry
-    /// 0..1: share of the upright structures of a scan that stand where those of others stand, which
-    /// are 1 to 20 scans apart, at the poses of the recording.
+    /// 0..1: share of the upright structures of a scan that stand where those of others stand,
+    /// which are 1 to 20 scans apart, at the poses of the recording.
     double given_overlay = 0.0;
     double found_overlay = 0.0;  ///< 0..1: the same, at the poses of the odometry
     /// True if the errors of the given poses over 20 scans are small everywhere: less than 1 m or a
