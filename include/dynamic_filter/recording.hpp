@@ -95,8 +95,12 @@ struct Info {
     std::optional<Eigen::Vector3d> sensor_at;
     bool intensity_is_truth = false;  ///< `benchmark` with ground truth in the intensity
     std::vector<std::string> notes;   ///< assumptions that were made, as sentences for the user
-    /// Parts of a bag that cannot be read, so that scans are missing.
+    /// What makes the result doubtful or incomplete, as sentences for the user: parts of a bag that
+    /// cannot be read, so that scans are missing, or motion that the scans do not show.
     std::vector<std::string> losses;
+    /// Parallel to scan_files, or empty: 1 for a file that repeats the one before it, as drivers
+    /// write when no new scan came. It cannot be read as a scan of its own.
+    std::vector<std::uint8_t> repeats;
     /// [s] Stamps of poses that were matched to scans by their order, if both have stamps.
     std::vector<double> pose_stamps;
 
@@ -116,6 +120,9 @@ struct FullScan {
     Labels truth;  ///< one per point; empty without ground truth
     /// Why the ground truth of this scan cannot be used; the scan itself can.
     std::string truth_fault;
+    /// Points at the greatest range, where drivers put beams without a return; in `points`, they
+    /// are at the origin, as points without a measurement.
+    std::size_t no_returns = 0;
 };
 
 struct RecordingParts;
@@ -182,6 +189,9 @@ Recording with_notes(const Recording& recording, const std::vector<std::string>&
 /// Reason for rejecting a scan whose fields differ from those of the previous scans.
 inline constexpr const char* kOtherFields =
     "its fields are not those of the first scan; one map cannot hold both";
+
+/// More losses, after those that there are.
+Recording with_losses(const Recording& recording, const std::vector<std::string>& losses);
 
 /// Name of a scan without folder and extension: "000123" for velodyne/000123.bin.
 std::string stem(const Recording& recording, std::size_t i);

@@ -2,6 +2,7 @@
 #include "check/choose_poses.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <numbers>
@@ -46,6 +47,34 @@ Candidate candidate(const std::string& name, const Recording& recording,
     return {name, fit, std::move(tracked)};
 }
 
+/// The given poses, but for those apart from their neighbours: odometry leads to these from the
+/// pose before.
+TrackedScans mended(const Recording& recording, TrackedScans followed,
+                    const std::vector<std::size_t>& outliers) {
+    const std::vector<Pose>& given = recording.info().T_world_sensor;
+    Pose T_world_odometry = Pose::Identity();
+    for (std::size_t i = 0; i < followed.size(); ++i) {
+        if (!followed[i]) continue;
+        Pose& pose = followed[i]->T_world_sensor;
+        const bool is_apart = std::binary_search(outliers.begin(), outliers.end(), i);
+        if (!is_apart) T_world_odometry = given[i] * pose.inverse();
+        pose = T_world_odometry * pose;
+    }
+    return followed;
+}
+
+/// Names of the first poses.
+std::string names_of(const Recording& recording, const std::vector<std::size_t>& scans) {
+    constexpr std::size_t kMost = 3;
+    std::vector<std::string> names;
+    for (const std::size_t i : scans) {
+        if (names.size() < kMost) names.push_back(stem(recording, i));
+    }
+    const std::size_t left = scans.size() - names.size();
+    return fmt::format("{}{}", fmt::join(names, ", "),
+                       left > 0 ? fmt::format(" and {} more", left) : "");
+}
+
 /// "given: 40, 20 % ..., blur 9.1 cm; refined: ...: the refined ones are used"
 std::string evidence(const std::vector<Candidate>& candidates, const Candidate& best) {
     std::string text = "upright structures overlay";
@@ -58,18 +87,20 @@ std::string evidence(const std::vector<Candidate>& candidates, const Candidate& 
 
 }  // namespace
 
+std::string outliers_text(const Recording& recording) {
+    const auto outliers = outliers_of(recording.info().T_world_sensor, recording.info().stamps);
+    if (outliers.empty()) return "";
+    return fmt::format("given poses lie apart from those before and after them: {}",
+                       names_of(recording, outliers));
+}
+
 std::string doubt_about_poses(const Recording& recording, const OdometryConfig& config) {
     const std::size_t missing = count_missing(recording);
     if (missing > 0) {
         return fmt::format("{} of {} scans have no pose of their own", missing, recording.size());
     }
-    const auto outliers = outliers_of(recording.info().T_world_sensor, recording.info().stamps);
-    if (!outliers.empty()) {
-        return fmt::format(
-            "{} given poses lie apart from those of their neighbours (the first is "
-            "that of {})",
-            outliers.size(), stem(recording, outliers.front()));
-    }
+    const std::string apart = outliers_text(recording);
+    if (!apart.empty()) return apart;
     const MotionQuality quality = measure_motion(recording, config);
     return quality.has_bad_poses() ? blur_text(quality) : "";
 }
@@ -84,7 +115,13 @@ PosesChoice choose_poses(const Recording& recording, const OdometryConfig& confi
     }
     std::vector<Candidate> candidates;
     const bool is_complete = count_missing(recording) == 0;
-    if (is_complete) candidates.push_back({"given", fit_of(recording, config), {}});
+    const auto outliers = outliers_of(recording.info().T_world_sensor, recording.info().stamps);
+    if (is_complete && outliers.empty()) {
+        candidates.push_back({"given", fit_of(recording, config), {}});
+    } else if (is_complete) {
+        candidates.push_back(
+            candidate("mended", recording, config, mended(recording, followed, outliers)));
+    }
     candidates.push_back(
         candidate("refined", recording, config, bind_poses(recording, followed, true)));
     candidates.push_back(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Chooses the poses of a recording by evidence: those that it has, those refined by odometry, or
-/// those that odometry alone finds.
+/// Chooses the poses of a recording by evidence: those that it has, where single ones lie apart
+/// mended ones, those refined by odometry, or those that odometry alone finds.
 #pragma once
 
 #include <functional>
@@ -15,6 +15,9 @@ struct PosesChoice {
     TrackedScans tracked;            ///< empty: the poses of the recording are kept
     std::vector<std::string> notes;  ///< what was chosen and why, a sentence each
 };
+
+/// Names given poses that lie apart from those of their neighbours, in a sentence; "" if none does.
+std::string outliers_text(const Recording& recording);
 
 /// Tells why poses of the recording may be wrong, in a sentence; "" if they fit its scans as well
 /// as poses that odometry finds, at each of several places. Scans without a pose, and poses apart

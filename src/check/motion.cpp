@@ -54,17 +54,14 @@ void add(std::vector<std::string>& notes, std::string note) {
 
 struct Track {
     double way = 0.0;  // [m]
-    std::size_t weak = 0, lost = 0, missing = 0;
+    std::size_t weak = 0, lost = 0;
 };
 
 Track summary_of(const std::vector<std::optional<Tracked>>& tracked) {
     Track track;
     std::optional<Eigen::Vector3d> last;
     for (const auto& t : tracked) {
-        if (!t) {
-            ++track.missing;
-            continue;
-        }
+        if (!t) continue;
         const Eigen::Vector3d here = t->T_world_sensor.translation();
         track.way += last ? (here - *last).norm() : 0.0;
         track.weak += t->status == TrackStatus::weak ? 1 : 0;
@@ -75,16 +72,40 @@ Track summary_of(const std::vector<std::optional<Tracked>>& tracked) {
 }
 
 std::string to_text(const Track& track) {
-    std::string text = fmt::format("the odometry went {:.1f} m", track.way);
-    if (track.weak > 0) {
-        text +=
-            fmt::format("; {} scans do not show how far they went in some direction", track.weak);
-    }
+    return fmt::format("the odometry went {:.1f} m", track.way);
+}
+
+/// Why poses that the odometry found are not to be trusted, among the losses of the recording.
+/// Given poses bind scans that do not show their motion.
+void add_doubts(io::Recording& recording, const Track& track) {
+    constexpr double kManyWeak = 0.1;  // share of the scans
+    std::vector<std::string> doubts;
     if (track.lost > 0) {
-        text += fmt::format("; {} scans do not fit those before, so their poses are guesses",
-                            track.lost);
+        doubts.push_back(fmt::format(
+            "{} scans do not fit those before them, so their poses are guesses", track.lost));
     }
-    return text;
+    if (!recording.info().has_poses &&
+        static_cast<double>(track.weak) > kManyWeak * static_cast<double>(recording.size())) {
+        doubts.push_back(
+            fmt::format("{} of {} scans do not show how far the sensor went in some direction, "
+                        "so their poses may be far off along it; give poses with --poses FILE",
+                        track.weak, recording.size()));
+    }
+    if (!doubts.empty()) recording = io::with_losses(recording, doubts);
+}
+
+/// Beams without a return that are written as points.
+std::string no_returns_note(const io::Recording& recording) {
+    try {
+        const io::FullScan scan = recording.read(0);
+        if (scan.no_returns == 0) return "";
+        return fmt::format(
+            "{:.1f} % of the points of the first scan lie on a sphere around the sensor: they "
+            "stand for beams without a return, and are left out",
+            100.0 * static_cast<double>(scan.no_returns) / static_cast<double>(scan.points.size()));
+    } catch (const InputError&) {
+        return "";
+    }
 }
 
 /// Poses of all scans, and what they rest on. The recording has them afterwards.
@@ -98,12 +119,11 @@ void use_found_poses(io::Recording& recording, const Config& config, const Motio
         });
     for (std::string& note : found.notes) chosen.notes.push_back(std::move(note));
     if (found.tracked.empty()) return;
-    const Track track = summary_of(found.tracked);
-    if (track.missing == found.tracked.size()) {
+    const auto is_known = [](const auto& pose) { return pose.has_value(); };
+    if (std::none_of(found.tracked.begin(), found.tracked.end(), is_known)) {
         throw InputError(recording.info().root, "", "no scan is usable");
     }
-    recording = io::with_poses(recording, found.tracked);
-    chosen.notes.push_back(to_text(track));
+    chosen.notes.push_back(use_track(recording, found.tracked));
     chosen.tracked = std::move(found.tracked);
 }
 
@@ -112,6 +132,7 @@ void use_found_poses(io::Recording& recording, const Config& config, const Motio
 ChosenMotion choose_motion(io::Recording& recording, Config& config, const MotionChoice& choice) {
     ChosenMotion chosen;
     add(chosen.notes, choose_sensor_place(recording));
+    add(chosen.notes, no_returns_note(recording));
     const bool has_poses = recording.info().has_poses;
     const io::Recording looked_at = choice.deskew == "off" ? recording : io::with_times(recording);
     const bool timed = has_times(looked_at);
@@ -152,14 +173,18 @@ void ensure_poses(io::Recording& recording, const Config& config, const std::str
                   bool quiet) {
     const std::string place = choose_sensor_place(recording);
     if (!place.empty()) recording = io::with_notes(recording, {place});
-    if (recording.info().has_poses) return;
+    if (recording.info().has_poses && !recording.info().sparse_poses) return;
     Config chosen = config;
     const auto motion = choose_motion(recording, chosen, {.deskew = deskew, .quiet = quiet});
     recording = io::with_notes(recording, motion.notes);
 }
 
-std::string track_text(const std::vector<std::optional<Tracked>>& tracked) {
-    return to_text(summary_of(tracked));
+std::string use_track(io::Recording& recording,
+                      const std::vector<std::optional<Tracked>>& tracked) {
+    const Track track = summary_of(tracked);
+    add_doubts(recording, track);
+    recording = io::with_poses(recording, tracked);
+    return to_text(track);
 }
 
 void write_poses(const std::filesystem::path& path, const io::Recording& sensor) {

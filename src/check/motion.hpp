@@ -37,8 +37,9 @@ ChosenMotion choose_motion(io::Recording& recording, Config& config, const Motio
 void ensure_poses(io::Recording& recording, const Config& config, const std::string& deskew,
                   bool quiet);
 
-/// How far the odometry got, in a sentence.
-std::string track_text(const std::vector<std::optional<Tracked>>& tracked);
+/// The recording has these poses afterwards, by scan; what makes them doubtful is among its losses.
+/// Returns how far the odometry got, in a sentence.
+std::string use_track(io::Recording& recording, const std::vector<std::optional<Tracked>>& tracked);
 
 /// The recording's poses, of the frame of the points of its files: .tum with stamps, otherwise
 /// KITTI's rows.

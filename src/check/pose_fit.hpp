@@ -29,7 +29,7 @@ PoseFit fit_of(std::span<const Scan> scans, std::span<const Pose> T_world_sensor
 PoseFit fit_of(const Recording& recording, const OdometryConfig& config);
 
 /// True if the scans overlay clearly better than with the other poses: more structures stand on
-/// each other, or as many, and more sharply.
+/// each other and are hardly less sharp, or as many do, and are sharper.
 bool is_better(const PoseFit& fit, const PoseFit& than);
 
 /// "74, 69, 66 and 60 % (1, 5, 10 and 20 scans apart), blur 5.2 cm"

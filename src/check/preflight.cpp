@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "base/numbers.hpp"
+#include "check/choose_poses.hpp"
 #include "check/overlay.hpp"
 #include "check/samples.hpp"
 #include "dynamic_filter/error.hpp"
@@ -337,8 +338,9 @@ void judge_motion(Preflight& result, const Recording& given) {
     const Recording recording = info.deskewed ? given : with_times(given);
     const OdometryConfig config;
     const std::string mistake = info.tracked ? "" : find_pose_mistake(recording, config);
-    if (!mistake.empty()) {
-        result.findings.push_back({mistake,
+    const std::string apart = info.tracked || !mistake.empty() ? "" : outliers_text(recording);
+    if (!mistake.empty() || !apart.empty()) {
+        result.findings.push_back({mistake + apart,
                                    "`run` refines such poses of a single recording without being "
                                    "asked (as with --refine on), but not those of several; more "
                                    "accurate poses give better results"});

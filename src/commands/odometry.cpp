@@ -34,10 +34,14 @@ int odometry(const OdometryOptions& o) {
     ensure_poses(recording, config, o.data.deskew, o.quiet);
     if (interrupted()) return kInterrupted;
     write_poses(o.output, recording);
-    if (o.quiet) return kDone;
+    for (const std::string& line : recording.info().losses) {
+        fmt::print(stderr, "lost     {}\n", line);
+    }
+    const int exit_code = recording.info().losses.empty() ? kDone : kRejected;
+    if (o.quiet) return exit_code;
     for (const std::string& note : recording.info().notes) fmt::print("note     {}\n", note);
     fmt::print("written  {}\n", o.output.string());
-    return kDone;
+    return exit_code;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "dynamic_filter/poses.hpp"
 #include "formats/byte_reader.hpp"
 #include "formats/messages/messages.hpp"
+#include "geometry/no_returns.hpp"
 #include "recording/recording_parts.hpp"
 #include "tracking/pose_jump.hpp"
 
@@ -200,6 +201,7 @@ std::optional<LiveScan> Intake::read_cloud() {
         LiveScan scan;
         scan.cloud = std::move(message.cloud);
         scan.points = io::positions(scan.cloud);
+        drop_no_returns(scan.points);
         scan.frame = std::move(message.header.frame);
         scan.stamp = message.header.stamp;
         scan.stamp_ns = message.header.stamp_ns;

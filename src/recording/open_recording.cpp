@@ -16,6 +16,7 @@
 #include "recording/layouts/registry.hpp"
 #include "recording/matching.hpp"
 #include "recording/recording_parts.hpp"
+#include "recording/repeats.hpp"
 #include "recording/times_in_names.hpp"
 
 namespace dynamic_filter::io {
@@ -123,6 +124,7 @@ RecordingParts open_folder(const std::filesystem::path& data, const OpenOptions&
     info.notes = layout.notes;
     info.points_in_world = layout.points_in_world;
     info.label_files = find_labels(layout, info.notes);
+    info.repeats = repeats_among(layout.scans);
     assign_stamps(info, assign_poses(info, layout, unit_of(options)));
     if (options.without_poses) {
         info.T_world_sensor.clear();

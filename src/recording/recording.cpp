@@ -10,6 +10,7 @@
 #include "base/input.hpp"
 #include "dynamic_filter/error.hpp"
 #include "formats/clouds/cloud_size.hpp"
+#include "geometry/no_returns.hpp"
 #include "recording/folders.hpp"
 #include "recording/recording_parts.hpp"
 
@@ -85,6 +86,12 @@ void check_pose(const Info& info, std::size_t i) {
     refuse_absurd(T_world_sensor, info.scan_files[i]);
 }
 
+void refuse_repeat(const Info& info, std::size_t i) {
+    if (info.repeats.empty() || info.repeats[i] == 0) return;
+    throw InputError(info.scan_files[i], "",
+                     "repeats the scan before it byte for byte: nothing new came from the sensor");
+}
+
 /// Poses and points: those of the file in the sensor frame.
 void place(FullScan& scan, const Info& info, std::size_t i) {
     scan.has_pose = info.has_poses;
@@ -99,6 +106,7 @@ void place(FullScan& scan, const Info& info, std::size_t i) {
     }
     scan.points = info.points_in_world ? into_sensor(scan.cloud, scan.T_world_sensor)
                                        : seen_from(at, positions(scan.cloud));
+    scan.no_returns = drop_no_returns(scan.points);
     if (std::none_of(scan.points.begin(), scan.points.end(), is_measured)) {
         throw InputError(info.scan_files[i], "", "has no finite point away from the sensor");
     }
@@ -182,6 +190,7 @@ const Info& Recording::info() const { return parts_->info; }
 void Recording::check(std::size_t i) const {
     const std::filesystem::path& file = info().scan_files.at(i);
     check_pose(info(), i);
+    refuse_repeat(info(), i);
     if (!is_of_bag(info()) && !is_folder(file)) refuse_bad_size(file);
 }
 
@@ -192,6 +201,7 @@ FullScan Recording::read(std::size_t i) const {
             "has " + std::to_string(size()) + " scans; there is no scan " + std::to_string(i));
     }
     check_pose(info(), i);
+    refuse_repeat(info(), i);
     FullScan scan;
     scan.cloud = parts_->read_cloud(i);
     if (scan.cloud.size() == 0) throw InputError(info().scan_files[i], "", "has no points");

@@ -37,6 +37,7 @@ void keep_scans(RecordingParts& parts, const std::vector<std::size_t>& chosen) {
     keep(info.T_world_sensor, chosen);
     keep(info.stamps, chosen);
     keep(info.pose_stamps, chosen);
+    keep(info.repeats, chosen);
     keep(parts.velocities, chosen);
     info.sparse_poses &= std::any_of(info.T_world_sensor.begin(), info.T_world_sensor.end(),
                                      [](const Pose& pose) { return !pose.matrix().allFinite(); });
@@ -162,6 +163,12 @@ Recording without_poses(const Recording& recording) {
 Recording with_notes(const Recording& recording, const std::vector<std::string>& notes) {
     RecordingParts parts = recording.parts();
     parts.info.notes.insert(parts.info.notes.end(), notes.begin(), notes.end());
+    return Recording(std::move(parts));
+}
+
+Recording with_losses(const Recording& recording, const std::vector<std::string>& losses) {
+    RecordingParts parts = recording.parts();
+    parts.info.losses.insert(parts.info.losses.end(), losses.begin(), losses.end());
     return Recording(std::move(parts));
 }
 

@@ -155,9 +155,8 @@ void use_poses(Whole& whole) {
     }
     const auto was_tracked = [](const auto& tracked) { return tracked.has_value(); };
     if (std::none_of(whole.tracked.begin(), whole.tracked.end(), was_tracked)) return;
-    whole.recording = io::with_poses(whole.recording, whole.tracked);
+    whole.summary.notes.push_back(use_track(whole.recording, whole.tracked));
     write_poses(whole.output.path() / "poses.txt", whole.recording);
-    whole.summary.notes.push_back(track_text(whole.tracked));
 }
 
 /// First reading: every usable scan goes through the filter.

@@ -51,6 +51,11 @@ TEST_F(ChoosePoses, OneThatLiesApartIsReplaced) {
     ASSERT_FALSE(choice.tracked.empty());
     const Eigen::Vector3d there = choice.tracked[11]->T_world_sensor.translation();
     EXPECT_LT((there - street(false).truth[11].translation()).norm(), 0.1);
+    EXPECT_HAS(choice.notes.front(), "the mended ones are used");
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        if (i == 11) continue;
+        EXPECT_TRUE(choice.tracked[i]->T_world_sensor.isApprox(poses[i], 1e-9)) << i;
+    }
 }
 
 }  // namespace choose_poses_test

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "support/recording.hpp"
 
+#include <cmath>
+
 namespace dynamic_filter::io {
 namespace recording_test {
 
@@ -93,6 +95,23 @@ TEST_F(RecordingTest, AScanWithoutAMeasurementOrWithAnAbsurdPoseIsRefused) {
     const Recording recording = open();
     EXPECT_HAS(error_of([&] { (void)recording.read(0); }), "no finite point");
     EXPECT_HAS(error_of([&] { (void)recording.read(1); }), "metres");
+}
+
+TEST_F(RecordingTest, BeamsWithoutReturnAreNoMeasurements) {
+    std::string bytes;
+    for (int i = 0; i < 100; ++i) {
+        const double elevation = 0.001 * i;
+        bytes += floats({static_cast<float>(100.0 * std::cos(elevation)), 0.0F,
+                         static_cast<float>(100.0 * std::sin(elevation)), 0.0F});
+        bytes += floats({5.0F, 0.1F * static_cast<float>(i), 0.0F, 0.0F});
+    }
+    data.put("velodyne/0.bin", bytes);
+    data.put("poses.txt", kitti_rows(1));
+    const FullScan scan = open().read(0);
+    EXPECT_EQ(scan.no_returns, 100U);
+    EXPECT_FALSE(is_measured(scan.points[0]));
+    EXPECT_TRUE(is_measured(scan.points[1]));
+    EXPECT_EQ(column(scan.cloud, "x")[0], 100.0);
 }
 
 }  // namespace recording_test

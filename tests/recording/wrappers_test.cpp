@@ -61,6 +61,8 @@ TEST_F(Wrappers, ARecordingIsAValue) {
     EXPECT_EQ(&copy.info(), &recording.info());  // shared
     EXPECT_EQ(with_notes(recording, {"more"}).info().notes.back(), "more");
     EXPECT_NE(recording.info().notes.back(), "more");
+    EXPECT_EQ(with_losses(recording, {"worse"}).info().losses, std::vector<std::string>{"worse"});
+    EXPECT_TRUE(recording.info().losses.empty());
     EXPECT_EQ(Recording().size(), 0U);
 }
 

@@ -83,7 +83,46 @@ TEST(PoseGraph, AWrongLoopIsIgnoredAndTrueOnesAreClosed) {
     for (std::size_t k = 0; k < 5; ++k) motions.push_back(loop(k, kPoses - 5 + k));
     motions.push_back(loop(2, 20));
     motions.back().T_from_to.translation().x() += 6.0;
-    EXPECT_LT(farthest(solve_pose_graph(truth, motions, {}), truth), 0.5 * open);
+    EXPECT_LT(farthest(solve_pose_graph(truth, motions, {}), truth), 0.2 * open);
+}
+
+/// Sum of the squared errors, in multiples of what the information expects.
+double cost_of(const std::vector<Pose>& poses, const std::vector<Motion>& motions,
+               const std::vector<PoseHint>& hints) {
+    double cost = 0.0;
+    for (const Motion& m : motions) {
+        const Twist error = log(m.T_from_to.inverse() * poses[m.from].inverse() * poses[m.to]);
+        cost += error.dot(m.information * error);
+    }
+    for (const PoseHint& hint : hints) {
+        const Twist error = log(hint.T_world_sensor.inverse() * poses[hint.scan]);
+        cost += error.dot(hint.information * error);
+    }
+    return cost;
+}
+
+TEST(PoseGraph, NoSmallDisplacementOfASolutionFitsBetter) {
+    const std::vector<Pose> truth = bent_path();
+    Twist drift = Twist::Zero();
+    drift[0] = 0.002;
+    drift[4] = 0.0005;
+    const std::vector<Motion> motions = chain_of(truth, drift);
+    const std::vector<PoseHint> hints = {hint_at(0, truth.front()), hint_at(15, truth[15]),
+                                         hint_at(kPoses - 1, truth.back())};
+    const std::vector<Pose> solved = solve_pose_graph(truth, motions, hints);
+    const double least = cost_of(solved, motions, hints);
+    EXPECT_LT(least, cost_of(truth, motions, hints));
+    for (const std::size_t i : {1U, 14U, 15U, 28U}) {
+        for (Eigen::Index axis = 0; axis < 6; ++axis) {
+            for (const double step : {-1e-3, 1e-3}) {
+                std::vector<Pose> moved = solved;
+                Twist displacement = Twist::Zero();
+                displacement[axis] = step;
+                moved[i] = moved[i] * exp(displacement);
+                EXPECT_GT(cost_of(moved, motions, hints), least) << i << " " << axis;
+            }
+        }
+    }
 }
 
 }  // namespace pose_graph_test

@@ -1,1 +1,1 @@
-df_room(tracking LIBRARIES dynamic_filter)
+df_room(tracking LIBRARIES dynamic_filter dynamic_filter_sim)

@@ -6,8 +6,10 @@
 #include <numbers>
 
 #include "dynamic_filter/error.hpp"
+#include "dynamic_filter/simulation.hpp"
 #include "support/random.hpp"
 #include "support/room.hpp"
+#include "tracking/beginning.hpp"
 
 namespace dynamic_filter {
 namespace tracker_test {
@@ -200,6 +202,36 @@ TEST(Tracker, BeginsAnewWithTheScanThatTheOdometryGaveUpAt) {
     for (Scan& scan : scans) {
         EXPECT_EQ(tracker.place(scan)->begins_anew, scan.index == 12) << scan.index;
         tracker.learn({});
+    }
+}
+
+/// 16 beams on a flat street look as if the sensor stood still, until the first scans are known.
+TEST(Tracker, SetsOutAgainIfTheFirstScansShowAnotherVelocity) {
+    sim::SimulationOptions options;
+    options.scene = "street";
+    options.sensor = "vlp16";
+    options.seed = 4;
+    options.rate_hz = 10.0;
+    options.frames = 40;
+    sim::Simulation simulation(options);
+    Tracker tracker({});
+    std::vector<Pose> truth, found;
+    std::size_t anew = 0;
+    for (std::size_t i = 0; i < kBeginning + 5; ++i) {
+        sim::SimulatedScan s = simulation.scan(i);
+        truth.push_back(s.T_world_sensor);
+        Scan scan{std::move(s.points), Pose::Identity(), s.stamp, i, false};
+        const auto tracked = tracker.place(scan);
+        tracker.learn({});
+        anew += tracked->begins_anew ? 1 : 0;
+        EXPECT_TRUE(!tracked->begins_anew || i + 1 == kBeginning) << i;
+        found.push_back(scan.T_world_sensor);
+    }
+    EXPECT_EQ(anew, 1U);
+    for (std::size_t i = kBeginning; i < truth.size(); ++i) {
+        const Pose moved = truth[i - 1].inverse() * truth[i];
+        const Pose as_found = found[i - 1].inverse() * found[i];
+        EXPECT_LT((moved.translation() - as_found.translation()).norm(), 0.05) << i;
     }
 }
 
