@@ -111,13 +111,18 @@ struct MotionQuality {
     /// which are 1 to 20 scans apart, at the poses of the recording.
     double given_overlay = 0.0;
     double found_overlay = 0.0;  ///< 0..1: the same, at the poses of the odometry
+    /// 0..1: share of the scans that do not show the motion in some direction, as in a smooth
+    /// tunnel. If it is large, the odometry says nothing about the given poses.
+    double weak = 0.0;
     /// True if the errors of the given poses over 20 scans are small everywhere: less than 1 m or a
     /// third of the distance, and less than 0.1 rad. Poses of a wrong frame, format or recording
     /// have larger errors.
     bool nearly_right = false;
 
-    /// True if scans overlay clearly more sharply at other poses than the given ones, and as many
-    /// structures overlay.
+    /// True if most scans show the motion in all directions.
+    [[nodiscard]] bool shows_motion() const;
+    /// True if scans show the motion, and overlay clearly more sharply at other poses than the
+    /// given ones, and as many structures overlay.
     [[nodiscard]] bool has_bad_poses() const;
 };
 

@@ -389,7 +389,10 @@ Preflight check_recording(const Recording& recording, Depth depth) {
     std::optional<bool> known;  // evaluated once, because it reads scans
     const auto nearly_right = [&] {
         if (depth == Depth::quick) return false;
-        if (!known) known = measure_motion(recording, OdometryConfig{}).nearly_right;
+        if (!known) {
+            const MotionQuality quality = measure_motion(recording, OdometryConfig{});
+            known = quality.nearly_right || !quality.shows_motion();
+        }
         return *known;
     };
     judge_poses(result, recording, samples, pairs, nearly_right);

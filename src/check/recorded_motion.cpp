@@ -89,7 +89,15 @@ struct Compared {
     std::vector<Pose> given, shown;
     Blur at_given, at_shown;
     double given_overlay = 0.0, shown_overlay = 0.0;  // 0..1: see PoseFit
+    double weak = 0.0;                                // 0..1: see MotionQuality
 };
+
+double share_of_weak(const std::vector<Tracked>& tracked) {
+    const auto count = std::count_if(tracked.begin(), tracked.end(), [](const Tracked& t) {
+        return t.status == TrackStatus::weak;
+    });
+    return static_cast<double>(count) / static_cast<double>(tracked.size());
+}
 
 Compared compare(Piece piece, const OdometryConfig& config) {
     Compared compared;
@@ -101,13 +109,15 @@ Compared compare(Piece piece, const OdometryConfig& config) {
         compared.given.push_back(scan.T_world_sensor);
     }
     const auto look = [&](double Blur::*which) {
-        const std::vector<Pose> shown = poses_of(track(piece, config));
+        const std::vector<Tracked> tracked = track(piece, config);
+        const std::vector<Pose> shown = poses_of(tracked);
         const PoseFit at_shown = fit_of(piece, shown, config);
         compared.at_shown.*which = at_shown.blur;
         const bool best = at_shown.blur == compared.at_shown.least();
         if (best) {
             compared.shown = shown;
             compared.shown_overlay = at_shown.mean_overlay();
+            compared.weak = share_of_weak(tracked);
         }
         if (!has_poses) return;
         const PoseFit at_given = fit_of(piece, compared.given, config);
@@ -188,6 +198,7 @@ MotionQuality quality_of(const std::vector<Compared>& compared, bool has_poses) 
         }
         quality.given_overlay += share * piece.given_overlay;
         quality.found_overlay += share * piece.shown_overlay;
+        quality.weak += share * piece.weak;
     }
     quality.nearly_right = has_poses && nearly_right(compared);
     for (const std::size_t apart : kErrorsApart) {
@@ -267,7 +278,13 @@ bool Blur::is_distorted() const {
 bool MotionQuality::has_bad_poses() const {
     constexpr double kClearly = 1.1;
     constexpr double kAsMuch = 0.97;  // factor of the overlay
-    return given.least() > kClearly * found.least() && found_overlay > kAsMuch * given_overlay;
+    return shows_motion() && given.least() > kClearly * found.least() &&
+           found_overlay > kAsMuch * given_overlay;
+}
+
+bool MotionQuality::shows_motion() const {
+    constexpr double kMany = 0.3;
+    return weak < kMany;
 }
 
 MotionQuality measure_motion(const Recording& recording, const OdometryConfig& config) {
@@ -280,6 +297,7 @@ std::string find_pose_mistake(const Recording& recording, const OdometryConfig& 
     constexpr std::size_t kLong = 60;
     std::vector<Compared> compared = compare_places(recording, 3, kLong, config);
     if (compared.empty() || !recording.info().has_poses) return "";
+    if (!quality_of(compared, true).shows_motion()) return "";
     std::vector<TwoTracks> tracks;
     for (Compared& piece : compared) {
         tracks.push_back({std::move(piece.stamps), std::move(piece.given), std::move(piece.shown)});

@@ -10,6 +10,7 @@
 #include "tracking/beginning.hpp"
 #include "tracking/pose_graph.hpp"
 #include "tracking/pose_hints.hpp"
+#include "tracking/upright.hpp"
 
 namespace dynamic_filter::io {
 namespace {
@@ -165,10 +166,13 @@ TrackedScans follow(const Recording& recording, const OdometryConfig& config,
     Guesses guesses;
     guesses.begin(velocity_at(readable, 0, config));
     Pose T_world_last = Pose::Identity();
+    bool is_first = true;
     for (std::size_t i = 0; i < recording.size(); ++i) {
         if (const auto scan = read_scan(readable, i)) {
-            tracked[i] = odometry.track(scan->points, scan->times, scan->stamp,
-                                        guesses.before(scan->stamp, given[i]));
+            auto guess = guesses.before(scan->stamp, given[i]);
+            if (is_first) guess = Pose(upright_rotation(scan->points));  // in the world
+            is_first = false;
+            tracked[i] = odometry.track(scan->points, scan->times, scan->stamp, guess);
             odometry.learn({});
             guesses.after(T_world_last.inverse() * tracked[i]->T_world_sensor);
             T_world_last = tracked[i]->T_world_sensor;

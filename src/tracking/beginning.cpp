@@ -48,9 +48,8 @@ double overlay_of(const std::vector<Points>& upright, const Track& track) {
     return count > 0.0 ? sum / count : 0.0;
 }
 
-}  // namespace
-
-std::optional<Twist> initial_velocity(std::span<const Scan> first, const OdometryConfig& given) {
+/// `first`: scans whose z axis is the vertical.
+std::optional<Twist> velocity_of_upright(std::span<const Scan> first, const OdometryConfig& given) {
     if (first.size() < 3) return std::nullopt;
     OdometryConfig config = given;
     config.points = std::min(config.points, kFewPoints);
@@ -88,6 +87,27 @@ std::optional<Twist> initial_velocity(std::span<const Scan> first, const Odometr
         best = track;
     }
     return log(best[1]) / (first[1].stamp - first[0].stamp);
+}
+
+/// The same scans in a frame whose z axis is the vertical.
+std::vector<Scan> turned(std::span<const Scan> scans, const Eigen::Matrix3d& rotation) {
+    std::vector<Scan> result(scans.begin(), scans.end());
+    for (Scan& scan : result) scan.points = moved(scan.points, Pose(rotation));
+    return result;
+}
+
+}  // namespace
+
+std::optional<Twist> initial_velocity(std::span<const Scan> first, const OdometryConfig& given) {
+    if (first.empty()) return std::nullopt;
+    const Eigen::Matrix3d upright = upright_rotation(first.front().points);
+    if (upright.isIdentity(0.0)) return velocity_of_upright(first, given);
+    auto velocity = velocity_of_upright(turned(first, upright), given);
+    if (velocity) {
+        velocity->head<3>() = upright.transpose() * velocity->head<3>();
+        velocity->tail<3>() = upright.transpose() * velocity->tail<3>();
+    }
+    return velocity;
 }
 
 }  // namespace dynamic_filter

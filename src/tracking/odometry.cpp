@@ -34,11 +34,14 @@ constexpr double kForgetEvery = 20.0;  // [m] motion after which far parts of th
 constexpr double kFarFromOrigin = 1000.0;
 
 /// True if, in the least determined direction, the points give less information than the prior,
-/// which is an extrapolation of the previous motion.
+/// which is an extrapolation of the previous motion, or hardly any of what they give in all. In a
+/// smooth tunnel, the noise of the normals alone gives a little, and it says that the sensor rests.
 bool is_weak(const Registration& found, const PosePrior& prior) {
+    constexpr double kNoiseOfNormals = 0.01;
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(
         found.information.topLeftCorner<3, 3>());
-    return axes.eigenvalues()[0] < prior.information(0, 0);
+    const double least = axes.eigenvalues()[0];
+    return least < std::max(prior.information(0, 0), kNoiseOfNormals * axes.eigenvalues().sum());
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "dynamic_filter/error.hpp"
 #include "tracking/beginning.hpp"
+#include "tracking/upright.hpp"
 
 namespace dynamic_filter {
 
@@ -47,8 +48,12 @@ std::optional<Tracked> Tracker::place(Scan& scan) {
 }
 
 Tracked Tracker::find(const Scan& scan) {
-    if (!odometry_) odometry_.emplace(config_);
-    Tracked tracked = odometry_->track(scan.points, scan.times, scan.stamp);
+    std::optional<Pose> guess;
+    if (!odometry_) {
+        odometry_.emplace(config_);
+        guess = Pose(upright_rotation(scan.points));  // of the first scan in the world
+    }
+    Tracked tracked = odometry_->track(scan.points, scan.times, scan.stamp, guess);
     if (tracked.begins_anew) beginning_.clear();
     if (beginning_.size() == kBeginning) return tracked;
     if (beginning_.size() == 1) {

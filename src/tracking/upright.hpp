@@ -15,4 +15,9 @@ Points upright_points(const Points& points);
 /// of columns of 0.3 m; 0 without such columns. Both in their sensor frames.
 double upright_overlay(const Points& a, const Points& b, const Pose& T_a_b);
 
+/// The rotation that turns the vertical of a scan into the z axis. Drivers may use other axes, and
+/// a sensor may be mounted on its side: then its beams fan out along another axis than z, and along
+/// this axis the ground shows more clearly. Otherwise it is exactly the identity.
+Eigen::Matrix3d upright_rotation(const Points& points);
+
 }  // namespace dynamic_filter
