@@ -337,10 +337,10 @@ void judge_motion(Preflight& result, const Recording& given) {
     const Info& info = given.info();
     const Recording recording = info.deskewed ? given : with_times(given);
     const OdometryConfig config;
-    const std::string mistake = info.tracked ? "" : find_pose_mistake(recording, config);
-    const std::string apart = info.tracked || !mistake.empty() ? "" : outliers_text(recording);
-    if (!mistake.empty() || !apart.empty()) {
-        result.findings.push_back({mistake + apart,
+    std::string mistake = info.tracked ? "" : outliers_text(recording);
+    if (mistake.empty() && !info.tracked) mistake = find_pose_mistake(recording, config);
+    if (!mistake.empty()) {
+        result.findings.push_back({mistake,
                                    "`run` refines such poses of a single recording without being "
                                    "asked (as with --refine on), but not those of several; more "
                                    "accurate poses give better results"});

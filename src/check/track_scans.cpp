@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "check/loops.hpp"
+#include "check/pose_outliers.hpp"
 #include "check/scan_input.hpp"
 #include "dynamic_filter/check.hpp"
 #include "tracking/beginning.hpp"
@@ -23,6 +24,14 @@ MaybePoses given_poses(const Recording& recording) {
     for (std::size_t i = 0; i < poses.size(); ++i) {
         if (poses[i].matrix().allFinite()) given[i] = poses[i];
     }
+    return given;
+}
+
+/// Without those that lie apart from their neighbours.
+MaybePoses credible_poses(const Recording& recording) {
+    MaybePoses given = given_poses(recording);
+    const Info& info = recording.info();
+    for (const std::size_t i : outliers_of(info.T_world_sensor, info.stamps)) given[i].reset();
     return given;
 }
 
@@ -160,7 +169,7 @@ std::vector<Pose> poses_of(const TrackedScans& tracked) {
 TrackedScans follow(const Recording& recording, const OdometryConfig& config,
                     const std::function<bool()>& after) {
     const Recording readable = readable_without_poses(recording);
-    const MaybePoses given = given_poses(recording);
+    const MaybePoses given = credible_poses(recording);
     TrackedScans tracked(recording.size());
     Odometry odometry(config);
     Guesses guesses;
@@ -187,7 +196,7 @@ TrackedScans bind_poses(const Recording& recording, TrackedScans tracked, bool t
     constexpr int kRounds = 3;  // corrected poses meet at more places
     const std::vector<Motion> chain = neighbours(tracked);
     const MaybePoses given =
-        recording.info().sparse_poses ? anchors(recording, tracked) : given_poses(recording);
+        recording.info().sparse_poses ? anchors(recording, tracked) : credible_poses(recording);
     std::vector<PoseHint> hints = hints_of(given, maybe_poses(tracked));
     const Pose T_world_odometry = beginning_of(tracked, hints);
     if (!to_given) hints.clear();

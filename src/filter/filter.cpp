@@ -9,6 +9,7 @@
 #include "filter/evidence_map.hpp"
 #include "filter/label.hpp"
 #include "filter/objects.hpp"
+#include "geometry/beam_axis.hpp"
 #include "geometry/map_frame.hpp"
 
 namespace dynamic_filter {
@@ -44,7 +45,8 @@ struct DynamicFilter::Impl {
     Scan place(Scan scan);
     Verdict judge(const Scan& scan);
     [[nodiscard]] LocatedScan locate(const Scan& scan) const {
-        return frame.locate(scan, map.grid().voxels());
+        return axis == 2 ? frame.locate(scan, map.grid().voxels())
+                         : frame.locate(turned_to_z(scan, axis), map.grid().voxels());
     }
     [[nodiscard]] std::vector<bool> what_stays(std::size_t index, const PointVoxels& voxels) const;
     [[nodiscard]] std::vector<StaticVoxel> in_world(std::span<const VoxelOccupancy> voxels) const;
@@ -54,6 +56,7 @@ struct DynamicFilter::Impl {
 
     Config config;
     MapFrame frame;
+    Eigen::Index axis = 2;  // see beam_axis(), of the first scan
     EvidenceMap map;
     InstantLabels instant;
     Objects objects;
@@ -101,16 +104,17 @@ void DynamicFilter::catch_up() {
     timed(impl_->times, "integrate", [&] { impl_->map.observe_elsewhere(impl_->times); });
 }
 
-/// The scan in the frame of the map, which begins with the first scan.
+/// The scan in the frame of the map, which begins with the first scan, and with its beams around z.
 Scan DynamicFilter::Impl::place(Scan scan) {
     const std::string name = "scan " + std::to_string(scan.index);
     if (finished) throw Error(name + " comes after finish(): make another filter");
     if (!scan.has_pose) {
         throw Error(name + " has no pose; OnlineFilter finds the poses of such scans");
     }
+    if (map.grid().scans() == 0) axis = beam_axis(scan.points);
     frame.begin(scan.T_world_sensor);
     scan.T_world_sensor = frame.to_map(scan.T_world_sensor);
-    return scan;
+    return turned_to_z(std::move(scan), axis);
 }
 
 void DynamicFilter::begin_drive() {
@@ -121,6 +125,7 @@ void DynamicFilter::begin_drive() {
 void DynamicFilter::look_again(std::size_t drive, Scan scan) {
     if (!impl_->frame.origin) return;
     scan.T_world_sensor = impl_->frame.to_map(scan.T_world_sensor);
+    scan = turned_to_z(std::move(scan), impl_->axis);
     timed(impl_->times, "look_again", [&] { impl_->map.look_again(drive, scan); });
 }
 

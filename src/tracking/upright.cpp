@@ -4,13 +4,13 @@
 #include <tsl/robin_map.h>
 #include <tsl/robin_set.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
 
 #include "dynamic_filter/motion.hpp"
+#include "geometry/beam_axis.hpp"
 #include "geometry/voxel.hpp"
 
 namespace dynamic_filter {
@@ -19,17 +19,6 @@ namespace {
 std::optional<VoxelKey> column_of(const Point& p, float size) {
     const auto cell = cell_of({p.x(), p.y(), 0.0F}, 1.0F / size);
     return cell ? std::optional(pack(*cell)) : std::nullopt;
-}
-
-/// Direction along which the beams spread least: the one about which a rotating sensor turns.
-Point axis_of_beams(const Points& points) {
-    Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
-    for (const Point& p : points) {
-        const Eigen::Vector3d direction = p.cast<double>().normalized();
-        if (is_measured(p)) moments += direction * direction.transpose();
-    }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(moments);
-    return axes.eigenvectors().col(0).cast<float>();
 }
 
 /// Share of the points in the fullest layer below the sensor, if `up` is the vertical.
@@ -56,21 +45,16 @@ double share_in_ground(const Points& points, const Point& up) {
 }  // namespace
 
 Eigen::Matrix3d upright_rotation(const Points& points) {
-    constexpr float kNearlyUp = 0.7F;
     constexpr double kClearly = 1.2;
-    const Point axis = axis_of_beams(points);
-    if (std::abs(axis.z()) > kNearlyUp) return Eigen::Matrix3d::Identity();
+    const Eigen::Index axis = beam_axis(points);
+    if (axis == 2) return Eigen::Matrix3d::Identity();
+    const Eigen::Vector3d one = Eigen::Vector3d::Unit(axis);
+    const double share = share_in_ground(points, one.cast<float>());
+    const double opposite = share_in_ground(points, (-one).cast<float>());
     const double as_it_is = share_in_ground(points, Point::UnitZ());
-    const double one = share_in_ground(points, axis), other = share_in_ground(points, -axis);
-    if (std::max(one, other) <= kClearly * as_it_is) return Eigen::Matrix3d::Identity();
-    const Eigen::Vector3d up = (one > other ? axis : Point(-axis)).cast<double>();
-    // The axes of drivers are nearly those of the sensor, in another order.
-    Eigen::Index nearest = 0;
-    up.cwiseAbs().maxCoeff(&nearest);
-    const Eigen::Vector3d vertical =
-        std::copysign(1.0, up[nearest]) * Eigen::Vector3d::Unit(nearest);
-    return Eigen::Quaterniond::FromTwoVectors(vertical, Eigen::Vector3d::UnitZ())
-        .toRotationMatrix();
+    if (std::max(share, opposite) <= kClearly * as_it_is) return Eigen::Matrix3d::Identity();
+    const Eigen::Vector3d up = share > opposite ? one : Eigen::Vector3d(-one);
+    return Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
 }
 
 Points upright_points(const Points& points) {

@@ -40,5 +40,11 @@ TEST(PoseOutliers, SinglePosesApartAreNamed) {
     EXPECT_EQ(outliers_of(path.poses, path.stamps), (std::vector<std::size_t>{10, 30}));
 }
 
+TEST(PoseOutliers, AJumpAfterWhichTheTrajectoryGoesOnIsNone) {
+    Path path = braking();
+    for (std::size_t i = 25; i < path.poses.size(); ++i) path.poses[i].translation().y() += 1.0;
+    EXPECT_TRUE(outliers_of(path.poses, path.stamps).empty());
+}
+
 }  // namespace pose_outliers_test
 }  // namespace dynamic_filter::io
