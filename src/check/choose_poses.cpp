@@ -41,10 +41,10 @@ struct Candidate {
     TrackedScans tracked;  // empty: the given poses
 };
 
-Candidate candidate(const std::string& name, const Recording& recording,
-                    const OdometryConfig& config, TrackedScans tracked) {
-    const PoseFit fit = fit_of(with_poses(recording, tracked), config);
-    return {name, fit, std::move(tracked)};
+std::vector<Pose> poses_of_scans(const TrackedScans& tracked) {
+    std::vector<Pose> poses;
+    for (const auto& t : tracked) poses.push_back(t ? t->T_world_sensor : Pose::Identity());
+    return poses;
 }
 
 /// The given poses, but for those apart from their neighbours: odometry leads to these from the
@@ -114,18 +114,21 @@ PosesChoice choose_poses(const Recording& recording, const OdometryConfig& confi
         return choice;
     }
     std::vector<Candidate> candidates;
+    // The motion during scans is undone by all candidates alike.
+    const FitScans scans = read_fit_scans(with_poses(recording, followed));
+    const auto add = [&](const char* name, TrackedScans tracked) {
+        const PoseFit fit = fit_of(scans, poses_of_scans(tracked), config);
+        candidates.push_back({name, fit, std::move(tracked)});
+    };
     const bool is_complete = count_missing(recording) == 0;
     const auto outliers = outliers_of(recording.info().T_world_sensor, recording.info().stamps);
     if (is_complete && outliers.empty()) {
-        candidates.push_back({"given", fit_of(recording, config), {}});
+        candidates.push_back({"given", fit_of(read_fit_scans(recording), config), {}});
     } else if (is_complete) {
-        candidates.push_back(
-            candidate("mended", recording, config, mended(recording, followed, outliers)));
+        add("mended", mended(recording, followed, outliers));
     }
-    candidates.push_back(
-        candidate("refined", recording, config, bind_poses(recording, followed, true)));
-    candidates.push_back(
-        candidate("found", recording, config, bind_poses(recording, followed, false)));
+    add("refined", bind_poses(recording, followed, true));
+    add("found", bind_poses(recording, followed, false));
     // The given poses know the long way, so others must be better to be used.
     std::size_t best = asked && is_complete ? 1 : 0;
     for (std::size_t k = best + 1; k < candidates.size(); ++k) {

@@ -32,21 +32,14 @@ PoseFit mean_of(const std::vector<PoseFit>& fits) {
     return mean;
 }
 
-}  // namespace
-
-double PoseFit::mean_overlay() const {
-    double sum = 0.0, count = 0.0;
-    for (const double share : overlay) {
-        sum += share;
-        count += share > 0.0 ? 1.0 : 0.0;
-    }
-    return count > 0.0 ? sum / count : 0.0;
-}
-
-PoseFit fit_of(std::span<const Scan> scans, std::span<const Pose> T_world_sensor,
-               const OdometryConfig& config) {
+std::vector<Points> upright_of(std::span<const Scan> scans) {
     std::vector<Points> upright;
     for (const Scan& scan : scans) upright.push_back(upright_points(scan.points));
+    return upright;
+}
+
+PoseFit fit_at(std::span<const Scan> scans, std::span<const Points> upright,
+               std::span<const Pose> T_world_sensor, const OdometryConfig& config) {
     PoseFit fit;
     for (std::size_t k = 0; k < fit.overlay.size(); ++k) {
         const std::size_t apart = PoseFit::kApart[k];
@@ -62,17 +55,56 @@ PoseFit fit_of(std::span<const Scan> scans, std::span<const Pose> T_world_sensor
     return fit;
 }
 
-PoseFit fit_of(const Recording& recording, const OdometryConfig& config) {
-    const std::vector<Piece> pieces = read_pieces(recording, kFitPlaces, kFitInARow);
-    std::vector<PoseFit> fits(pieces.size());
-    parallel_for(pieces.size(), 1, [&](std::size_t begin, std::size_t end) {
+template <class PoseAt>
+PoseFit mean_fit(const FitScans& scans, const OdometryConfig& config, const PoseAt& pose_at) {
+    std::vector<PoseFit> fits(scans.places.size());
+    parallel_for(fits.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
+            const FitScans::Place& place = scans.places[k];
             std::vector<Pose> poses;
-            for (const Scan& scan : pieces[k]) poses.push_back(scan.T_world_sensor);
-            fits[k] = fit_of(pieces[k], poses, config);
+            for (const Scan& scan : place.scans) poses.push_back(pose_at(scan));
+            fits[k] = fit_at(place.scans, place.upright, poses, config);
         }
     });
     return fits.empty() ? PoseFit{} : mean_of(fits);
+}
+
+}  // namespace
+
+double PoseFit::mean_overlay() const {
+    double sum = 0.0, count = 0.0;
+    for (const double share : overlay) {
+        sum += share;
+        count += share > 0.0 ? 1.0 : 0.0;
+    }
+    return count > 0.0 ? sum / count : 0.0;
+}
+
+PoseFit fit_of(std::span<const Scan> scans, std::span<const Pose> T_world_sensor,
+               const OdometryConfig& config) {
+    return fit_at(scans, upright_of(scans), T_world_sensor, config);
+}
+
+FitScans read_fit_scans(const Recording& recording) {
+    FitScans result;
+    for (Piece& piece : read_pieces(recording, kFitPlaces, kFitInARow)) {
+        result.places.push_back({std::move(piece), {}});
+    }
+    parallel_for(result.places.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+            result.places[k].upright = upright_of(result.places[k].scans);
+        }
+    });
+    return result;
+}
+
+PoseFit fit_of(const FitScans& scans, const OdometryConfig& config) {
+    return mean_fit(scans, config, [](const Scan& scan) { return scan.T_world_sensor; });
+}
+
+PoseFit fit_of(const FitScans& scans, std::span<const Pose> T_world_sensor,
+               const OdometryConfig& config) {
+    return mean_fit(scans, config, [&](const Scan& scan) { return T_world_sensor[scan.index]; });
 }
 
 bool is_better(const PoseFit& fit, const PoseFit& than) {

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "check/pieces.hpp"
 #include "dynamic_filter/recording.hpp"
 #include "dynamic_filter/settings.hpp"
 
@@ -25,8 +26,21 @@ struct PoseFit {
 /// Of consecutive scans at these poses; parallel.
 PoseFit fit_of(std::span<const Scan> scans, std::span<const Pose> T_world_sensor,
                const OdometryConfig& config);
-/// At the poses of the recording. Reads 21 consecutive scans at up to five places.
-PoseFit fit_of(const Recording& recording, const OdometryConfig& config);
+
+/// Scans by which the poses of a recording are judged, with their upright structures.
+struct FitScans {
+    struct Place {
+        Piece scans;  ///< consecutive
+        std::vector<Points> upright;
+    };
+    std::vector<Place> places;
+};
+/// Reads 21 consecutive scans at up to five places.
+FitScans read_fit_scans(const Recording& recording);
+/// At the poses of the recording that was read, or at others, by index of the scan.
+PoseFit fit_of(const FitScans& scans, const OdometryConfig& config);
+PoseFit fit_of(const FitScans& scans, std::span<const Pose> T_world_sensor,
+               const OdometryConfig& config);
 
 /// True if the scans overlay clearly better than with the other poses: more structures stand on
 /// each other and are hardly less sharp, or as many do, and are sharper.

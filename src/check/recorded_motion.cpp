@@ -23,11 +23,15 @@ namespace {
 constexpr std::size_t kPlaces = 5, kInARow = 21;
 constexpr std::array<std::size_t, 4> kErrorsApart = {1, 5, 10, 20};
 
-std::vector<Tracked> track(const Piece& piece, const OdometryConfig& config) {
+/// The velocity at the first scan.
+std::optional<Twist> velocity_at_first(const Piece& piece, const OdometryConfig& config) {
+    return initial_velocity(std::span(piece).first(std::min(piece.size(), kBeginning)), config);
+}
+
+std::vector<Tracked> track(const Piece& piece, const OdometryConfig& config,
+                           const std::optional<Twist>& velocity) {
     Odometry odometry(config);
     std::vector<Tracked> tracked;
-    const auto velocity =
-        initial_velocity(std::span(piece).first(std::min(piece.size(), kBeginning)), config);
     for (const Scan& scan : piece) {
         std::optional<Pose> guess;
         if (velocity && tracked.size() == 1) {
@@ -108,8 +112,9 @@ Compared compare(Piece piece, const OdometryConfig& config) {
         compared.stamps.push_back(scan.stamp);
         compared.given.push_back(scan.T_world_sensor);
     }
+    const std::optional<Twist> velocity = velocity_at_first(piece, config);
     const auto look = [&](double Blur::*which) {
-        const std::vector<Tracked> tracked = track(piece, config);
+        const std::vector<Tracked> tracked = track(piece, config, velocity);
         const std::vector<Pose> shown = poses_of(tracked);
         const PoseFit at_shown = fit_of(piece, shown, config);
         compared.at_shown.*which = at_shown.blur;
@@ -210,12 +215,19 @@ MotionQuality quality_of(const std::vector<Compared>& compared, bool has_poses) 
 
 /// In a short recording, a sweep may look better by chance. A real one makes the map of each half
 /// of the scans sharper.
-bool sharpens_both_halves(const Piece& piece, const Sweep& sweep, const OdometryConfig& config) {
-    const auto middle = piece.begin() + static_cast<std::ptrdiff_t>(piece.size() / 2);
-    for (Piece half : {Piece(piece.begin(), middle), Piece(middle, piece.end())}) {
-        const double as_it_is = blur(half, track(half, config), config);
+bool sharpens_both_halves(const Piece& piece, const std::vector<Tracked>& tracked,
+                          const Sweep& sweep, const OdometryConfig& config) {
+    const std::size_t middle = piece.size() / 2;
+    for (const std::size_t first : {std::size_t{0}, middle}) {
+        const std::size_t end = first == 0 ? middle : piece.size();
+        const auto at = [&](std::size_t i) {
+            return piece.begin() + static_cast<std::ptrdiff_t>(i);
+        };
+        Piece half(at(first), at(end));
+        const Twist& velocity = tracked[std::max<std::size_t>(first, 1)].velocity;
+        const double as_it_is = blur(half, track(half, config, velocity), config);
         for (Scan& scan : half) scan.times = sweep_times(scan.points, sweep);
-        if (!(blur(half, track(half, config), config) < as_it_is)) return false;
+        if (!(blur(half, track(half, config, velocity), config) < as_it_is)) return false;
     }
     return true;
 }
@@ -238,32 +250,36 @@ std::optional<Sweep> find_sweep(const Recording& recording, const OdometryConfig
     const double duration = usual_step(recording);
     if (!(duration > 0.0) || duration > kLongest) return std::nullopt;
     const Piece* fastest = nullptr;
+    std::vector<Tracked> track_of_fastest;
     double most_distorted = kLeast, as_it_is = 0.0;
     std::vector<Piece> pieces = read_pieces(recording, 3, kInARow);
     for (Piece& piece : pieces) {
         if (piece.size() < 2 || !turns(piece.front())) continue;
         for (Scan& scan : piece) scan.times.clear();
-        const std::vector<Tracked> tracked = track(piece, config);
+        std::vector<Tracked> tracked = track(piece, config, velocity_at_first(piece, config));
         const double distorted = distortion(tracked, duration);
         if (distorted < most_distorted) continue;
         most_distorted = distorted;
         fastest = &piece;
         as_it_is = blur(piece, tracked, config);
+        track_of_fastest = std::move(tracked);
     }
     if (fastest == nullptr) return std::nullopt;
+    const Twist velocity = track_of_fastest[1].velocity;  // of the first scan, nearly
     const std::vector<Sweep> sweeps = all_sweeps(duration);
     std::vector<double> blurs(sweeps.size());
     parallel_for(sweeps.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
             Piece piece = *fastest;
             for (Scan& scan : piece) scan.times = sweep_times(scan.points, sweeps[k]);
-            blurs[k] = blur(piece, track(piece, config), config);
+            blurs[k] = blur(piece, track(piece, config, velocity), config);
         }
     });
     const auto best = std::min_element(blurs.begin(), blurs.end());
     if (*best > as_it_is * kClearly) return std::nullopt;
     const Sweep sweep = sweeps[static_cast<std::size_t>(best - blurs.begin())];
-    return sharpens_both_halves(*fastest, sweep, config) ? std::optional(sweep) : std::nullopt;
+    return sharpens_both_halves(*fastest, track_of_fastest, sweep, config) ? std::optional(sweep)
+                                                                           : std::nullopt;
 }
 
 double Blur::least() const {
