@@ -72,7 +72,8 @@ std::vector<std::optional<Tracked>> track_scans(const Recording& recording,
                                                 const std::function<bool()>& after = {});
 
 /// Finds out how a rotating sensor turns. The result is set if scans overlay clearly better when
-/// the time of each point is computed from its azimuth. It is empty if motion compensation was
+/// the time of each point is computed from the order of the points or from their azimuths, at the
+/// poses that odometry then finds. It is empty if motion compensation was
 /// already done, if the sensor did not move, or if it does not rotate. Reads a few consecutive
 /// scans at several places of the recording.
 std::optional<Sweep> find_sweep(const Recording& recording, const OdometryConfig& config);

@@ -12,6 +12,7 @@
 #include "check/pieces.hpp"
 #include "check/pose_fit.hpp"
 #include "check/pose_mistakes.hpp"
+#include "check/scan_times.hpp"
 #include "dynamic_filter/parallel.hpp"
 #include "tracking/beginning.hpp"
 #include "tracking/overlay_blur.hpp"
@@ -59,28 +60,6 @@ double distortion(const std::vector<Tracked>& tracked, double duration) {
                          (t.velocity.head<3>().norm() + 10.0 * t.velocity.tail<3>().norm()));
     }
     return median(std::move(shifts));
-}
-
-/// True if the scan covers all directions, as that of a rotating sensor does.
-bool turns(const Scan& scan) {
-    constexpr std::size_t kSectors = 16, kMostEmpty = 3;
-    std::array<bool, kSectors> seen{};
-    for (const Point& p : scan.points) {
-        const double turned = std::atan2(p.y(), p.x()) / (2.0 * std::numbers::pi) + 0.5;
-        const auto sector = static_cast<std::size_t>(turned * kSectors);
-        if (is_measured(p)) seen[std::min(sector, kSectors - 1)] = true;
-    }
-    return std::count(seen.begin(), seen.end(), false) <= std::ptrdiff_t{kMostEmpty};
-}
-
-std::vector<Sweep> all_sweeps(double duration) {
-    std::vector<Sweep> sweeps;
-    for (const bool clockwise : {false, true}) {
-        for (int quarter = 0; quarter < 4; ++quarter) {
-            sweeps.push_back({clockwise, quarter * 0.5 * std::numbers::pi, duration});
-        }
-    }
-    return sweeps;
 }
 
 /// Poses of consecutive scans: as given, and as estimated from the scans.
@@ -158,14 +137,6 @@ bool nearly_right(const std::vector<Compared>& pieces) {
     return !errors.empty() && std::all_of(errors.begin(), errors.end(), is_small);
 }
 
-double usual_step(const Recording& recording) {
-    std::vector<double> steps;
-    for (std::size_t i = 1; i < recording.size(); ++i) {
-        steps.push_back(recording.info().stamps[i] - recording.info().stamps[i - 1]);
-    }
-    return median(std::move(steps));
-}
-
 std::vector<Compared> compare_places(const Recording& recording, std::size_t places,
                                      std::size_t in_a_row, const OdometryConfig& config) {
     std::vector<Piece> pieces = read_pieces(recording, places, in_a_row);
@@ -220,8 +191,7 @@ bool would_be_replaced(const Recording& recording, const OdometryConfig& config)
 std::optional<Sweep> find_sweep(const Recording& recording, const OdometryConfig& given) {
     OdometryConfig config = given;
     config.points = std::min(config.points, 1500);  // fewer points, because this takes long
-    // [s] of one rotation; a longer time means that scans were left out.
-    constexpr double kLongest = 0.25;
+    constexpr double kLongest = 0.25;  // [s] a longer step means that scans were left out
     constexpr double kLeast = 0.3;      // [m] of distortion; less does not matter
     constexpr double kClearly = 0.988;  // factor of the blur that counts as clearly better
     const double duration = usual_step(recording);
@@ -230,7 +200,7 @@ std::optional<Sweep> find_sweep(const Recording& recording, const OdometryConfig
     double most_distorted = kLeast, as_it_is = 0.0;
     std::vector<Piece> pieces = read_pieces(recording, 3, kInARow);
     for (Piece& piece : pieces) {
-        if (piece.size() < 2 || !turns(piece.front())) continue;
+        if (piece.size() < 2 || possible_sweeps(piece.front().points, duration).empty()) continue;
         for (Scan& scan : piece) scan.times.clear();
         const std::vector<Tracked> tracked = track(piece, config);
         const double distorted = distortion(tracked, duration);
@@ -240,7 +210,7 @@ std::optional<Sweep> find_sweep(const Recording& recording, const OdometryConfig
         as_it_is = blur(piece, tracked, config);
     }
     if (fastest == nullptr) return std::nullopt;
-    const std::vector<Sweep> sweeps = all_sweeps(duration);
+    const std::vector<Sweep> sweeps = possible_sweeps(fastest->front().points, duration);
     std::vector<double> blurs(sweeps.size());
     parallel_for(sweeps.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
@@ -249,7 +219,10 @@ std::optional<Sweep> find_sweep(const Recording& recording, const OdometryConfig
             blurs[k] = blur(piece, track(piece, config), config);
         }
     });
-    const auto best = std::min_element(blurs.begin(), blurs.end());
+    // Scans in order tell the times more exactly than azimuths do.
+    constexpr double kAsGood = 1.002;  // factor of the blur
+    auto best = std::min_element(blurs.begin(), blurs.end());
+    if (sweeps.front().in_order && blurs.front() < kAsGood * *best) best = blurs.begin();
     if (*best > as_it_is * kClearly) return std::nullopt;
     const Sweep sweep = sweeps[static_cast<std::size_t>(best - blurs.begin())];
     return sharpens_both_halves(*fastest, sweep, config) ? std::optional(sweep) : std::nullopt;

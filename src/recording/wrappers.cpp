@@ -104,7 +104,9 @@ Recording deskewed(const Recording& recording, std::optional<Sweep> sweep) {
     RecordingParts parts = recording.parts();
     Info& info = parts.info;
     if (sweep) info.sweep = sweep;
-    if (info.trajectory.stamps.empty() && info.measured_stamps) {
+    // Of times that are shares of the step between stamps, the clock does not matter.
+    const bool has_clock = info.measured_stamps || info.sweep;
+    if (info.trajectory.stamps.empty() && info.has_poses && has_clock) {
         info.trajectory = {info.stamps, info.T_world_sensor};
         put_in_order(info.trajectory);
     }
