@@ -57,12 +57,14 @@ double mean_of(const Blurs& blurs) {
     return blurs.empty() ? 0.0 : std::exp(sum / static_cast<double>(blurs.size()));
 }
 
-/// True if scans are sharper at most places, so that it is no chance.
-bool mostly_sharper(const Blurs& blurs, const Blurs& than) {
-    if (blurs.size() != than.size()) return false;
-    std::size_t sharper = 0;
-    for (std::size_t k = 0; k < blurs.size(); ++k) sharper += blurs[k] < than[k] ? 1 : 0;
-    return 3 * sharper >= 2 * blurs.size();
+/// True if scans are sharper as a whole, and nowhere clearly less sharp, so that it is no chance.
+bool is_clearly_sharper(const Blurs& blurs, const Blurs& than) {
+    constexpr double kClearly = 0.99, kLessSharp = 1.01;
+    if (blurs.size() != than.size() || !(mean_of(blurs) < kClearly * mean_of(than))) return false;
+    for (std::size_t k = 0; k < blurs.size(); ++k) {
+        if (blurs[k] > kLessSharp * than[k]) return false;
+    }
+    return true;
 }
 
 /// A way to tell times, and how the scans look with the motion undone by it.
@@ -189,7 +191,6 @@ std::vector<Sweep> possible_sweeps(const Points& points, double duration) {
 }
 
 TimesChoice choose_times(const Recording& recording, const OdometryConfig& config, bool asks_more) {
-    constexpr double kClearlySharper = 0.99;
     TimesChoice choice;
     const std::vector<float> times = times_in_fields(recording);
     const std::vector<Sweep> sweeps =
@@ -201,10 +202,8 @@ TimesChoice choose_times(const Recording& recording, const OdometryConfig& confi
                                        : try_fields(recording, config, times);
     const Tried& best = best_of(all);
     choice.blur = {mean_of(as_measured), mean_of(best.blurs)};
-    const bool is_sharper = times.empty()
-                                ? choice.blur.undone < kClearlySharper * choice.blur.as_measured &&
-                                      mostly_sharper(best.blurs, as_measured)
-                                : choice.blur.is_distorted();
+    const bool is_sharper = times.empty() ? is_clearly_sharper(best.blurs, as_measured)
+                                          : choice.blur.is_distorted();
     if (is_sharper || (asks_more && choice.blur.undone < choice.blur.as_measured)) {
         choice.sweep = best.sweep;
     }

@@ -100,7 +100,7 @@ std::size_t row_break(const std::vector<double>& elevations, std::size_t begin, 
 /// Of points in rows, each of which is a turn of one laser.
 std::vector<float> shares_in_rows(const Points& points, const std::vector<std::size_t>& measured) {
     constexpr double kFewestRows = 4.0, kMostRows = 300.0;
-    constexpr double kNear = 0.07 * kFullTurn;  // lasers of one firing point apart by less
+    constexpr double kNear = 0.07;  // [turns] lasers of one firing point apart by less
     std::vector<double> turned, elevations;
     for (const std::size_t i : measured) {
         const Point& p = points[i];
@@ -112,25 +112,24 @@ std::vector<float> shares_in_rows(const Points& points, const std::vector<std::s
     const double sense = turned.back() > turned.front() ? 1.0 : -1.0;
     const double rows = std::abs(turned.back() - turned.front()) / kFullTurn;
     if (rows < kFewestRows || rows > kMostRows || !advances(turned)) return {};
+    // Beams to the ground return all round, so their row shows where rows begin and end.
+    const double seam = elevations.back() < elevations.front() ? turned.back() : turned.front();
+    const auto phase = [&](std::size_t i) { return sense * (turned[i] - seam) / kFullTurn; };
+    double row = std::floor(phase(0) + kNear);
+    std::size_t next = 0;  // index at which the next row begins, or the present one
+    double begun = row;    // phase at which the present row begins
     std::vector<float> shares(points.size(), 0.5F);
-    double begun = turned.front();  // of the present row
-    std::size_t next = 0;           // index at which the next row begins, if it is known
-    int row = 0;
     for (std::size_t i = 0; i < measured.size(); ++i) {
-        const auto behind = [&](double angle) {
-            return sense * (turned[i] - turned.front()) > (row + 1) * kFullTurn + angle;
-        };
-        if (next <= i && behind(-kNear)) {
+        if (next <= i && phase(i) > row + 1.0 - kNear) {
             std::size_t end = i;
-            while (end < measured.size() && sense * (turned[end] - turned.front()) <
-                                                (row + 1) * kFullTurn + kNear) {
-                ++end;
-            }
-            next = row_break(elevations, i, end);
-            ++row;
+            while (end < measured.size() && phase(end) < row + 1.0 + kNear) ++end;
+            // The last row ends where the scan does.
+            next = end < measured.size() ? row_break(elevations, i, end) : end;
+            row += 1.0;
         }
-        if (row > 0 && i == next) begun = turned[i];
-        const double share = sense * (turned[i] - begun) / kFullTurn;
+        // A row whose first beams did not return begins where the others do.
+        if (i == next) begun = std::abs(phase(i) - row) < kNear ? phase(i) : row;
+        const double share = phase(i) - begun;
         shares[measured[i]] = static_cast<float>(share - std::floor(share));
     }
     return shares;
