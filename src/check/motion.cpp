@@ -14,6 +14,7 @@
 #include "dynamic_filter/check.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/writers.hpp"
+#include "recording/recording_parts.hpp"
 #include "recording/scans.hpp"
 #include "settings/config_file.hpp"
 
@@ -38,6 +39,13 @@ std::string source_of(const Sweep& sweep, bool timed) {
     return fmt::format("the azimuths of its points (the sensor turns {} and begins at {:.0f} deg)",
                        sweep.clockwise ? "clockwise" : "counterclockwise",
                        sweep.seam * 180.0 / std::numbers::pi);
+}
+
+/// The recording without motion compensation.
+io::Recording as_measured(const io::Recording& recording) {
+    io::RecordingParts parts = recording.parts();
+    parts.info.deskewed = false;
+    return io::Recording(std::move(parts));
 }
 
 /// What is lost if the motion was asked to be undone, and cannot be.
@@ -160,10 +168,11 @@ ChosenMotion choose_motion(io::Recording& recording, Config& config, const Motio
     add(chosen.notes, choose_sensor_place(recording));
     add(chosen.notes, no_returns_note(recording));
     const bool has_poses = recording.info().has_poses;
-    const bool judges_times = has_poses && !recording.info().sparse_poses &&
-                              !recording.info().deskewed && choice.deskew != "off";
+    const bool judges_times =
+        has_poses && !recording.info().sparse_poses && choice.deskew != "off";
+    const io::Recording measured = as_measured(recording);
     const io::TimesChoice times =
-        judges_times ? io::choose_times(recording, config.odometry, choice.deskew == "on")
+        judges_times ? io::choose_times(measured, config.odometry, choice.deskew == "on")
                      : io::TimesChoice{};
     const io::Recording looked_at =
         choice.deskew == "off" ? recording : io::with_times(recording, times.sweep);
@@ -188,7 +197,7 @@ ChosenMotion choose_motion(io::Recording& recording, Config& config, const Motio
         return chosen;
     }
     if (times.sweep) {
-        recording = io::deskewed(recording, times.sweep);
+        recording = io::deskewed(measured, times.sweep);
         chosen.notes.push_back(fmt::format(
             "scans blur by {} as they are and by {} with the motion during each scan undone by "
             "{}{}, so it is undone; --deskew off leaves it",

@@ -55,7 +55,7 @@ std::string obstacle_to_deskew(const RecordingParts& parts) {
     }
     if (info.sweep || !point_times(parts.read_cloud(0), info.stamps.front()).empty()) return "";
     return "the points have no times of their own (no field t, time, timestamp or offset_time "
-           "that varies): the sensor's motion during each scan is not undone";
+           "that varies), which would tell how the sensor moved during each scan";
 }
 
 }  // namespace
