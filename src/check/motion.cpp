@@ -168,8 +168,7 @@ ChosenMotion choose_motion(io::Recording& recording, Config& config, const Motio
     add(chosen.notes, choose_sensor_place(recording));
     add(chosen.notes, no_returns_note(recording));
     const bool has_poses = recording.info().has_poses;
-    const bool judges_times =
-        has_poses && !recording.info().sparse_poses && choice.deskew != "off";
+    const bool judges_times = has_poses && !recording.info().sparse_poses && choice.deskew != "off";
     const io::Recording measured = as_measured(recording);
     const io::TimesChoice times =
         judges_times ? io::choose_times(measured, config.odometry, choice.deskew == "on")
@@ -191,8 +190,7 @@ ChosenMotion choose_motion(io::Recording& recording, Config& config, const Motio
         const bool is_distorted =
             timed && choice.deskew == "auto" &&
             io::measure_motion(looked_at, config.odometry).found.is_distorted();
-        add(chosen.notes,
-            choose_deskew(recording, config.odometry, choice, timed, is_distorted));
+        add(chosen.notes, choose_deskew(recording, config.odometry, choice, timed, is_distorted));
         if (!choice.online) use_found_poses(recording, config, choice, chosen);
         return chosen;
     }

@@ -347,12 +347,11 @@ void judge_motion(Preflight& result, const Recording& given) {
                                    "accurate poses give better results"});
     }
     if (info.deskewed || info.tracked) return;
-    const std::optional<Sweep> sweep =
-        info.has_poses && !info.sparse_poses ? choose_times(given, config, false).sweep
-                                             : std::nullopt;
+    const std::optional<Sweep> sweep = info.has_poses && !info.sparse_poses
+                                           ? choose_times(given, config, false).sweep
+                                           : std::nullopt;
     const Blur blur = sweep ? Blur{} : measure_motion(recording, config).found;
-    if (!sweep && !blur.is_distorted() &&
-        (blur.undone > 0.0 || !find_sweep(recording, config))) {
+    if (!sweep && !blur.is_distorted() && (blur.undone > 0.0 || !find_sweep(recording, config))) {
         return;
     }
     const bool is_shifted = sweep && !sweep->in_order && sweep->shift != 0.0;

@@ -191,7 +191,7 @@ bool would_be_replaced(const Recording& recording, const OdometryConfig& config)
 std::optional<Sweep> find_sweep(const Recording& recording, const OdometryConfig& given) {
     OdometryConfig config = given;
     config.points = std::min(config.points, 1500);  // fewer points, because this takes long
-    constexpr double kLongest = 0.25;  // [s] a longer step means that scans were left out
+    constexpr double kLongest = 0.25;   // [s] a longer step means that scans were left out
     constexpr double kLeast = 0.3;      // [m] of distortion; less does not matter
     constexpr double kClearly = 0.988;  // factor of the blur that counts as clearly better
     const double duration = usual_step(recording);

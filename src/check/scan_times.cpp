@@ -202,8 +202,8 @@ TimesChoice choose_times(const Recording& recording, const OdometryConfig& confi
                                        : try_fields(recording, config, times);
     const Tried& best = best_of(all);
     choice.blur = {mean_of(as_measured), mean_of(best.blurs)};
-    const bool is_sharper = times.empty() ? is_clearly_sharper(best.blurs, as_measured)
-                                          : choice.blur.is_distorted();
+    const bool is_sharper =
+        times.empty() ? is_clearly_sharper(best.blurs, as_measured) : choice.blur.is_distorted();
     if (is_sharper || (asks_more && choice.blur.undone < choice.blur.as_measured)) {
         choice.sweep = best.sweep;
     }

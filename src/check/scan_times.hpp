@@ -25,7 +25,8 @@ struct TimesChoice {
     /// Set if scans overlay better with the motion during each scan undone, with these times; for
     /// points with times, it tells the shift.
     std::optional<Sweep> sweep;
-    /// At the poses of the recording; `undone`: with the best times that were tried, 0 if none were.
+    /// At the poses of the recording; `undone`: with the best times that were tried, 0 if none
+    /// were.
     Blur blur;
 };
 

@@ -68,10 +68,11 @@ std::vector<float> shares_as_fired(const Points& points, const std::vector<std::
     const double first = turned.front() - (turned[1] - turned[0]) / 2.0;
     std::vector<float> shares(points.size(), 0.5F);
     for (std::size_t i = 0; i < measured.size(); ++i) {
-        const double part = (static_cast<double>(i) + 0.5) * kParts /
-                                static_cast<double>(measured.size()) - 0.5;
+        const double part =
+            (static_cast<double>(i) + 0.5) * kParts / static_cast<double>(measured.size()) - 0.5;
         const auto k = static_cast<std::size_t>(std::clamp(part, 0.0, kParts - 2.0));
-        const double here = turned[k] + (part - static_cast<double>(k)) * (turned[k + 1] - turned[k]);
+        const double here =
+            turned[k] + (part - static_cast<double>(k)) * (turned[k + 1] - turned[k]);
         const double share = std::abs(here - first) / std::max(whole, kFullTurn);
         shares[measured[i]] = static_cast<float>(std::clamp(share, 0.0, 1.0));
     }
@@ -100,7 +101,8 @@ std::size_t row_break(const std::vector<double>& elevations, std::size_t begin, 
 /// Of points in rows, each of which is a turn of one laser.
 std::vector<float> shares_in_rows(const Points& points, const std::vector<std::size_t>& measured) {
     constexpr double kFewestRows = 4.0, kMostRows = 300.0;
-    constexpr double kNear = 0.07;  // [turns] lasers of one firing point apart by less
+    constexpr double kNear = 0.07;    // [turns] lasers of one firing point apart by less
+    constexpr double kStep = 0.0015;  // [rad] from laser to laser
     std::vector<double> turned, elevations;
     for (const std::size_t i : measured) {
         const Point& p = points[i];
@@ -127,8 +129,13 @@ std::vector<float> shares_in_rows(const Points& points, const std::vector<std::s
             next = end < measured.size() ? row_break(elevations, i, end) : end;
             row += 1.0;
         }
-        // A row whose first beams did not return begins where the others do.
-        if (i == next) begun = std::abs(phase(i) - row) < kNear ? phase(i) : row;
+        if (i == next) {
+            // A row whose first beams did not return begins where the others do.
+            const bool shows_begin = i > 0 && std::abs(phase(i) - row) < kNear &&
+                                     std::abs(elevations[i] - elevations[i - 1]) > kStep &&
+                                     std::abs(phase(i) - phase(i - 1)) < kNear;
+            begun = shows_begin ? phase(i) : row;
+        }
         const double share = phase(i) - begun;
         shares[measured[i]] = static_cast<float>(share - std::floor(share));
     }

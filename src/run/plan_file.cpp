@@ -70,8 +70,11 @@ PlannedDrive drive_of(const PlanJson& json) {
         Eigen::Vector3d(at.at(0).get<double>(), at.at(1).get<double>(), at.at(2).get<double>());
     if (json.contains("sweep")) {
         const PlanJson& sweep = json["sweep"];
-        drive.sweep = Sweep{.clockwise = sweep[0], .seam = sweep[1], .duration = sweep[2],
-                            .in_order = sweep[3], .shift = sweep[4]};
+        drive.sweep = Sweep{.clockwise = sweep[0],
+                            .seam = sweep[1],
+                            .duration = sweep[2],
+                            .in_order = sweep[3],
+                            .shift = sweep[4]};
     }
     const auto used = from_blob<std::uint8_t>(json.at("used"));
     const auto stretches = from_blob<std::uint32_t>(json.at("parts"));
