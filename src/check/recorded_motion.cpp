@@ -219,10 +219,9 @@ std::optional<Sweep> find_sweep(const Recording& recording, const OdometryConfig
             blurs[k] = blur(piece, track(piece, config), config);
         }
     });
-    // Scans in order tell the times more exactly than azimuths do.
-    constexpr double kAsGood = 1.002;  // factor of the blur
+    // The order of points tells times more surely than their azimuths do.
     auto best = std::min_element(blurs.begin(), blurs.end());
-    if (sweeps.front().in_order && blurs.front() < kAsGood * *best) best = blurs.begin();
+    if (sweeps.front().in_order && blurs.front() <= as_it_is * kClearly) best = blurs.begin();
     if (*best > as_it_is * kClearly) return std::nullopt;
     const Sweep sweep = sweeps[static_cast<std::size_t>(best - blurs.begin())];
     return sharpens_both_halves(*fastest, sweep, config) ? std::optional(sweep) : std::nullopt;
