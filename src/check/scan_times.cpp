@@ -195,8 +195,9 @@ namespace {
 /// True if a few scans are sharper with the motion undone. Most recordings need no more looks.
 bool may_help(const Recording& recording, const OdometryConfig& config, const Sweep& sweep) {
     constexpr std::size_t kPlacesAtFirst = 3, kAtFirst = 5;
+    constexpr double kSharper = 0.995;
     return mean_of(blurs_of(deskewed(recording, sweep), config, kPlacesAtFirst, kAtFirst)) <
-           mean_of(blurs_of(recording, config, kPlacesAtFirst, kAtFirst));
+           kSharper * mean_of(blurs_of(recording, config, kPlacesAtFirst, kAtFirst));
 }
 
 }  // namespace
