@@ -33,9 +33,9 @@ bool turns(const Points& points) {
 /// Blur [m] of the recording's scans at its poses, by place.
 using Blurs = std::vector<double>;
 
-Blurs blurs_of(const Recording& recording, const OdometryConfig& config, std::size_t places = 5,
-               std::size_t in_a_row = 9) {
-    const std::vector<Piece> pieces = read_pieces(recording, places, in_a_row);
+Blurs blurs_of(const Recording& recording, const OdometryConfig& config) {
+    constexpr std::size_t kManyPlaces = 5, kFewInARow = 9;
+    const std::vector<Piece> pieces = read_pieces(recording, kManyPlaces, kFewInARow);
     Blurs blurs(pieces.size());
     parallel_for(pieces.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
@@ -190,27 +190,12 @@ std::vector<Sweep> possible_sweeps(const Points& points, double duration) {
     return sweeps;
 }
 
-namespace {
-
-/// True if a few scans are sharper with the motion undone. Most recordings need no more looks.
-bool may_help(const Recording& recording, const OdometryConfig& config, const Sweep& sweep) {
-    constexpr std::size_t kPlacesAtFirst = 3, kAtFirst = 5;
-    constexpr double kSharper = 0.995;
-    return mean_of(blurs_of(deskewed(recording, sweep), config, kPlacesAtFirst, kAtFirst)) <
-           kSharper * mean_of(blurs_of(recording, config, kPlacesAtFirst, kAtFirst));
-}
-
-}  // namespace
-
 TimesChoice choose_times(const Recording& recording, const OdometryConfig& config, bool asks_more) {
     TimesChoice choice;
     const std::vector<float> times = times_in_fields(recording);
     const std::vector<Sweep> sweeps =
         times.empty() ? sweeps_to_try(recording, asks_more) : std::vector<Sweep>{};
     if (times.empty() && sweeps.empty()) return choice;
-    if (sweeps.size() == 1 && !asks_more && !may_help(recording, config, sweeps.front())) {
-        return choice;
-    }
     const Blurs as_measured = blurs_of(recording, config);
     const std::vector<Tried> all = times.empty()
                                        ? try_sweeps(recording, config, sweeps, as_measured)
