@@ -47,7 +47,8 @@ struct Overlay {
 
 /// Result of the check.
 struct Preflight {
-    std::vector<Finding> findings;  ///< empty if nothing is suspicious
+    std::vector<Finding> findings;   ///< empty if nothing is suspicious
+    std::vector<std::string> notes;  ///< what `run` does by itself, as sentences for the user
     /// "as given" is first; empty if no two scans could be compared.
     std::vector<Overlay> overlays;
     std::size_t scans = 0;  ///< number of scans that were read
@@ -72,7 +73,8 @@ std::vector<std::optional<Tracked>> track_scans(const Recording& recording,
                                                 const std::function<bool()>& after = {});
 
 /// Finds out how a rotating sensor turns. The result is set if scans overlay clearly better when
-/// the time of each point is computed from its azimuth. It is empty if motion compensation was
+/// the time of each point is computed from the order of the points or from their azimuths, at the
+/// poses that odometry then finds. It is empty if motion compensation was
 /// already done, if the sensor did not move, or if it does not rotate. Reads a few consecutive
 /// scans at several places of the recording.
 std::optional<Sweep> find_sweep(const Recording& recording, const OdometryConfig& config);

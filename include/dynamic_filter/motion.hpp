@@ -36,15 +36,21 @@ Points moved(const Points& points, const Pose& T_to_from);
 /// frame. Points without a finite time are not moved.
 Points undo_motion(const Points& points, std::span<const float> times, const Twist& velocity);
 
-/// The rotation of a sensor, seen from above.
+/// When the points of a scan were measured, as a rotating sensor does it.
 struct Sweep {
-    bool clockwise = false;  ///< direction of rotation
+    bool clockwise = false;  ///< direction of rotation, seen from above
     double seam = 0.0;       ///< [rad] azimuth at which a scan begins and ends
-    double duration = 0.1;   ///< [s] of one rotation
+    double duration = 0.1;   ///< [s] of one scan
+    /// True: the order of the points tells how far the sensor had turned, which may be more than
+    /// one turn. False: their azimuths do, with the two values above, and a scan is one turn.
+    bool in_order = false;
+    /// [s] added to all times, also to those that the points themselves have. By half the duration,
+    /// the moment to which times refer is the begin of a sweep, not its middle.
+    double shift = 0.0;
 };
 
-/// Times [s] relative to the middle of the sweep, from -duration/2 to duration/2. Points that are
-/// not measured have time 0.
+/// Times [s] relative to the middle of the sweep, from -duration/2 to duration/2, plus the shift.
+/// Points that are not measured have time 0, and so have all if they are not in order.
 std::vector<float> sweep_times(const Points& points, const Sweep& sweep);
 
 /// How reliable a pose is.

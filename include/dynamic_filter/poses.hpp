@@ -90,8 +90,9 @@ std::optional<Pose> pose_at(const Trajectory& trajectory, double stamp, double g
 /// read from the first of these fields that exists: "t", "time", "timestamp", "offset_time",
 /// "time_offset", "timeOffset", "time_stamp", "ts". The unit is recognized (seconds, milliseconds,
 /// microseconds or nanoseconds), and also whether times are absolute or relative to the stamp.
-/// Empty if there is no such field, if the times span less than 1 ms in every unit in which they
-/// span at most one second, or if they are absolute and more than 10 s from the stamp.
+/// Absolute times that are more than 10 s from the stamp are of another clock, and count from the
+/// first of them. Empty if there is no such field, or if the times span less than 1 ms in every
+/// unit in which they span at most one second.
 std::vector<float> point_times(const Cloud& cloud, double stamp);
 
 /// Motion compensation: moves each point to where it would be if it had been measured at the stamp

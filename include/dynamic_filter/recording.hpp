@@ -84,7 +84,8 @@ struct Info {
     /// for instance between key frames. They are to be placed by odometry that is tied to these
     /// poses; until then, T_world_sensor has none for them, and they cannot be read.
     bool sparse_poses = false;
-    std::optional<Sweep> sweep;    ///< tells the times of points if the scans do not hold them
+    /// Tells the times of points if the scans do not hold them; if they do, only its shift counts.
+    std::optional<Sweep> sweep;
     bool deskewed = false;         ///< true: the points are those of deskewed()
     bool points_in_world = false;  ///< true: the files have points in the frame of the poses
     /// For poses in the files of the scans; all other poses are already corrected.
@@ -164,7 +165,7 @@ Recording slice(const Recording& recording, std::size_t first, std::optional<std
                 std::size_t stride = 1);
 
 /// Scans have the times of their points, if the files hold them; otherwise those of the sweep, if
-/// it is known or given.
+/// it is known or given. The shift of the sweep counts for both.
 Recording with_times(const Recording& recording, std::optional<Sweep> sweep = {});
 
 /// The sensor's motion within each scan is undone, with the poses of the recording and the times of

@@ -129,6 +129,7 @@ std::string check(const fs::path& data, py::dict options) {
     const io::Recording recording = app::open(o);
     const io::Preflight preflight = io::check_recording(recording, io::Depth::thorough);
     nlohmann::ordered_json json{{"findings", nlohmann::json::array()},
+                                {"notes", preflight.notes},
                                 {"overlays", nlohmann::json::object()},
                                 {"unusable", preflight.unusable},
                                 {"lost", recording.info().losses}};

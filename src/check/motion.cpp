@@ -4,13 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "base/progress.hpp"
 #include "check/choose_poses.hpp"
+#include "check/scan_times.hpp"
 #include "check/sensor_place.hpp"
 #include "dynamic_filter/check.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/writers.hpp"
+#include "recording/recording_parts.hpp"
 #include "recording/scans.hpp"
 #include "settings/config_file.hpp"
 
@@ -28,8 +32,32 @@ bool has_times(const io::Recording& recording) {
 
 std::string centimetres(double metres) { return fmt::format("{:.1f} cm", 100.0 * metres); }
 
-/// Chooses how the motion within scans is undone: by the times of the points, else by their
-/// azimuths. The recording then has these times. Returns a note, or "".
+/// "the order of its points in the file", or what else tells when points were measured.
+std::string source_of(const Sweep& sweep, bool timed) {
+    if (timed) return "the times of its points";
+    if (sweep.in_order) return "the order of its points in the file";
+    return fmt::format("the azimuths of its points (the sensor turns {} and begins at {:.0f} deg)",
+                       sweep.clockwise ? "clockwise" : "counterclockwise",
+                       sweep.seam * 180.0 / std::numbers::pi);
+}
+
+/// The recording without motion compensation.
+io::Recording as_measured(const io::Recording& recording) {
+    io::RecordingParts parts = recording.parts();
+    parts.info.deskewed = false;
+    return io::Recording(std::move(parts));
+}
+
+/// What is lost if the motion was asked to be undone, and cannot be.
+void add_not_undone(io::Recording& recording) {
+    recording = io::with_losses(
+        recording, {"the motion during each scan is not undone, as --deskew on asks: the points "
+                    "have no times, and neither their order nor their azimuths make scans overlay "
+                    "better; give points with a field t, time or timestamp"});
+}
+
+/// Chooses how the motion within scans is undone at poses that odometry finds. The recording then
+/// has these times. Returns a note, or "".
 std::string choose_deskew(io::Recording& recording, const OdometryConfig& config,
                           const MotionChoice& choice, bool timed, bool is_distorted) {
     if (choice.deskew == "off") return "";
@@ -39,13 +67,19 @@ std::string choose_deskew(io::Recording& recording, const OdometryConfig& config
         return "the motion during each scan is undone by the times of its points";
     }
     const auto sweep = io::find_sweep(recording, config);
-    if (!sweep) return "";
+    if (!sweep) {
+        if (choice.deskew == "on") add_not_undone(recording);
+        return "";
+    }
     recording = io::with_times(recording, sweep);
-    return fmt::format(
-        "the motion during each scan is undone by the azimuths of its points: the sensor turns "
-        "{} and begins at {:.0f} deg",
-        sweep->clockwise ? "clockwise" : "counterclockwise",
-        sweep->seam * 180.0 / std::numbers::pi);
+    return "the motion during each scan is undone by " + source_of(*sweep, false);
+}
+
+/// Where the stamps of scans are, if the times of their points had to be shifted.
+std::string stamp_text(const Sweep& sweep, bool timed) {
+    if (!timed || sweep.shift == 0.0) return "";
+    return fmt::format(", {:.0f} ms {} than they say", 1e3 * std::abs(sweep.shift),
+                       sweep.shift < 0.0 ? "earlier" : "later");
 }
 
 void add(std::vector<std::string>& notes, std::string note) {
@@ -134,8 +168,14 @@ ChosenMotion choose_motion(io::Recording& recording, Config& config, const Motio
     add(chosen.notes, choose_sensor_place(recording));
     add(chosen.notes, no_returns_note(recording));
     const bool has_poses = recording.info().has_poses;
-    const io::Recording looked_at = choice.deskew == "off" ? recording : io::with_times(recording);
-    const bool timed = has_times(looked_at);
+    const bool judges_times = has_poses && !recording.info().sparse_poses && choice.deskew != "off";
+    const io::Recording measured = as_measured(recording);
+    const io::TimesChoice times =
+        judges_times ? io::choose_times(measured, config.odometry, choice.deskew == "on")
+                     : io::TimesChoice{};
+    const io::Recording looked_at =
+        choice.deskew == "off" ? recording : io::with_times(recording, times.sweep);
+    const bool timed = choice.deskew != "off" && has_times(io::with_times(recording));
     bool refines = has_poses && (choice.refine == "on" || config.odometry.refine);
     if (has_poses && choice.refine == "auto" && !refines) {
         const std::string doubt = io::doubt_about_poses(looked_at, config.odometry);
@@ -146,25 +186,23 @@ ChosenMotion choose_motion(io::Recording& recording, Config& config, const Motio
     }
     if (!has_poses) chosen.notes.emplace_back("no poses are used, so they are found by odometry");
     config.odometry.refine = refines && choice.online;
-    const io::MotionQuality quality = timed && choice.deskew == "auto"
-                                          ? io::measure_motion(looked_at, config.odometry)
-                                          : io::MotionQuality{};
     if (!has_poses || refines) {
-        add(chosen.notes,
-            choose_deskew(recording, config.odometry, choice, timed, quality.found.is_distorted()));
+        const bool is_distorted =
+            timed && choice.deskew == "auto" &&
+            io::measure_motion(looked_at, config.odometry).found.is_distorted();
+        add(chosen.notes, choose_deskew(recording, config.odometry, choice, timed, is_distorted));
         if (!choice.online) use_found_poses(recording, config, choice, chosen);
         return chosen;
     }
-    if (choice.deskew == "on" && !timed) {
-        add(chosen.notes, choose_deskew(recording, config.odometry, choice, timed, false));
-        if (recording.info().sweep) recording = io::deskewed(recording);
-    }
-    if (choice.deskew == "auto" && quality.given.is_distorted()) {
-        recording = io::deskewed(recording);
+    if (times.sweep) {
+        recording = io::deskewed(measured, times.sweep);
         chosen.notes.push_back(fmt::format(
-            "scans blur by {} as they are and by {} with the motion during each scan undone, so it "
-            "is undone; --deskew off leaves it",
-            centimetres(quality.given.as_measured), centimetres(quality.given.undone)));
+            "scans blur by {} as they are and by {} with the motion during each scan undone by "
+            "{}{}, so it is undone; --deskew off leaves it",
+            centimetres(times.blur.as_measured), centimetres(times.blur.undone),
+            source_of(*times.sweep, timed), stamp_text(*times.sweep, timed)));
+    } else if (choice.deskew == "on" && !recording.info().deskewed) {
+        add_not_undone(recording);
     }
     return chosen;
 }

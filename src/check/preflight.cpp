@@ -12,6 +12,7 @@
 #include "check/choose_poses.hpp"
 #include "check/overlay.hpp"
 #include "check/samples.hpp"
+#include "check/scan_times.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/poses.hpp"
 
@@ -346,13 +347,21 @@ void judge_motion(Preflight& result, const Recording& given) {
                                    "accurate poses give better results"});
     }
     if (info.deskewed || info.tracked) return;
-    const Blur blur = measure_motion(recording, config).found;
-    if (blur.is_distorted() || (blur.undone == 0.0 && find_sweep(recording, config))) {
-        result.findings.push_back(
-            {"the sensor's motion during each scan is still in the points: scans overlay better "
-             "without it",
-             "--deskew on"});
+    const std::optional<Sweep> sweep = info.has_poses && !info.sparse_poses
+                                           ? choose_times(given, config, false).sweep
+                                           : std::nullopt;
+    const Blur blur = sweep ? Blur{} : measure_motion(recording, config).found;
+    if (!sweep && !blur.is_distorted() && (blur.undone > 0.0 || !find_sweep(recording, config))) {
+        return;
     }
+    const bool is_shifted = sweep && !sweep->in_order && sweep->shift != 0.0;
+    result.notes.push_back(
+        "the sensor's motion during each scan is still in the points: scans overlay better "
+        "without it" +
+        (is_shifted ? fmt::format(", most if the times of points are shifted by {:.0f} ms",
+                                  1e3 * sweep->shift)
+                    : "") +
+        "; `run` undoes it");
 }
 
 /// Faults of all scans that show without reading the points.

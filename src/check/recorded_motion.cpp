@@ -12,6 +12,7 @@
 #include "check/pieces.hpp"
 #include "check/pose_fit.hpp"
 #include "check/pose_mistakes.hpp"
+#include "check/scan_times.hpp"
 #include "dynamic_filter/parallel.hpp"
 #include "tracking/beginning.hpp"
 #include "tracking/overlay_blur.hpp"
@@ -63,28 +64,6 @@ double distortion(const std::vector<Tracked>& tracked, double duration) {
                          (t.velocity.head<3>().norm() + 10.0 * t.velocity.tail<3>().norm()));
     }
     return median(std::move(shifts));
-}
-
-/// True if the scan covers all directions, as that of a rotating sensor does.
-bool turns(const Scan& scan) {
-    constexpr std::size_t kSectors = 16, kMostEmpty = 3;
-    std::array<bool, kSectors> seen{};
-    for (const Point& p : scan.points) {
-        const double turned = std::atan2(p.y(), p.x()) / (2.0 * std::numbers::pi) + 0.5;
-        const auto sector = static_cast<std::size_t>(turned * kSectors);
-        if (is_measured(p)) seen[std::min(sector, kSectors - 1)] = true;
-    }
-    return std::count(seen.begin(), seen.end(), false) <= std::ptrdiff_t{kMostEmpty};
-}
-
-std::vector<Sweep> all_sweeps(double duration) {
-    std::vector<Sweep> sweeps;
-    for (const bool clockwise : {false, true}) {
-        for (int quarter = 0; quarter < 4; ++quarter) {
-            sweeps.push_back({clockwise, quarter * 0.5 * std::numbers::pi, duration});
-        }
-    }
-    return sweeps;
 }
 
 /// Poses of consecutive scans: as given, and as estimated from the scans.
@@ -173,14 +152,6 @@ bool nearly_right(const std::vector<Compared>& pieces) {
     return !errors.empty() && std::all_of(errors.begin(), errors.end(), is_small);
 }
 
-double usual_step(const Recording& recording) {
-    std::vector<double> steps;
-    for (std::size_t i = 1; i < recording.size(); ++i) {
-        steps.push_back(recording.info().stamps[i] - recording.info().stamps[i - 1]);
-    }
-    return median(std::move(steps));
-}
-
 std::vector<Compared> compare_places(const Recording& recording, std::size_t places,
                                      std::size_t in_a_row, const OdometryConfig& config) {
     std::vector<Piece> pieces = read_pieces(recording, places, in_a_row);
@@ -243,8 +214,7 @@ bool would_be_replaced(const Recording& recording, const OdometryConfig& config)
 std::optional<Sweep> find_sweep(const Recording& recording, const OdometryConfig& given) {
     OdometryConfig config = given;
     config.points = std::min(config.points, 1500);  // fewer points, because this takes long
-    // [s] of one rotation; a longer time means that scans were left out.
-    constexpr double kLongest = 0.25;
+    constexpr double kLongest = 0.25;   // [s] a longer step means that scans were left out
     constexpr double kLeast = 0.3;      // [m] of distortion; less does not matter
     constexpr double kClearly = 0.988;  // factor of the blur that counts as clearly better
     const double duration = usual_step(recording);
@@ -254,7 +224,7 @@ std::optional<Sweep> find_sweep(const Recording& recording, const OdometryConfig
     double most_distorted = kLeast, as_it_is = 0.0;
     std::vector<Piece> pieces = read_pieces(recording, 3, kInARow);
     for (Piece& piece : pieces) {
-        if (piece.size() < 2 || !turns(piece.front())) continue;
+        if (piece.size() < 2 || possible_sweeps(piece.front().points, duration).empty()) continue;
         for (Scan& scan : piece) scan.times.clear();
         std::vector<Tracked> tracked = track(piece, config, velocity_at_first(piece, config));
         const double distorted = distortion(tracked, duration);
@@ -266,20 +236,26 @@ std::optional<Sweep> find_sweep(const Recording& recording, const OdometryConfig
     }
     if (fastest == nullptr) return std::nullopt;
     const Twist velocity = track_of_fastest[1].velocity;  // of the first scan, nearly
-    const std::vector<Sweep> sweeps = all_sweeps(duration);
+    const std::vector<Sweep> sweeps = possible_sweeps(fastest->front().points, duration);
+    const auto blur_with = [&](const Sweep& sweep) {
+        Piece piece = *fastest;
+        for (Scan& scan : piece) scan.times = sweep_times(scan.points, sweep);
+        return blur(piece, track(piece, config, velocity), config);
+    };
+    const auto is_real = [&](const Sweep& sweep) {
+        return sharpens_both_halves(*fastest, track_of_fastest, sweep, config);
+    };
+    // The order of points tells times more surely than their azimuths do.
+    const Sweep& first = sweeps.front();
+    if (first.in_order && blur_with(first) <= kClearly * as_it_is && is_real(first)) return first;
     std::vector<double> blurs(sweeps.size());
     parallel_for(sweeps.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k < end; ++k) {
-            Piece piece = *fastest;
-            for (Scan& scan : piece) scan.times = sweep_times(scan.points, sweeps[k]);
-            blurs[k] = blur(piece, track(piece, config, velocity), config);
-        }
+        for (std::size_t k = begin; k < end; ++k) blurs[k] = blur_with(sweeps[k]);
     });
     const auto best = std::min_element(blurs.begin(), blurs.end());
     if (*best > as_it_is * kClearly) return std::nullopt;
-    const Sweep sweep = sweeps[static_cast<std::size_t>(best - blurs.begin())];
-    return sharpens_both_halves(*fastest, track_of_fastest, sweep, config) ? std::optional(sweep)
-                                                                           : std::nullopt;
+    const Sweep& sweep = sweeps[static_cast<std::size_t>(best - blurs.begin())];
+    return is_real(sweep) ? std::optional(sweep) : std::nullopt;
 }
 
 double Blur::least() const {

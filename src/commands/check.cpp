@@ -46,6 +46,7 @@ bool check_one(io::Recording recording, const DataOptions& options) {
     const io::Preflight preflight = io::check_recording(recording, io::Depth::thorough);
     fmt::print("scans     {}, of which {} were read\n", recording.size(), preflight.scans);
     print_overlays(preflight);
+    for (const std::string& note : preflight.notes) fmt::print("note      {}\n", note);
     for (const std::string& line : recording.info().losses) fmt::print("LOST      {}\n", line);
     for (const std::string& line : preflight.unusable) fmt::print("UNUSABLE  {}\n", line);
     for (const io::Finding& finding : preflight.findings) {

@@ -62,7 +62,9 @@ void add_truth(FullScan& scan, const Info& info, std::size_t i) {
 /// Times of the points: from the scan if it has them, otherwise computed from the azimuths.
 std::vector<float> times_of(const Info& info, const FullScan& scan) {
     std::vector<float> times = point_times(scan.cloud, scan.stamp);
-    if (times.empty() && info.sweep) times = sweep_times(scan.points, *info.sweep);
+    if (!info.sweep) return times;
+    if (times.empty()) return sweep_times(scan.points, *info.sweep);
+    for (float& time : times) time += static_cast<float>(info.sweep->shift);
     return times;
 }
 

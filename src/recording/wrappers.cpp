@@ -55,7 +55,7 @@ std::string obstacle_to_deskew(const RecordingParts& parts) {
     }
     if (info.sweep || !point_times(parts.read_cloud(0), info.stamps.front()).empty()) return "";
     return "the points have no times of their own (no field t, time, timestamp or offset_time "
-           "that varies): the sensor's motion during each scan is not undone";
+           "that varies), which would tell how the sensor moved during each scan";
 }
 
 }  // namespace
@@ -104,7 +104,9 @@ Recording deskewed(const Recording& recording, std::optional<Sweep> sweep) {
     RecordingParts parts = recording.parts();
     Info& info = parts.info;
     if (sweep) info.sweep = sweep;
-    if (info.trajectory.stamps.empty() && info.measured_stamps) {
+    // Of times that are shares of the step between stamps, the clock does not matter.
+    const bool has_clock = info.measured_stamps || info.sweep;
+    if (info.trajectory.stamps.empty() && info.has_poses && has_clock) {
         info.trajectory = {info.stamps, info.T_world_sensor};
         put_in_order(info.trajectory);
     }

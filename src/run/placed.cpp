@@ -54,13 +54,19 @@ std::optional<Tracked> tracked_of(const Json& json) {
 }
 
 Json json_of(const Sweep& sweep) {
-    return {{"clockwise", sweep.clockwise}, {"seam", sweep.seam}, {"duration", sweep.duration}};
+    return {{"clockwise", sweep.clockwise},
+            {"seam", sweep.seam},
+            {"duration", sweep.duration},
+            {"in_order", sweep.in_order},
+            {"shift", sweep.shift}};
 }
 
 Sweep sweep_of(const Json& json) {
     return {.clockwise = json.at("clockwise"),
             .seam = json.at("seam"),
-            .duration = json.at("duration")};
+            .duration = json.at("duration"),
+            .in_order = json.value("in_order", false),
+            .shift = json.value("shift", 0.0)};
 }
 
 /// A line for each scan, because a line of a megabyte is no pleasure in an editor.

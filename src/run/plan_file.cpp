@@ -51,7 +51,8 @@ PlanJson json_of(const PlannedDrive& drive) {
     const auto& at = drive.sensor_at;
     json["sensor_at"] = {at.x(), at.y(), at.z()};
     if (drive.sweep) {
-        json["sweep"] = {drive.sweep->clockwise, drive.sweep->seam, drive.sweep->duration};
+        json["sweep"] = {drive.sweep->clockwise, drive.sweep->seam, drive.sweep->duration,
+                         drive.sweep->in_order, drive.sweep->shift};
     }
     return json;
 }
@@ -69,7 +70,11 @@ PlannedDrive drive_of(const PlanJson& json) {
         Eigen::Vector3d(at.at(0).get<double>(), at.at(1).get<double>(), at.at(2).get<double>());
     if (json.contains("sweep")) {
         const PlanJson& sweep = json["sweep"];
-        drive.sweep = Sweep{.clockwise = sweep[0], .seam = sweep[1], .duration = sweep[2]};
+        drive.sweep = Sweep{.clockwise = sweep[0],
+                            .seam = sweep[1],
+                            .duration = sweep[2],
+                            .in_order = sweep.at(3),
+                            .shift = sweep.at(4)};
     }
     const auto used = from_blob<std::uint8_t>(json.at("used"));
     const auto stretches = from_blob<std::uint32_t>(json.at("parts"));

@@ -31,6 +31,15 @@ TEST(SweepTimes, FollowTheSensorAsItTurns) {
     }
 }
 
+TEST(SweepTimes, AreShiftedTogether) {
+    const Points points = {{1, 1, 0}, {-1, 1, 0}};
+    const auto middle = sweep_times(points, {.duration = 0.1});
+    const auto begin = sweep_times(points, {.duration = 0.1, .shift = 0.05});
+    for (std::size_t i = 0; i < points.size(); ++i) EXPECT_NEAR(begin[i] - middle[i], 0.05, 1e-6);
+    // Few points show no order.
+    EXPECT_EQ(sweep_times(points, {.in_order = true}), std::vector<float>(2, 0.0F));
+}
+
 TEST(SweepTimes, WhatIsNotMeasuredHasTimeZero) {
     constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
     const auto times = sweep_times({{kNan, 1, 1}, Point::Zero(), {-1, 0.1F, 0}}, {});

@@ -98,12 +98,14 @@ std::vector<float> point_times(const Cloud& cloud, double stamp) {
     if (!(span.most > span.least)) return {};
     const auto unit = unit_of(span.most - span.least);
     if (!unit) return {};
-    // Offsets are small; large values are absolute times, if they fit the stamp of the scan.
+    // Offsets are small; large values are absolute times. If they do not fit the stamp of the scan,
+    // they are of another clock, such as the sensor's own, and count from the first.
     const bool absolute = std::abs(span.least * *unit) > 10.0;
-    if (absolute && std::abs(span.least * *unit - stamp) > 10.0) return {};
+    const bool is_of_other_clock = absolute && std::abs(span.least * *unit - stamp) > 10.0;
+    const double zero = is_of_other_clock ? span.least * *unit : absolute ? stamp : 0.0;
     std::vector<float> times(raw.size());
     for (std::size_t i = 0; i < raw.size(); ++i) {
-        times[i] = static_cast<float>(raw[i] * *unit - (absolute ? stamp : 0.0));
+        times[i] = static_cast<float>(raw[i] * *unit - zero);
     }
     return times;
 }

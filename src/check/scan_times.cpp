@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+#include "check/scan_times.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "base/numbers.hpp"
+#include "check/pieces.hpp"
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/parallel.hpp"
+#include "geometry/scan_order.hpp"
+#include "tracking/overlay_blur.hpp"
+
+namespace dynamic_filter::io {
+namespace {
+
+constexpr double kLongestSweep = 0.25;  // [s] a longer step means that scans were left out
+
+/// True if the points cover all directions, as those of a rotating sensor do.
+bool turns(const Points& points) {
+    constexpr std::size_t kSectors = 16, kMostEmpty = 3;
+    std::array<bool, kSectors> seen{};
+    for (const Point& p : points) {
+        const double turned = std::atan2(p.y(), p.x()) / (2.0 * std::numbers::pi) + 0.5;
+        const auto sector = static_cast<std::size_t>(turned * kSectors);
+        if (is_measured(p)) seen[std::min(sector, kSectors - 1)] = true;
+    }
+    return std::count(seen.begin(), seen.end(), false) <= std::ptrdiff_t{kMostEmpty};
+}
+
+/// Blur [m] of the recording's scans at its poses, by place.
+using Blurs = std::vector<double>;
+
+Blurs blurs_of(const Recording& recording, const OdometryConfig& config) {
+    constexpr std::size_t kManyPlaces = 5, kFewInARow = 9;
+    const std::vector<Piece> pieces = read_pieces(recording, kManyPlaces, kFewInARow);
+    Blurs blurs(pieces.size());
+    parallel_for(pieces.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+            std::vector<Pose> poses;
+            for (const Scan& scan : pieces[k]) poses.push_back(scan.T_world_sensor);
+            blurs[k] = overlay_blur(pieces[k], poses, config);
+        }
+    });
+    return blurs;
+}
+
+/// Geometric mean; 0 if nothing could be compared.
+double mean_of(const Blurs& blurs) {
+    double sum = 0.0;
+    for (const double blur : blurs) {
+        if (!(blur > 0.0)) return 0.0;
+        sum += std::log(blur);
+    }
+    return blurs.empty() ? 0.0 : std::exp(sum / static_cast<double>(blurs.size()));
+}
+
+/// True if scans are sharper as a whole, and nowhere clearly less sharp, so that it is no chance.
+bool is_clearly_sharper(const Blurs& blurs, const Blurs& than) {
+    constexpr double kClearly = 0.99, kLessSharp = 1.01;
+    if (blurs.size() != than.size() || !(mean_of(blurs) < kClearly * mean_of(than))) return false;
+    for (std::size_t k = 0; k < blurs.size(); ++k) {
+        if (blurs[k] > kLessSharp * than[k]) return false;
+    }
+    return true;
+}
+
+/// A way to tell times, and how the scans look with the motion undone by it.
+struct Tried {
+    Sweep sweep;
+    Blurs blurs;
+};
+
+Tried tried(const Recording& recording, const OdometryConfig& config, const Sweep& sweep) {
+    return {sweep, blurs_of(deskewed(recording, sweep), config)};
+}
+
+/// The first one, unless another one is clearly sharper.
+const Tried& best_of(const std::vector<Tried>& all) {
+    constexpr double kSharperThanFirst = 0.995;
+    const Tried& best = *std::min_element(
+        all.begin(), all.end(),
+        [](const Tried& a, const Tried& b) { return mean_of(a.blurs) < mean_of(b.blurs); });
+    const Tried& first = all.front();
+    return mean_of(best.blurs) < kSharperThanFirst * mean_of(first.blurs) ? best : first;
+}
+
+/// Times of the fields of the first scan [s], or none.
+std::vector<float> times_in_fields(const Recording& recording) {
+    try {
+        return with_times(recording).read(0).times;
+    } catch (const InputError&) {
+        return {};
+    }
+}
+
+/// Shifts [s] of times of fields: none, and those that put the stamp at their begin, middle, end.
+std::vector<double> shifts_of(const std::vector<float>& times) {
+    constexpr double kAlike = 0.1;  // share of the duration
+    double least = std::numeric_limits<double>::infinity(), most = -least;
+    for (const float time : times) {
+        if (!std::isfinite(time)) continue;
+        least = std::min<double>(least, time);
+        most = std::max<double>(most, time);
+    }
+    std::vector<double> shifts = {0.0};
+    for (const double zero : {least, 0.5 * (least + most), most}) {
+        if (std::abs(zero) > kAlike * (most - least)) shifts.push_back(-zero);
+    }
+    return shifts;
+}
+
+/// Distance [m] by which the given motion displaces points at a range of 10 m during a scan.
+double given_distortion(const Recording& recording) {
+    const std::vector<Pose>& poses = recording.info().T_world_sensor;
+    std::vector<double> shifts;
+    for (std::size_t i = 1; i < poses.size(); ++i) {
+        if (!poses[i].matrix().allFinite() || !poses[i - 1].matrix().allFinite()) continue;
+        const Twist moved = log(poses[i - 1].inverse() * poses[i]);
+        shifts.push_back(moved.head<3>().norm() + 10.0 * moved.tail<3>().norm());
+    }
+    if (shifts.empty()) return 0.0;
+    // Not the median, because a vehicle may rest for half of the time.
+    const auto at = shifts.begin() + static_cast<std::ptrdiff_t>(shifts.size() * 3 / 4);
+    std::nth_element(shifts.begin(), at, shifts.end());
+    return *at;
+}
+
+std::vector<Tried> try_fields(const Recording& recording, const OdometryConfig& config,
+                              const std::vector<float>& times) {
+    std::vector<Tried> all;
+    for (const double shift : shifts_of(times)) {
+        all.push_back(tried(recording, config, {.shift = shift}));
+    }
+    return all;
+}
+
+/// The stamp is in the middle, at the begin, or at the end. The latter two are tried only if the
+/// first one helps.
+std::vector<Tried> try_sweeps(const Recording& recording, const OdometryConfig& config,
+                              std::vector<Sweep> sweeps, const Blurs& as_measured) {
+    std::vector<Tried> middles;
+    for (const Sweep& sweep : sweeps) middles.push_back(tried(recording, config, sweep));
+    const Tried& middle = best_of(middles);
+    if (!(mean_of(middle.blurs) < mean_of(as_measured))) return {middle};
+    std::vector<Tried> all;
+    for (const double share : {0.5, 0.0, -0.5}) {
+        Sweep sweep = middle.sweep;
+        sweep.shift = share * sweep.duration;
+        all.push_back(share == 0.0 ? middle : tried(recording, config, sweep));
+    }
+    return all;
+}
+
+std::vector<Sweep> sweeps_to_try(const Recording& recording, bool asks_more) {
+    constexpr double kLittle = 0.3;  // [m] of distortion; less does not matter
+    const double duration = usual_step(recording);
+    if (!(duration > 0.0) || duration > kLongestSweep) return {};
+    if (!asks_more && given_distortion(recording) < kLittle) return {};
+    try {
+        std::vector<Sweep> sweeps = possible_sweeps(recording.read(0).points, duration);
+        if (!sweeps.empty() && sweeps.front().in_order && !asks_more) sweeps.resize(1);
+        return sweeps;
+    } catch (const InputError&) {
+        return {};
+    }
+}
+
+}  // namespace
+
+double usual_step(const Recording& recording) {
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < recording.size(); ++i) {
+        steps.push_back(recording.info().stamps[i] - recording.info().stamps[i - 1]);
+    }
+    return median(std::move(steps));
+}
+
+std::vector<Sweep> possible_sweeps(const Points& points, double duration) {
+    if (!turns(points)) return {};
+    std::vector<Sweep> sweeps;
+    if (!order_shares(points).empty()) sweeps.push_back({.duration = duration, .in_order = true});
+    for (const bool clockwise : {false, true}) {
+        for (int quarter = 0; quarter < 4; ++quarter) {
+            sweeps.push_back({clockwise, quarter * 0.5 * std::numbers::pi, duration});
+        }
+    }
+    return sweeps;
+}
+
+TimesChoice choose_times(const Recording& recording, const OdometryConfig& config, bool asks_more) {
+    TimesChoice choice;
+    const std::vector<float> times = times_in_fields(recording);
+    const std::vector<Sweep> sweeps =
+        times.empty() ? sweeps_to_try(recording, asks_more) : std::vector<Sweep>{};
+    if (times.empty() && sweeps.empty()) return choice;
+    const Blurs as_measured = blurs_of(recording, config);
+    const std::vector<Tried> all = times.empty()
+                                       ? try_sweeps(recording, config, sweeps, as_measured)
+                                       : try_fields(recording, config, times);
+    const Tried& best = best_of(all);
+    choice.blur = {mean_of(as_measured), mean_of(best.blurs)};
+    const bool is_sharper =
+        times.empty() ? is_clearly_sharper(best.blurs, as_measured) : choice.blur.is_distorted();
+    if (is_sharper || (asks_more && choice.blur.is_distorted())) {
+        choice.sweep = best.sweep;
+    }
+    return choice;
+}
+
+}  // namespace dynamic_filter::io
