@@ -115,7 +115,7 @@ def check(data, **options):
 
     DynamicFilter does not detect inverse poses or wrong units, so use this check first.
     data: bag or folder. Options: as in open_recording(); with poses="none" only the scans are checked.
-    Returns {"findings": [{"what", "advice"}], "overlays": {reading: share 0..1}, "unusable", "lost"}.
+    Returns {"findings": [{"what", "advice"}], "notes", "overlays": {reading: share 0..1}, "unusable", "lost"}.
     The findings and the sentences of the last two are empty if there is no fault. The advice names
     options of the command: --pose-fix inverse is pose_fix="inverse" here.
     Raises TypeError, ConfigError and InputError.

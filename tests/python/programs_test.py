@@ -97,7 +97,7 @@ class Programs(unittest.TestCase):
         self.assertEqual(df.check(recording())["findings"], [])
         found = df.check(recording(), pose_fix="inverse")
         self.assertRegex(found["findings"][0]["what"], "inverse")
-        self.assertEqual(set(found), {"findings", "overlays", "unusable", "lost"})
+        self.assertEqual(set(found), {"findings", "notes", "overlays", "unusable", "lost"})
         self.assertRaises(TypeError, df.check, recording(), depth=1)
 
     def test_an_interrupt_or_two_of_a_run_are_one_exception(self):
