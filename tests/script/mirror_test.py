@@ -7,7 +7,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 COVERED = {  # test -> the units that it covers
-    "commands/command_test.cpp": "check/motion commands/check commands/cleaning commands/compare commands/config commands/convert "
+    "commands/command_test.cpp": "commands/check commands/cleaning commands/compare commands/config commands/convert "
         "commands/demo commands/evaluate commands/info commands/main commands/odometry commands/options commands/picture commands/render commands/run "
         "commands/serve commands/shared_options commands/simulate draw/animation draw/canvas export/bag export/benchmark "
         "export/convert_map export/kitti export/one_cloud export/outputs export/sink recording/scans "
