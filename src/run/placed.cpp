@@ -159,7 +159,8 @@ std::optional<Placed> read_placed(const fs::path& folder) {
 
 io::Recording placed_again(io::Recording recording, const Placed& placed) {
     if (placed.sensor_at) recording = io::with_sensor_at(recording, *placed.sensor_at);
-    if (placed.deskewed && !recording.info().deskewed) {
+    // A recording that was opened with --deskew on is deskewed, but without the shift of the run.
+    if (placed.deskewed && (!recording.info().deskewed || placed.sweep)) {
         recording = io::deskewed(recording, placed.sweep);
     }
     if (placed.has_times) recording = io::with_times(recording, placed.sweep);
