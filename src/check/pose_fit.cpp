@@ -32,29 +32,6 @@ PoseFit mean_of(const std::vector<PoseFit>& fits) {
     return mean;
 }
 
-std::vector<Points> upright_of(std::span<const Scan> scans) {
-    std::vector<Points> upright;
-    for (const Scan& scan : scans) upright.push_back(upright_points(scan.points));
-    return upright;
-}
-
-PoseFit fit_at(std::span<const Scan> scans, std::span<const Points> upright,
-               std::span<const Pose> T_world_sensor, const OdometryConfig& config) {
-    PoseFit fit;
-    for (std::size_t k = 0; k < fit.overlay.size(); ++k) {
-        const std::size_t apart = PoseFit::kApart[k];
-        double sum = 0.0, count = 0.0;
-        for (std::size_t i = apart; i < scans.size(); ++i) {
-            sum += upright_overlay(upright[i - apart], upright[i],
-                                   T_world_sensor[i - apart].inverse() * T_world_sensor[i]);
-            count += 1.0;
-        }
-        if (count > 0.0) fit.overlay[k] = sum / count;
-    }
-    fit.blur = overlay_blur(scans, T_world_sensor, config);
-    return fit;
-}
-
 template <class PoseAt>
 PoseFit mean_fit(const FitScans& scans, const OdometryConfig& config, const PoseAt& pose_at) {
     std::vector<PoseFit> fits(scans.places.size());
@@ -63,7 +40,7 @@ PoseFit mean_fit(const FitScans& scans, const OdometryConfig& config, const Pose
             const FitScans::Place& place = scans.places[k];
             std::vector<Pose> poses;
             for (const Scan& scan : place.scans) poses.push_back(pose_at(scan));
-            fits[k] = fit_at(place.scans, place.upright, poses, config);
+            fits[k] = fit_of(place.scans, place.upright, poses, config);
         }
     });
     return fits.empty() ? PoseFit{} : mean_of(fits);
@@ -80,9 +57,27 @@ double PoseFit::mean_overlay() const {
     return count > 0.0 ? sum / count : 0.0;
 }
 
-PoseFit fit_of(std::span<const Scan> scans, std::span<const Pose> T_world_sensor,
-               const OdometryConfig& config) {
-    return fit_at(scans, upright_of(scans), T_world_sensor, config);
+std::vector<Points> upright_of(std::span<const Scan> scans) {
+    std::vector<Points> upright;
+    for (const Scan& scan : scans) upright.push_back(upright_points(scan.points));
+    return upright;
+}
+
+PoseFit fit_of(std::span<const Scan> scans, std::span<const Points> upright,
+               std::span<const Pose> T_world_sensor, const OdometryConfig& config) {
+    PoseFit fit;
+    for (std::size_t k = 0; k < fit.overlay.size(); ++k) {
+        const std::size_t apart = PoseFit::kApart[k];
+        double sum = 0.0, count = 0.0;
+        for (std::size_t i = apart; i < scans.size(); ++i) {
+            sum += upright_overlay(upright[i - apart], upright[i],
+                                   T_world_sensor[i - apart].inverse() * T_world_sensor[i]);
+            count += 1.0;
+        }
+        if (count > 0.0) fit.overlay[k] = sum / count;
+    }
+    fit.blur = overlay_blur(scans, T_world_sensor, config);
+    return fit;
 }
 
 FitScans read_fit_scans(const Recording& recording) {

@@ -23,9 +23,12 @@ struct PoseFit {
     [[nodiscard]] double mean_overlay() const;
 };
 
-/// Of consecutive scans at these poses; parallel.
-PoseFit fit_of(std::span<const Scan> scans, std::span<const Pose> T_world_sensor,
-               const OdometryConfig& config);
+/// The upright structures of each scan, for fit_of().
+std::vector<Points> upright_of(std::span<const Scan> scans);
+
+/// Of consecutive scans, with their upright structures, at these poses; all parallel.
+PoseFit fit_of(std::span<const Scan> scans, std::span<const Points> upright,
+               std::span<const Pose> T_world_sensor, const OdometryConfig& config);
 
 /// Scans by which the poses of a recording are judged, with their upright structures.
 struct FitScans {

@@ -92,10 +92,11 @@ Compared compare(Piece piece, const OdometryConfig& config) {
         compared.given.push_back(scan.T_world_sensor);
     }
     const std::optional<Twist> velocity = velocity_at_first(piece, config);
+    const std::vector<Points> upright = upright_of(piece);
     const auto look = [&](double Blur::*which) {
         const std::vector<Tracked> tracked = track(piece, config, velocity);
         const std::vector<Pose> shown = poses_of(tracked);
-        const PoseFit at_shown = fit_of(piece, shown, config);
+        const PoseFit at_shown = fit_of(piece, upright, shown, config);
         compared.at_shown.*which = at_shown.blur;
         const bool best = at_shown.blur == compared.at_shown.least();
         if (best) {
@@ -104,7 +105,7 @@ Compared compare(Piece piece, const OdometryConfig& config) {
             compared.weak = share_of_weak(tracked);
         }
         if (!has_poses) return;
-        const PoseFit at_given = fit_of(piece, compared.given, config);
+        const PoseFit at_given = fit_of(piece, upright, compared.given, config);
         compared.at_given.*which = at_given.blur;
         if (best) compared.given_overlay = at_given.mean_overlay();
     };
@@ -214,14 +215,12 @@ bool would_be_replaced(const Recording& recording, const OdometryConfig& config)
 std::optional<Sweep> find_sweep(const Recording& recording, const OdometryConfig& given) {
     OdometryConfig config = given;
     config.points = std::min(config.points, 1500);  // fewer points, because this takes long
-    constexpr double kLongest = 0.25;   // [s] a longer step means that scans were left out
-    constexpr double kLeast = 0.3;      // [m] of distortion; less does not matter
     constexpr double kClearly = 0.988;  // factor of the blur that counts as clearly better
     const double duration = usual_step(recording);
-    if (!(duration > 0.0) || duration > kLongest) return std::nullopt;
+    if (!(duration > 0.0) || duration > kLongestSweep) return std::nullopt;
     const Piece* fastest = nullptr;
     std::vector<Tracked> track_of_fastest;
-    double most_distorted = kLeast, as_it_is = 0.0;
+    double most_distorted = kLeastDistortion, as_it_is = 0.0;
     std::vector<Piece> pieces = read_pieces(recording, 3, kInARow);
     for (Piece& piece : pieces) {
         if (piece.size() < 2 || possible_sweeps(piece.front().points, duration).empty()) continue;

@@ -16,8 +16,6 @@
 namespace dynamic_filter::io {
 namespace {
 
-constexpr double kLongestSweep = 0.25;  // [s] a longer step means that scans were left out
-
 /// True if the points cover all directions, as those of a rotating sensor do.
 bool turns(const Points& points) {
     constexpr std::size_t kSectors = 16, kMostEmpty = 3;
@@ -155,10 +153,9 @@ std::vector<Tried> try_sweeps(const Recording& recording, const OdometryConfig& 
 }
 
 std::vector<Sweep> sweeps_to_try(const Recording& recording, bool asks_more) {
-    constexpr double kLittle = 0.3;  // [m] of distortion; less does not matter
     const double duration = usual_step(recording);
     if (!(duration > 0.0) || duration > kLongestSweep) return {};
-    if (!asks_more && given_distortion(recording) < kLittle) return {};
+    if (!asks_more && given_distortion(recording) < kLeastDistortion) return {};
     try {
         std::vector<Sweep> sweeps = possible_sweeps(recording.read(0).points, duration);
         if (!sweeps.empty() && sweeps.front().in_order && !asks_more) sweeps.resize(1);

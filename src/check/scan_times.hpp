@@ -12,6 +12,11 @@
 
 namespace dynamic_filter::io {
 
+/// [s] A longer step between scans means that scans were left out.
+constexpr double kLongestSweep = 0.25;
+/// [m] at a range of 10 m, by the motion during a scan; less does not matter.
+constexpr double kLeastDistortion = 0.3;
+
 /// Usual time [s] between scans.
 double usual_step(const Recording& recording);
 

@@ -36,8 +36,9 @@ TEST(PoseFit, OfTwoNeitherOrOneIsBetter) {
 TEST(PoseFit, IsBestAtTheTruePoses) {
     const auto& drive = street(false);
     const std::vector<Pose> still(drive.truth.size(), Pose::Identity());
-    const PoseFit at_truth = fit_of(drive.scans, drive.truth, {});
-    const PoseFit at_rest = fit_of(drive.scans, still, {});
+    const std::vector<Points> upright = upright_of(drive.scans);
+    const PoseFit at_truth = fit_of(drive.scans, upright, drive.truth, {});
+    const PoseFit at_rest = fit_of(drive.scans, upright, still, {});
     EXPECT_TRUE(is_better(at_truth, at_rest));
     EXPECT_FALSE(is_better(at_rest, at_truth));
     for (const double share : at_truth.overlay) EXPECT_GT(share, 0.2);
@@ -46,8 +47,8 @@ TEST(PoseFit, IsBestAtTheTruePoses) {
 
 TEST(PoseFit, OfFewScansHasOnlyTheSeparationsThatAreThere) {
     const auto& drive = street(false);
-    const PoseFit few =
-        fit_of(std::span(drive.scans).first(6), std::span(drive.truth).first(6), {});
+    const std::span<const Scan> scans = std::span(drive.scans).first(6);
+    const PoseFit few = fit_of(scans, upright_of(scans), std::span(drive.truth).first(6), {});
     EXPECT_GT(few.overlay[1], 0.0);
     EXPECT_EQ(few.overlay[2], 0.0);
 }
