@@ -115,7 +115,7 @@ PosesChoice choose_poses(const Recording& recording, const OdometryConfig& confi
     }
     std::vector<Candidate> candidates;
     // The motion during scans is undone by all candidates alike.
-    const FitScans scans = read_fit_scans(with_poses(recording, followed));
+    const FitScans scans = read_fit_scans(with_poses(recording, followed), config);
     const auto add = [&](const char* name, TrackedScans tracked) {
         const PoseFit fit = fit_of(scans, poses_of_scans(tracked), config);
         candidates.push_back({name, fit, std::move(tracked)});
@@ -123,7 +123,7 @@ PosesChoice choose_poses(const Recording& recording, const OdometryConfig& confi
     const bool is_complete = count_missing(recording) == 0;
     const auto outliers = outliers_of(recording.info().T_world_sensor, recording.info().stamps);
     if (is_complete && outliers.empty()) {
-        candidates.push_back({"given", fit_of(read_fit_scans(recording), config), {}});
+        candidates.push_back({"given", fit_of(read_fit_scans(recording, config), config), {}});
     } else if (is_complete) {
         add("mended", mended(recording, followed, outliers));
     }

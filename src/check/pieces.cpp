@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "check/scan_input.hpp"
+#include "tracking/scan_sample.hpp"
 
 namespace dynamic_filter::io {
 
@@ -25,6 +26,12 @@ std::vector<Piece> read_pieces(const Recording& recording, std::size_t most, std
         if (piece.size() > 1) pieces.push_back(std::move(piece));
     }
     return pieces;
+}
+
+Piece thinned_piece(const Piece& piece, const OdometryConfig& config) {
+    Piece thin;
+    for (const Scan& scan : piece) thin.push_back(thinned_scan(scan, config));
+    return thin;
 }
 
 }  // namespace dynamic_filter::io

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dynamic_filter/recording.hpp"
+#include "dynamic_filter/settings.hpp"
 
 namespace dynamic_filter::io {
 
@@ -16,5 +17,8 @@ using Piece = std::vector<Scan>;
 /// are spread irregularly, so that errors with a period do not hide between them. Scans that cannot
 /// be read are left out, and pieces of fewer than two scans.
 std::vector<Piece> read_pieces(const Recording& recording, std::size_t most, std::size_t in_a_row);
+
+/// See thinned_scan().
+Piece thinned_piece(const Piece& piece, const OdometryConfig& config);
 
 }  // namespace dynamic_filter::io

@@ -80,14 +80,16 @@ PoseFit fit_of(std::span<const Scan> scans, std::span<const Points> upright,
     return fit;
 }
 
-FitScans read_fit_scans(const Recording& recording) {
+FitScans read_fit_scans(const Recording& recording, const OdometryConfig& config) {
     FitScans result;
     for (Piece& piece : read_pieces(recording, kFitPlaces, kFitInARow)) {
         result.places.push_back({std::move(piece), {}});
     }
     parallel_for(result.places.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
-            result.places[k].upright = upright_of(result.places[k].scans);
+            FitScans::Place& place = result.places[k];
+            place.upright = upright_of(place.scans);
+            place.scans = thinned_piece(place.scans, config);
         }
     });
     return result;

@@ -39,7 +39,7 @@ struct FitScans {
     std::vector<Place> places;
 };
 /// Reads 21 consecutive scans at up to five places.
-FitScans read_fit_scans(const Recording& recording);
+FitScans read_fit_scans(const Recording& recording, const OdometryConfig& config);
 /// At the poses of the recording that was read, or at others, by index of the scan.
 PoseFit fit_of(const FitScans& scans, const OdometryConfig& config);
 PoseFit fit_of(const FitScans& scans, std::span<const Pose> T_world_sensor,

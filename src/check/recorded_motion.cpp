@@ -57,12 +57,13 @@ double blur(const Piece& piece, const std::vector<Tracked>& tracked, const Odome
 
 /// Distance [m] by which the motion of the sensor during a scan displaces points at a range of 10
 /// m.
-double distortion(const std::vector<Tracked>& tracked, double duration) {
+double distortion(const Twist& velocity, double duration) {
+    return duration * (velocity.head<3>().norm() + 10.0 * velocity.tail<3>().norm());
+}
+
+double median_distortion(const std::vector<Tracked>& tracked, double duration) {
     std::vector<double> shifts;
-    for (const Tracked& t : tracked) {
-        shifts.push_back(duration *
-                         (t.velocity.head<3>().norm() + 10.0 * t.velocity.tail<3>().norm()));
-    }
+    for (const Tracked& t : tracked) shifts.push_back(distortion(t.velocity, duration));
     return median(std::move(shifts));
 }
 
@@ -93,6 +94,7 @@ Compared compare(Piece piece, const OdometryConfig& config) {
     }
     const std::optional<Twist> velocity = velocity_at_first(piece, config);
     const std::vector<Points> upright = upright_of(piece);
+    piece = thinned_piece(piece, config);
     const auto look = [&](double Blur::*which) {
         const std::vector<Tracked> tracked = track(piece, config, velocity);
         const std::vector<Pose> shown = poses_of(tracked);
@@ -185,23 +187,57 @@ MotionQuality quality_of(const std::vector<Compared>& compared, bool has_poses) 
     return quality;
 }
 
+/// Consecutive scans without times, thinned out, and what the odometry makes of them.
+struct Followed {
+    Piece piece;
+    std::vector<Tracked> tracked;
+    double blur = 0.0;  // [m]
+};
+
+Piece part_of(const Piece& piece, std::size_t begin, std::size_t end) {
+    const auto at = [&](std::size_t i) { return piece.begin() + static_cast<std::ptrdiff_t>(i); };
+    return {at(begin), at(end)};
+}
+
 /// In a short recording, a sweep may look better by chance. A real one makes the map of each half
 /// of the scans sharper.
-bool sharpens_both_halves(const Piece& piece, const std::vector<Tracked>& tracked,
-                          const Sweep& sweep, const OdometryConfig& config) {
-    const std::size_t middle = piece.size() / 2;
+bool sharpens_both_halves(const Piece& swept, const Followed& without,
+                          const OdometryConfig& config) {
+    const std::size_t middle = swept.size() / 2;
     for (const std::size_t first : {std::size_t{0}, middle}) {
-        const std::size_t end = first == 0 ? middle : piece.size();
-        const auto at = [&](std::size_t i) {
-            return piece.begin() + static_cast<std::ptrdiff_t>(i);
+        const std::size_t end = first == 0 ? middle : swept.size();
+        const Twist& velocity = without.tracked[std::max<std::size_t>(first, 1)].velocity;
+        const auto blur_of = [&](const Piece& piece) {
+            const Piece half = part_of(piece, first, end);
+            return blur(half, track(half, config, velocity), config);
         };
-        Piece half(at(first), at(end));
-        const Twist& velocity = tracked[std::max<std::size_t>(first, 1)].velocity;
-        const double as_it_is = blur(half, track(half, config, velocity), config);
-        for (Scan& scan : half) scan.times = sweep_times(scan.points, sweep);
-        if (!(blur(half, track(half, config, velocity), config) < as_it_is)) return false;
+        if (!(blur_of(swept) < blur_of(without.piece))) return false;
     }
     return true;
+}
+
+Piece without_times(Piece piece) {
+    for (Scan& scan : piece) scan.times.clear();
+    return piece;
+}
+
+/// The scans with times by the sweep, thinned out.
+Piece swept(Piece piece, const Sweep& sweep, const OdometryConfig& config) {
+    for (Scan& scan : piece) scan.times = sweep_times(scan.points, sweep);
+    return thinned_piece(piece, config);
+}
+
+/// The sweep by which the scans are sharpest at the poses that were found without any.
+Sweep sharpest_of(const std::vector<Sweep>& sweeps, const Piece& piece, const Followed& without,
+                  const OdometryConfig& config) {
+    std::vector<double> blurs(sweeps.size());
+    parallel_for(sweeps.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+            blurs[k] = blur(swept(piece, sweeps[k], config), without.tracked, config);
+        }
+    });
+    return sweeps[static_cast<std::size_t>(std::min_element(blurs.begin(), blurs.end()) -
+                                           blurs.begin())];
 }
 
 /// True if a run would replace the poses, because other ones make the scans overlay better.
@@ -218,43 +254,38 @@ std::optional<Sweep> find_sweep(const Recording& recording, const OdometryConfig
     constexpr double kClearly = 0.988;  // factor of the blur that counts as clearly better
     const double duration = usual_step(recording);
     if (!(duration > 0.0) || duration > kLongestSweep) return std::nullopt;
+    const std::vector<Piece> pieces = read_pieces(recording, 3, kInARow);
     const Piece* fastest = nullptr;
-    std::vector<Tracked> track_of_fastest;
-    double most_distorted = kLeastDistortion, as_it_is = 0.0;
-    std::vector<Piece> pieces = read_pieces(recording, 3, kInARow);
-    for (Piece& piece : pieces) {
-        if (piece.size() < 2 || possible_sweeps(piece.front().points, duration).empty()) continue;
-        for (Scan& scan : piece) scan.times.clear();
-        std::vector<Tracked> tracked = track(piece, config, velocity_at_first(piece, config));
-        const double distorted = distortion(tracked, duration);
-        if (distorted < most_distorted) continue;
+    Twist fastest_velocity;
+    double most_distorted = 0.0;
+    for (const Piece& piece : pieces) {
+        const auto velocity = velocity_at_first(piece, config);
+        if (!velocity || possible_sweeps(piece.front().points, duration).empty()) continue;
+        const double distorted = distortion(*velocity, duration);
+        if (distorted <= most_distorted) continue;
         most_distorted = distorted;
         fastest = &piece;
-        as_it_is = blur(piece, tracked, config);
-        track_of_fastest = std::move(tracked);
+        fastest_velocity = *velocity;
     }
     if (fastest == nullptr) return std::nullopt;
-    const Twist velocity = track_of_fastest[1].velocity;  // of the first scan, nearly
-    const std::vector<Sweep> sweeps = possible_sweeps(fastest->front().points, duration);
-    const auto blur_with = [&](const Sweep& sweep) {
-        Piece piece = *fastest;
-        for (Scan& scan : piece) scan.times = sweep_times(scan.points, sweep);
-        return blur(piece, track(piece, config, velocity), config);
+    Followed without{thinned_piece(without_times(*fastest), config), {}};
+    without.tracked = track(without.piece, config, fastest_velocity);
+    if (median_distortion(without.tracked, duration) < kLeastDistortion) return std::nullopt;
+    without.blur = blur(without.piece, without.tracked, config);
+    const Twist velocity = without.tracked[1].velocity;  // of the first scan, nearly
+    const auto helps = [&](const Sweep& sweep) {
+        const Piece piece = swept(*fastest, sweep, config);
+        return blur(piece, track(piece, config, velocity), config) <= kClearly * without.blur &&
+               sharpens_both_halves(piece, without, config);
     };
-    const auto is_real = [&](const Sweep& sweep) {
-        return sharpens_both_halves(*fastest, track_of_fastest, sweep, config);
-    };
+    std::vector<Sweep> sweeps = possible_sweeps(fastest->front().points, duration);
     // The order of points tells times more surely than their azimuths do.
-    const Sweep& first = sweeps.front();
-    if (first.in_order && blur_with(first) <= kClearly * as_it_is && is_real(first)) return first;
-    std::vector<double> blurs(sweeps.size());
-    parallel_for(sweeps.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k < end; ++k) blurs[k] = blur_with(sweeps[k]);
-    });
-    const auto best = std::min_element(blurs.begin(), blurs.end());
-    if (*best > as_it_is * kClearly) return std::nullopt;
-    const Sweep& sweep = sweeps[static_cast<std::size_t>(best - blurs.begin())];
-    return is_real(sweep) ? std::optional(sweep) : std::nullopt;
+    if (sweeps.front().in_order) {
+        if (helps(sweeps.front())) return sweeps.front();
+        sweeps.erase(sweeps.begin());
+    }
+    const Sweep best = sharpest_of(sweeps, *fastest, without, config);
+    return helps(best) ? std::optional(best) : std::nullopt;
 }
 
 double Blur::least() const {

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
 
 namespace dynamic_filter {
 namespace {
@@ -25,6 +28,33 @@ Eigen::Matrix3d left_jacobian(const Eigen::Vector3d& rotation) {
     return Eigen::Matrix3d::Identity() + (1.0 - std::cos(angle)) / a2 * w +
            (angle - std::sin(angle)) / (a2 * angle) * w * w;
 }
+
+/// Poses of the sensor at moments of a scan, relative to that at its stamp. Each one is computed
+/// once.
+class PosesInScan {
+public:
+    explicit PosesInScan(const Twist& velocity) : velocity_(velocity) {}
+    const Eigen::Isometry3f& at(float time) {
+        constexpr float kStep = 1e-4F;  // [s] points within this time share a pose
+        const float step = std::isfinite(time) ? std::round(time / kStep) : 0.0F;
+        // Steps that are far apart may share a place, and are then computed again.
+        Entry& entry = entries_[static_cast<std::uint32_t>(static_cast<std::int64_t>(step)) %
+                                entries_.size()];
+        if (entry.step != step) {
+            const auto seconds = static_cast<double>(step * kStep);
+            entry = {step, exp(seconds * velocity_).cast<float>()};
+        }
+        return entry.T_stamp_then;
+    }
+
+private:
+    struct Entry {
+        float step = std::numeric_limits<float>::quiet_NaN();
+        Eigen::Isometry3f T_stamp_then = Eigen::Isometry3f::Identity();
+    };
+    Twist velocity_;
+    std::vector<Entry> entries_ = std::vector<Entry>(2048);
+};
 
 }  // namespace
 
@@ -55,17 +85,10 @@ Points moved(const Points& points, const Pose& T_to_from) {
 }
 
 Points undo_motion(const Points& points, std::span<const float> times, const Twist& velocity) {
-    constexpr float kStep = 1e-4F;  // [s] points within this time share a pose
     Points undone(points.size());
-    float of = 0.0F;
-    Eigen::Isometry3f T_stamp_then = Eigen::Isometry3f::Identity();
+    PosesInScan poses(velocity);
     for (std::size_t i = 0; i < points.size(); ++i) {
-        const float time = std::isfinite(times[i]) ? std::round(times[i] / kStep) * kStep : 0.0F;
-        if (time != of) {
-            of = time;
-            T_stamp_then = exp(static_cast<double>(time) * velocity).cast<float>();
-        }
-        undone[i] = is_measured(points[i]) ? T_stamp_then * points[i] : points[i];
+        undone[i] = is_measured(points[i]) ? poses.at(times[i]) * points[i] : points[i];
     }
     return undone;
 }

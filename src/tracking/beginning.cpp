@@ -58,14 +58,13 @@ std::optional<Twist> velocity_of_upright(std::span<const Scan> first, const Odom
     const double passed = first[later].stamp - first[0].stamp;
     if (!(passed > 0.0)) return std::nullopt;
 
-    const Track usual = track_from(first, config, std::nullopt);
+    std::vector<Scan> thin;
+    for (const Scan& scan : first) thin.push_back(thinned_scan(scan, config));
+    const Track usual = track_from(thin, config, std::nullopt);
     const SearchWindow window{std::clamp(config.speed * passed, 2.0, 20.0),
                               std::clamp(kQuickestTurn * passed, 0.1, 0.6)};
-    const auto sample = [&](const Scan& scan) {
-        return sample_for_map(scan.points, {}, config).points;
-    };
     const auto seen_from_above =
-        search_displacements(sample(first[0]), sample(first[later]), window, kVelocities);
+        search_displacements(thin[0].points, thin[later].points, window, kVelocities);
     std::vector<Pose> tried = {usual[later]};
     std::vector<Points> upright;
     Track best = usual;
@@ -79,7 +78,7 @@ std::optional<Twist> velocity_of_upright(std::span<const Scan> first, const Odom
             for (const Scan& scan : first) upright.push_back(upright_points(scan.points));
             to_beat = kClearlyBetter * overlay_of(upright, usual);
         }
-        const Track track = track_from(first, config, log(displacement) / passed);
+        const Track track = track_from(thin, config, log(displacement) / passed);
         tried.push_back(track[later]);
         const double overlay = overlay_of(upright, track);
         if (overlay <= to_beat) continue;

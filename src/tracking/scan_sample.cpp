@@ -2,6 +2,7 @@
 #include "tracking/scan_sample.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "geometry/voxel_index.hpp"
 
@@ -79,6 +80,13 @@ ScanSample sample_for_registration(const ScanSample& of_map, const OdometryConfi
         first.resize(most);
     }
     return these_of(of_map, first);
+}
+
+Scan thinned_scan(const Scan& scan, const OdometryConfig& config) {
+    ScanSample sample = sample_for_map(scan.points, scan.times, config);
+    Scan thin{std::move(sample.points), scan.T_world_sensor, scan.stamp, scan.index, scan.has_pose,
+              std::move(sample.times)};
+    return thin;
 }
 
 ScanSample without_dynamic(const ScanSample& sample, const Labels& labels) {

@@ -32,6 +32,10 @@ ScanSample sample_for_map(const Points& points, std::span<const float> times,
 /// Points for the registration: one of the points for the map in each larger voxel.
 ScanSample sample_for_registration(const ScanSample& of_map, const OdometryConfig& config);
 
+/// The scan with its points for the map only. Odometry and overlay_blur() give the same results for
+/// it, faster: for scans that are used several times.
+Scan thinned_scan(const Scan& scan, const OdometryConfig& config);
+
 /// The sample without points labelled dynamic; with empty labels, all points.
 ScanSample without_dynamic(const ScanSample& sample, const Labels& labels);
 

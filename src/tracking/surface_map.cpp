@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <optional>
 
 namespace dynamic_filter {
 namespace {
@@ -33,16 +34,34 @@ SurfaceMap::SurfaceMap(double finest) {
 }
 
 void SurfaceMap::insert(const Points& in_map) {
-    for (Level& level : levels_) insert(level, in_map);
+    const auto [keys, points] = keys_of(in_map, 1.0F / levels_.front().size);
+    std::vector<std::uint32_t> voxels(keys.size());
+    levels_.front().voxels.insert(keys, voxels);
+    for (std::size_t l = 0; l < kLevels; ++l) {
+        Level& level = levels_[l];
+        link(l);
+        add_points(level, in_map, points, voxels);
+        if (level.parents.empty()) continue;
+        for (std::uint32_t& voxel : voxels) voxel = level.parents[voxel];
+    }
 }
 
-void SurfaceMap::insert(Level& level, const Points& in_map) {
-    const auto [keys, points] = keys_of(in_map, 1.0F / level.size);
-    std::vector<std::uint32_t> voxels(keys.size());
-    level.voxels.insert(keys, voxels);
+void SurfaceMap::link(std::size_t l) {
+    Level& level = levels_[l];
     level.moments.resize(level.voxels.size());
     level.surfaces.resize(level.voxels.size());
     level.due.resize(level.voxels.size(), kFewest);
+    if (l + 1 == kLevels) return;
+    for (std::size_t voxel = level.parents.size(); voxel < level.voxels.size(); ++voxel) {
+        const Cell cell = unpack(level.voxels.key(static_cast<std::uint32_t>(voxel)));
+        const Cell around = cell.unaryExpr([](int v) { return v >> 1; });  // rounds down
+        level.parents.push_back(levels_[l + 1].voxels.insert(pack(around)));
+    }
+}
+
+void SurfaceMap::add_points(Level& level, const Points& in_map,
+                            std::span<const std::uint32_t> points,
+                            std::span<const std::uint32_t> voxels) {
     std::vector<std::uint32_t> touched;
     for (std::size_t i = 0; i < voxels.size(); ++i) {
         constexpr std::size_t kAhead = 8;  // points whose voxels are prefetched
@@ -51,7 +70,8 @@ void SurfaceMap::insert(Level& level, const Points& in_map) {
         Moments& m = level.moments[voxel];
         if (m.count >= kMostPerPlane) continue;
         m.count += 1.0F;
-        const Point offset = in_map[points[i]] - corner_of(keys[i], level.size) - m.mean;
+        const Point corner = corner_of(level.voxels.key(voxel), level.size);
+        const Point offset = in_map[points[i]] - corner - m.mean;
         m.mean += offset / m.count;
         const Point d = offset * (1.0F - 1.0F / m.count);
         const std::array<float, 6> more = {offset.x() * d.x(), offset.x() * d.y(),
@@ -96,16 +116,14 @@ float Surface::variance_at(const Point& place) const {
 const Surface* SurfaceMap::at(const Point& place) const {
     const Surface* best = nullptr;
     float least = kRoughest * kRoughest;
-    std::array<VoxelKey, kLevels> keys{};
-    for (std::size_t l = 0; l < kLevels; ++l) {
-        const auto cell = cell_of(place, 1.0F / levels_[l].size);
-        if (!cell) return nullptr;
-        keys[l] = pack(*cell);
-        levels_[l].voxels.prefetch(keys[l]);
-    }
+    std::optional<std::uint32_t> voxel;
     for (std::size_t l = 0; l < kLevels; ++l) {
         const Level& level = levels_[l];
-        const auto voxel = level.voxels.find(keys[l]);
+        if (voxel) {
+            voxel = levels_[l - 1].parents[*voxel];
+        } else if (const auto cell = cell_of(place, 1.0F / level.size)) {
+            voxel = level.voxels.find(pack(*cell));
+        }
         if (!voxel || level.surfaces[*voxel].count == 0.0F) continue;
         const float variance = level.surfaces[*voxel].variance_at(place);
         if (variance >= least) continue;
@@ -134,6 +152,7 @@ void SurfaceMap::rebuild(const Cell& by, const Keep& keep) {
         }
         levels_[l] = std::move(kept);
     }
+    for (std::size_t l = 0; l < kLevels; ++l) link(l);
 }
 
 void SurfaceMap::keep_within(const Point& center, float radius) {

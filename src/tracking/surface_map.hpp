@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "dynamic_filter/types.hpp"
@@ -76,8 +77,14 @@ private:
         std::vector<Surface> surfaces;  // per voxel
         // Per voxel: number of points at which the surface is computed again.
         std::vector<float> due;
+        // Per voxel: the one of the next level around it. Empty at the last level.
+        std::vector<std::uint32_t> parents;
     };
-    static void insert(Level& level, const Points& in_map);
+    /// Makes room for the data of new voxels, and finds their parents.
+    void link(std::size_t level);
+    static void add_points(Level& level, const Points& in_map,
+                           std::span<const std::uint32_t> points,
+                           std::span<const std::uint32_t> voxels);
     static Surface surface_of(const Level& level, std::uint32_t voxel);
     template <class Keep>
     void rebuild(const Cell& by, const Keep& keep);
