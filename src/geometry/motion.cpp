@@ -38,8 +38,8 @@ public:
         constexpr float kStep = 1e-4F;  // [s] points within this time share a pose
         const float step = std::isfinite(time) ? std::round(time / kStep) : 0.0F;
         // Steps that are far apart may share a place, and are then computed again.
-        Entry& entry = entries_[static_cast<std::uint32_t>(static_cast<std::int64_t>(step)) %
-                                entries_.size()];
+        Entry& entry =
+            entries_[static_cast<std::uint32_t>(static_cast<std::int64_t>(step)) % entries_.size()];
         if (entry.step != step) {
             const auto seconds = static_cast<double>(step * kStep);
             entry = {step, exp(seconds * velocity_).cast<float>()};

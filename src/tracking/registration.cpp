@@ -15,6 +15,10 @@ constexpr double kConverged = 1e-4;  // [m], [rad]
 // Errors of neighboring points are similar, so the points carry less information than the same
 // number of independent points.
 constexpr double kIndependent = 0.1;
+// Cosine of the angle between beam and normal below which a surface is not used. A single ring on a
+// facade with windows or on a hedge gives points on the cone of its beams, not on a surface; the
+// plane through them holds the sensor at its height and pitch.
+constexpr float kGrazing = 0.05F;
 
 struct Sums {
     Information H = Information::Zero();
@@ -32,13 +36,14 @@ Sums linearise(const SurfaceMap& map, const Points& points, const Pose& T, doubl
         const Surface* surface = map.at(q);
         if (!surface) continue;
         ++sums.mapped;
+        const Point normal = back * surface->normal;
+        if (std::abs(normal.dot(p)) < kGrazing * p.norm()) continue;
         const auto residual = static_cast<double>(surface->normal.dot(q - surface->point));
         const auto variance = static_cast<double>(surface->variance_at(q));
         const double scale = std::max(reach * reach, 9.0 * variance);
         const double share = scale / (scale + residual * residual);
         const double inlier = share * share;
         sums.inliers += inlier;
-        const Point normal = back * surface->normal;
         Twist J;
         J << normal.cast<double>(), p.cross(normal).cast<double>();
         const double weight = kIndependent * inlier / variance;

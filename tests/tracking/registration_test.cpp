@@ -103,6 +103,26 @@ TEST(Registration, ASurePriorIsKept) {
     EXPECT_LT(off(found.T_map_sensor, prior.T_map_sensor).norm(), 1e-4);
 }
 
+/// A single ring on a hedge or on a facade with windows: its points lie on the cone of its beams,
+/// wherever the sensor is.
+TEST(Registration, PlanesThatContainTheBeamsDoNotHoldTheSensor) {
+    test::Random random(5);
+    const auto ring = [&](double height, double noise) {
+        const auto z = static_cast<float>(height);
+        return test::points_on({{{-20, -20, z}, {40, 0, 0}, {0, 40, 0}}}, 30.0, noise, random);
+    };
+    SurfaceMap map(0.5);
+    map.insert(ring(0.1, 0.01));
+    EXPECT_EQ(register_points(map, ring(0.0, 0.01), Pose::Identity(), {}, 0.2).information(2, 2),
+              0.0);
+    SurfaceMap ground(0.5);
+    ground.insert(ring(-1.5, 0.01));
+    const Registration found =
+        register_points(ground, ring(-1.6, 0.01), Pose::Identity(), {}, 0.2);
+    EXPECT_NEAR(found.T_map_sensor.translation().z(), 0.1, 0.005);
+    EXPECT_GT(found.information(2, 2), 1e4);
+}
+
 TEST(Registration, WithoutPointsOrAMapNothingIsKnown) {
     test::Random random(5);
     const SurfaceMap map = map_of(test::hall(), 0.01, random);
