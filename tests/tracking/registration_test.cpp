@@ -117,8 +117,7 @@ TEST(Registration, PlanesThatContainTheBeamsDoNotHoldTheSensor) {
               0.0);
     SurfaceMap ground(0.5);
     ground.insert(ring(-1.5, 0.01));
-    const Registration found =
-        register_points(ground, ring(-1.6, 0.01), Pose::Identity(), {}, 0.2);
+    const Registration found = register_points(ground, ring(-1.6, 0.01), Pose::Identity(), {}, 0.2);
     EXPECT_NEAR(found.T_map_sensor.translation().z(), 0.1, 0.005);
     EXPECT_GT(found.information(2, 2), 1e4);
 }
