@@ -35,17 +35,21 @@ Track track_from(std::span<const Scan> scans, const OdometryConfig& config,
     return track;
 }
 
-/// Mean overlay of the upright structures.
-double overlay_of(const std::vector<Points>& upright, const Track& track) {
-    double sum = 0.0, count = 0.0;
+/// By how much the overlay of the upright structures is better than with the other track, as a
+/// factor, for pairs of scans whose displacements differ. 1 if none do.
+double overlay_gain(const std::vector<Points>& upright, const Track& track, const Track& than) {
+    constexpr double kDiffer = 0.1;  // [m]
+    double sum = 0.0, other = 0.0;
     for (const std::size_t apart : kSeparations) {
         for (std::size_t i = apart; i < track.size(); ++i) {
-            sum += upright_overlay(upright[i - apart], upright[i],
-                                   track[i - apart].inverse() * track[i]);
-            count += 1.0;
+            const Pose moved = track[i - apart].inverse() * track[i];
+            const Pose otherwise = than[i - apart].inverse() * than[i];
+            if ((moved.translation() - otherwise.translation()).norm() < kDiffer) continue;
+            sum += upright_overlay(upright[i - apart], upright[i], moved);
+            other += upright_overlay(upright[i - apart], upright[i], otherwise);
         }
     }
-    return count > 0.0 ? sum / count : 0.0;
+    return other > 0.0 ? sum / other : 1.0;
 }
 
 /// `first`: scans whose z axis is the vertical.
@@ -68,7 +72,7 @@ std::optional<Twist> velocity_of_upright(std::span<const Scan> first, const Odom
     std::vector<Pose> tried = {usual[later]};
     std::vector<Points> upright;
     Track best = usual;
-    double to_beat = 0.0;
+    double needed = kClearlyBetter;
     for (const Pose& displacement : seen_from_above) {
         const bool is_same = std::any_of(tried.begin(), tried.end(), [&](const Pose& other) {
             return (other.translation() - displacement.translation()).norm() < kSameTrack;
@@ -76,13 +80,11 @@ std::optional<Twist> velocity_of_upright(std::span<const Scan> first, const Odom
         if (is_same) continue;
         if (upright.empty()) {
             for (const Scan& scan : first) upright.push_back(upright_points(scan.points));
-            to_beat = kClearlyBetter * overlay_of(upright, usual);
         }
         const Track track = track_from(thin, config, log(displacement) / passed);
         tried.push_back(track[later]);
-        const double overlay = overlay_of(upright, track);
-        if (overlay <= to_beat) continue;
-        to_beat = overlay;
+        if (overlay_gain(upright, track, best) <= needed) continue;
+        needed = 1.0;
         best = track;
     }
     return log(best[1]) / (first[1].stamp - first[0].stamp);

@@ -15,10 +15,17 @@ constexpr double kConverged = 1e-4;  // [m], [rad]
 // Errors of neighboring points are similar, so the points carry less information than the same
 // number of independent points.
 constexpr double kIndependent = 0.1;
-// Cosine of the angle between beam and normal below which a surface is not used. A single ring on a
-// facade with windows or on a hedge gives points on the cone of its beams, not on a surface; the
-// plane through them holds the sensor at its height and pitch.
-constexpr float kGrazing = 0.05F;
+// Cosine of the angle between beam and normal at which a surface has half of its weight.
+constexpr float kGrazing = 0.1F;
+
+/// Weight 0..1 of a surface for a beam in direction of `p`. A single ring on a hedge or on a facade
+/// with windows gives points on the cone of its beams, wherever the sensor is. Planes through such
+/// points contain the beams, and would hold the sensor at its height and pitch.
+double weight_of_incidence(const Point& p, const Point& normal) {
+    const float along = normal.dot(p);
+    const float square = along * along;
+    return static_cast<double>(square / (square + kGrazing * kGrazing * p.squaredNorm()));
+}
 
 struct Sums {
     Information H = Information::Zero();
@@ -36,17 +43,16 @@ Sums linearise(const SurfaceMap& map, const Points& points, const Pose& T, doubl
         const Surface* surface = map.at(q);
         if (!surface) continue;
         ++sums.mapped;
-        const Point normal = back * surface->normal;
-        if (std::abs(normal.dot(p)) < kGrazing * p.norm()) continue;
         const auto residual = static_cast<double>(surface->normal.dot(q - surface->point));
         const auto variance = static_cast<double>(surface->variance_at(q));
         const double scale = std::max(reach * reach, 9.0 * variance);
         const double share = scale / (scale + residual * residual);
         const double inlier = share * share;
         sums.inliers += inlier;
+        const Point normal = back * surface->normal;
         Twist J;
         J << normal.cast<double>(), p.cross(normal).cast<double>();
-        const double weight = kIndependent * inlier / variance;
+        const double weight = kIndependent * inlier * weight_of_incidence(p, normal) / variance;
         sums.H.selfadjointView<Eigen::Lower>().rankUpdate(J, weight);
         sums.b -= weight * residual * J;
     }
