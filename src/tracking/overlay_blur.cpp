@@ -24,7 +24,8 @@ Twist velocity_at(std::span<const Scan> scans, std::span<const Pose> T_world_sen
 double overlay_blur(std::span<const Scan> scans, std::span<const Pose> T_world_sensor,
                     const OdometryConfig& config) {
     if (scans.size() < 2) return 0.0;
-    SurfaceMap map(config.voxel);
+    constexpr double kNarrowest = 0.1;  // planes may be tilted, because only roughness counts
+    SurfaceMap map(config.voxel, kNarrowest);
     double sum = 0.0;
     for (std::size_t i = 0; i < scans.size(); ++i) {
         const ScanSample sample = sample_for_map(scans[i].points, scans[i].times, config);

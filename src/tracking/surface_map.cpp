@@ -11,8 +11,6 @@ namespace {
 constexpr float kFewest = 5.0F;  // smallest number of points of a plane
 // Largest number of points; older points have drifted less, so newer ones are not added.
 constexpr float kMostPerPlane = 1000.0F;
-// Of the voxel size: smallest spread of the points in both directions of a plane.
-constexpr float kSpread = 0.1F;
 constexpr float kNoise = 0.01F;  // [m] smallest roughness of a surface
 // [m] largest roughness of a surface, with the uncertainty of its position.
 constexpr float kRoughest = 0.5F;
@@ -25,7 +23,8 @@ Point corner_of(VoxelKey key, float size) { return unpack(key).cast<float>() * s
 
 }  // namespace
 
-SurfaceMap::SurfaceMap(double finest) {
+SurfaceMap::SurfaceMap(double finest, double narrowest)
+    : narrowest_(static_cast<float>(narrowest)) {
     auto size = static_cast<float>(finest);
     for (Level& level : levels_) {
         level.size = size;
@@ -61,7 +60,7 @@ void SurfaceMap::link(std::size_t l) {
 
 void SurfaceMap::add_points(Level& level, const Points& in_map,
                             std::span<const std::uint32_t> points,
-                            std::span<const std::uint32_t> voxels) {
+                            std::span<const std::uint32_t> voxels) const {
     std::vector<std::uint32_t> touched;
     for (std::size_t i = 0; i < voxels.size(); ++i) {
         constexpr std::size_t kAhead = 8;  // points whose voxels are prefetched
@@ -87,7 +86,7 @@ void SurfaceMap::add_points(Level& level, const Points& in_map,
     }
 }
 
-Surface SurfaceMap::surface_of(const Level& level, std::uint32_t voxel) {
+Surface SurfaceMap::surface_of(const Level& level, std::uint32_t voxel) const {
     const Moments& m = level.moments[voxel];
     const auto& s = m.scatter;
     Eigen::Matrix3d covariance;
@@ -97,7 +96,8 @@ Surface SurfaceMap::surface_of(const Level& level, std::uint32_t voxel) {
     solver.computeDirect(covariance);
     const Eigen::Vector3f spread = solver.eigenvalues().cast<float>().cwiseMax(0.0F);  // ascending
     Surface surface;
-    if (spread[1] < kSpread * kSpread * level.size * level.size) return surface;
+    const float least = narrowest_ * level.size;
+    if (spread[1] < least * least) return surface;
     surface.point = m.mean + corner_of(level.voxels.key(voxel), level.size);
     const Eigen::Matrix3f axes = solver.eigenvectors().cast<float>();
     surface.normal = axes.col(0);

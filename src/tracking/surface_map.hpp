@@ -45,7 +45,10 @@ public:
     /// Number of sizes; each one is twice the previous one.
     static constexpr std::size_t kLevels = 4;
 
-    explicit SurfaceMap(double finest);  ///< [m] edge of the smallest voxels
+    /// `finest` [m]: edge of the smallest voxels. `narrowest`: smallest spread of the points in
+    /// both directions of a plane, as a share of the edge of its voxel. The planes of narrower
+    /// strips are tilted by the noise of the ranges.
+    explicit SurfaceMap(double finest, double narrowest = 0.15);
 
     void insert(const Points& in_map);
 
@@ -82,13 +85,13 @@ private:
     };
     /// Makes room for the data of new voxels, and finds their parents.
     void link(std::size_t level);
-    static void add_points(Level& level, const Points& in_map,
-                           std::span<const std::uint32_t> points,
-                           std::span<const std::uint32_t> voxels);
-    static Surface surface_of(const Level& level, std::uint32_t voxel);
+    void add_points(Level& level, const Points& in_map, std::span<const std::uint32_t> points,
+                    std::span<const std::uint32_t> voxels) const;
+    [[nodiscard]] Surface surface_of(const Level& level, std::uint32_t voxel) const;
     template <class Keep>
     void rebuild(const Cell& by, const Keep& keep);
 
+    float narrowest_;
     std::array<Level, kLevels> levels_;
 };
 
