@@ -131,6 +131,9 @@ struct MotionQuality {
 /// Measures the pose errors and the blur. Reads 21 consecutive scans at each of several places of
 /// the recording, with the times of their points if they have them (with_times()).
 MotionQuality measure_motion(const Recording& recording, const OdometryConfig& config);
+/// The same for the 21 scans around one scan. All values are 0 if they cannot be read.
+MotionQuality measure_motion_at(const Recording& recording, std::size_t scan,
+                                const OdometryConfig& config);
 
 /// Describes the mistake in the poses, if a run would replace them because scans overlay better at
 /// other poses, or if they belong to another frame or are delayed. Returns one sentence with the

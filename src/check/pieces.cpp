@@ -10,6 +10,14 @@
 
 namespace dynamic_filter::io {
 
+Piece read_piece(const Recording& recording, std::size_t first, std::size_t in_a_row) {
+    Piece piece;
+    for (std::size_t i = first; i < std::min(recording.size(), first + in_a_row); ++i) {
+        if (auto scan = read_scan(recording, i)) piece.push_back(*std::move(scan));
+    }
+    return piece;
+}
+
 std::vector<Piece> read_pieces(const Recording& recording, std::size_t most, std::size_t in_a_row) {
     constexpr double kGoldenRatio = 0.6180339887498949;
     std::vector<Piece> pieces;
@@ -19,10 +27,7 @@ std::vector<Piece> read_pieces(const Recording& recording, std::size_t most, std
     for (std::size_t k = 0; k < places; ++k) {
         const double whole = 0.5 + static_cast<double>(k) * kGoldenRatio;
         const auto first = static_cast<std::size_t>((whole - std::floor(whole)) * room);
-        Piece piece;
-        for (std::size_t i = first; i < std::min(n, first + in_a_row); ++i) {
-            if (auto scan = read_scan(recording, i)) piece.push_back(*std::move(scan));
-        }
+        Piece piece = read_piece(recording, first, in_a_row);
         if (piece.size() > 1) pieces.push_back(std::move(piece));
     }
     return pieces;

@@ -18,6 +18,9 @@ using Piece = std::vector<Scan>;
 /// be read are left out, and pieces of fewer than two scans.
 std::vector<Piece> read_pieces(const Recording& recording, std::size_t most, std::size_t in_a_row);
 
+/// At most `in_a_row` scans from `first` on; those that cannot be read are left out.
+Piece read_piece(const Recording& recording, std::size_t first, std::size_t in_a_row);
+
 /// See thinned_scan().
 Piece thinned_piece(const Piece& piece, const OdometryConfig& config);
 

@@ -314,6 +314,15 @@ MotionQuality measure_motion(const Recording& recording, const OdometryConfig& c
                       recording.info().has_poses);
 }
 
+MotionQuality measure_motion_at(const Recording& recording, std::size_t scan,
+                                const OdometryConfig& config) {
+    const std::size_t most = recording.size() - std::min(recording.size(), kInARow);
+    Piece piece =
+        read_piece(recording, std::min(most, scan - std::min(scan, kInARow / 2)), kInARow);
+    if (piece.size() < 2) return {};
+    return quality_of({compare(std::move(piece), config)}, recording.info().has_poses);
+}
+
 std::string find_pose_mistake(const Recording& recording, const OdometryConfig& config) {
     // Number of consecutive scans; long enough that the motion varies.
     constexpr std::size_t kLong = 60;

@@ -211,6 +211,16 @@ void note(Whole& whole, std::size_t i, const io::FullScan& scan, const Labels& l
     whole.scan_notes.push_back(note);
 }
 
+io::PosesFrom poses_from(const Whole& whole) {
+    if (!whole.job.tracked.empty()) {
+        return whole.job.with_given_poses ? io::PosesFrom::refined : io::PosesFrom::found;
+    }
+    const bool were_tracked = std::any_of(whole.tracked.begin(), whole.tracked.end(),
+                                          [](const auto& t) { return t.has_value(); });
+    if (!were_tracked) return io::PosesFrom::given;
+    return whole.job.config.odometry.refine ? io::PosesFrom::refined : io::PosesFrom::found;
+}
+
 /// Second reading: final verdicts, label files, maps.
 void write_results(Whole& whole) {
     const std::vector<std::size_t> scans = accepted_scans(whole);
@@ -234,8 +244,12 @@ void write_results(Whole& whole) {
         }
         progress.advance();
     };
-    write_scans(whole.recording, scans, whole.job.config, whole.o.maps, whole.output.path(),
-                {.decide = decide, .use = use});
+    const auto watched = write_scans(whole.recording, scans, whole.job.config, whole.o.maps,
+                                     whole.output.path(), {.decide = decide, .use = use});
+    for (io::Alarm& alarm : io::alarms_of(watched)) {
+        whole.summary.alarms.push_back(io::explain(std::move(alarm), whole.recording,
+                                                   poses_from(whole), whole.job.config.odometry));
+    }
 }
 
 /// Third reading, over recordings with ground truth: which removed points lie near one that stays.

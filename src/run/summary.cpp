@@ -35,6 +35,15 @@ std::string shares_of(const RunSummary& s) {
                        share(s.dynamic), share(s.unknown));
 }
 
+std::vector<std::string> alarm_lines(const io::Recording& recording, const RunSummary& s) {
+    std::vector<std::string> lines;
+    for (const io::Alarm& alarm : s.alarms) {
+        lines.push_back(fmt::format("{}; {}{}", io::to_text(alarm, recording),
+                                    alarm.advice.starts_with("--") ? "try " : "", alarm.advice));
+    }
+    return lines;
+}
+
 }  // namespace
 
 void RunSummary::count(const Labels& labels) {
@@ -61,6 +70,14 @@ Json metrics_of(const RunSummary& s, const std::vector<std::string>& losses) {
     json["rejected"] = s.rejected;
     json["dropped"] = s.dropped;
     json["lost"] = losses;
+    json["alarms"] = Json::array();
+    for (const io::Alarm& alarm : s.alarms) {
+        json["alarms"].push_back({{"what", alarm.what},
+                                  {"advice", alarm.advice},
+                                  {"first", alarm.first},
+                                  {"last", alarm.last},
+                                  {"worst", alarm.worst}});
+    }
     return json;
 }
 
@@ -76,6 +93,7 @@ std::string log_of(const io::Recording& recording, const RunSummary& s) {
     add("lost", recording.info().losses);
     add("rejected", s.rejected);
     add("dropped", s.dropped);
+    add("alarm", alarm_lines(recording, s));
     if (const auto& beams = s.contents.beams) {
         log += fmt::format("beams    {:.2f} deg along azimuth, {:.2f} deg along elevation\n",
                            beams->azimuth_spacing * 180.0 / std::numbers::pi,
@@ -134,7 +152,7 @@ bool tell_losses(const std::string& name, const io::Recording& recording, const 
     const bool all_read = tell("lost", recording.info().losses),
                none_rejected = tell("rejected", s.rejected),
                none_dropped = tell("dropped", s.dropped);
-    return all_read && none_rejected && none_dropped;
+    return tell("alarm", alarm_lines(recording, s)) && all_read && none_rejected && none_dropped;
 }
 
 }  // namespace dynamic_filter::app

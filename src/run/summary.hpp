@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/stage_clock.hpp"
+#include "check/watch.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/filter.hpp"
 #include "dynamic_filter/recording.hpp"
@@ -24,6 +25,7 @@ struct RunSummary {
     std::vector<std::string> dropped;  ///< online: what it could not keep up with
     std::vector<std::string> notes;
     std::vector<std::string> warnings;  ///< what is suspicious in the recording
+    std::vector<io::Alarm> alarms;      ///< what the watch finds in the result
     std::size_t points = 0, still = 0, dynamic = 0, unknown = 0;
     MapContents contents;  ///< of the filter's maps; empty if tiles were filtered
     Seconds seconds;       ///< of the whole process, until the reports were written
@@ -59,7 +61,8 @@ std::string scores_text(const RunSummary& summary);
 /// The closing lines of a recording that was filtered in memory.
 std::string to_text(const RunSummary& summary);
 
-/// Prints what was rejected, dropped and lost; each line begins with `name`. True if there is none.
+/// Prints what was rejected, dropped and lost, and the alarms; each line begins with `name`. True
+/// if there is none.
 bool tell_losses(const std::string& name, const io::Recording& recording,
                  const RunSummary& summary);
 

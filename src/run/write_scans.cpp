@@ -13,9 +13,10 @@
 
 namespace dynamic_filter::app {
 
-void write_scans(const io::Recording& recording, const std::vector<std::size_t>& scans,
-                 const Config& config, bool with_maps, const std::filesystem::path& folder,
-                 const ScanResults& results) {
+std::vector<io::ScanWatch> write_scans(const io::Recording& recording,
+                                       const std::vector<std::size_t>& scans, const Config& config,
+                                       bool with_maps, const std::filesystem::path& folder,
+                                       const ScanResults& results) {
     const auto labels = folder / "labels";
     std::filesystem::create_directories(labels);
     MapFiles maps(folder, config.map.keep_unknown, recording.info().layout == "benchmark");
@@ -29,9 +30,11 @@ void write_scans(const io::Recording& recording, const std::vector<std::size_t>&
     std::vector<Verdict> verdicts(recording.size());
     std::vector<MapFiles::Records> records(recording.size());
     std::vector<Gaps> gaps(recording.size());
+    std::vector<io::ScanWatch> seen(recording.size());
     const auto decide = [&](std::size_t i, MaybeScan& maybe) {
         const io::FullScan& scan = *maybe.scan;
         verdicts[i] = results.decide(i, scan);
+        seen[i] = io::watch_scan(i, scan.points, scan.T_world_sensor, verdicts[i].labels);
         io::write_labels(io::label_file(labels, io::stem(recording, i)), verdicts[i].labels,
                          io::Durable::contents);
         if (with_maps) {
@@ -51,6 +54,9 @@ void write_scans(const io::Recording& recording, const std::vector<std::size_t>&
     std::vector<Gaps> of_scans;
     for (const std::size_t i : scans) of_scans.push_back(std::move(gaps[i]));
     write_gaps(folder, of_scans);
+    std::vector<io::ScanWatch> watch;
+    for (const std::size_t i : scans) watch.push_back(seen[i]);
+    return watch;
 }
 
 }  // namespace dynamic_filter::app

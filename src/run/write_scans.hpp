@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "check/watch.hpp"
 #include "dynamic_filter/filter.hpp"
 #include "dynamic_filter/recording.hpp"
 #include "dynamic_filter/settings.hpp"
@@ -20,10 +21,11 @@ struct ScanResults {
 };
 
 /// Writes what a run leaves of these scans into `folder`: a label file for each, and with `maps`
-/// static_map.pcd, dynamic_points.pcd and map_gaps.bin. Throws InputError if a scan cannot be read
-/// any more.
-void write_scans(const io::Recording& recording, const std::vector<std::size_t>& scans,
-                 const Config& config, bool maps, const std::filesystem::path& folder,
-                 const ScanResults& results);
+/// static_map.pcd, dynamic_points.pcd and map_gaps.bin. Returns what the watch sees of each. Throws
+/// InputError if a scan cannot be read any more.
+std::vector<io::ScanWatch> write_scans(const io::Recording& recording,
+                                       const std::vector<std::size_t>& scans, const Config& config,
+                                       bool maps, const std::filesystem::path& folder,
+                                       const ScanResults& results);
 
 }  // namespace dynamic_filter::app
