@@ -377,6 +377,7 @@ RunSummary filter_whole(Job& job, const RunOptions& options, const OutputFolder&
     RunSummary summary;
     with_threads(options.threads, [&] {
         Whole whole{.job = job, .o = options, .output = output, .clock = clock, .live = live};
+        whole.summary.warnings = job.mistakes;
         if (options.online) whole.worker.emplace(whole.maps, whole.limits(), whole.callbacks());
         io::write_file(output.path() / "config.toml", to_toml(job.config));
         filter_scans(whole);

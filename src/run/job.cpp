@@ -43,6 +43,14 @@ void refuse_unnamed(const RunOptions& o) {
     }
 }
 
+std::vector<std::string> mistakes_in(const io::Recording& recording, const RunOptions& o) {
+    std::vector<std::string> mistakes;
+    for (const auto& found : io::check_recording(recording, io::Depth::quick).findings) {
+        mistakes.push_back(warning_of(found, o.data));
+    }
+    return mistakes;
+}
+
 /// The beginning of every mark.
 std::string version_text() { return fmt::format("version {}\n", DYNAMIC_FILTER_VERSION); }
 
@@ -61,6 +69,7 @@ Job open_tiled_job(const RunOptions& o, std::vector<DriveSource> sources) {
             .fingerprints = {},
             .tracked = {},
             .with_given_poses = {},
+            .mistakes = {},
             .is_tiled = true,
             .part = {},
             .plan = {},
@@ -89,6 +98,7 @@ Job open_job(const RunOptions& o) {
             .fingerprints = {},
             .tracked = {},
             .with_given_poses = {},
+            .mistakes = {},
             .is_tiled = false,
             .part = {},
             .plan = {},
@@ -108,6 +118,7 @@ void choose_job_motion(Job& job, const RunOptions& o) {
         recording = io::with_notes(recording, chosen.notes);
         job.tracked = std::move(chosen.tracked);
         if (!job.tracked.empty() && opened.info().has_poses) job.with_given_poses = opened;
+        job.mistakes = mistakes_in(recording, o);
     });
     job.mark = version_text() + state_of(recording) + to_toml(job.config);
 }
@@ -130,11 +141,10 @@ void tell_notes(const Job& job, const RunOptions& o) {
     if (!job.is_tiled) {
         const io::Recording& recording = job.drives.front().recording;
         for (const std::string& text : recording.info().notes) note(text);
+        for (const std::string& text : job.mistakes) warn(text);
+        if (!job.mistakes.empty() || !job.with_given_poses) return;
         // The mistake in poses that were replaced is worth a word as well.
-        const io::Recording judged = job.with_given_poses.value_or(recording);
-        for (const auto& found : io::check_recording(judged, io::Depth::quick).findings) {
-            warn(warning_of(found, o.data));
-        }
+        for (const std::string& text : mistakes_in(*job.with_given_poses, o)) warn(text);
         return;
     }
     for (const std::string& text : job.plan.warnings) warn(text);

@@ -24,6 +24,8 @@ struct Job {
     std::vector<std::optional<Tracked>> tracked;
     /// The same as it was opened, if its own poses were replaced.
     std::optional<io::Recording> with_given_poses;
+    /// What is wrong with it as it is filtered, as far as it shows beforehand.
+    std::vector<std::string> mistakes;
     /// True: filtered tile by tile, which needs a plan. False: one recording, in memory.
     bool is_tiled = false;
     std::optional<PartNumber> part;  ///< empty: all tiles

@@ -115,13 +115,10 @@ RunResult run_whole(Job& job, const RunOptions& o, StageClock& clock) {
     if (live) live->finish(output->name() / "report.html");
     if (!o.quiet) fmt::print("{}written  {}\n", to_text(summary), output->name().string());
     link_to_latest(o, *output);
-    if (2 * summary.unknown > summary.points) {
-        fmt::print(stderr,
-                   "note: most points are unknown; are the first poses of another place?\n");
-    }
     if (interrupted()) return {.exit_code = kInterrupted, .recordings = {}};  // all is there
     if (live) live->linger();
-    return {.exit_code = all ? kDone : kRejected, .recordings = {std::move(summary)}};
+    const bool well = all && job.mistakes.empty();
+    return {.exit_code = well ? kDone : kRejected, .recordings = {std::move(summary)}};
 }
 
 // Several recordings, or one tile by tile.
