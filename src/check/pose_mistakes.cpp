@@ -22,11 +22,12 @@ constexpr std::size_t kFitApart = 10;
 /// Pose of the sensor at scan i under the assumption of a mistake with these parameters.
 using Model = std::function<Pose(const TwoTracks&, std::size_t, const Eigen::VectorXd&)>;
 
-Pose shown_at(const TwoTracks& track, double stamp) {
+/// `poses` are those of the track at its stamps.
+Pose interpolated(const TwoTracks& track, const std::vector<Pose>& poses, double stamp) {
     const auto after = std::upper_bound(track.stamps.begin() + 1, track.stamps.end() - 1, stamp);
     const auto i = static_cast<std::size_t>(after - track.stamps.begin());
     const double share = (stamp - track.stamps[i - 1]) / (track.stamps[i] - track.stamps[i - 1]);
-    return track.shown[i - 1] * exp(share * log(track.shown[i - 1].inverse() * track.shown[i]));
+    return poses[i - 1] * exp(share * log(poses[i - 1].inverse() * poses[i]));
 }
 
 Pose as_shown(const TwoTracks& track, std::size_t i, const Eigen::VectorXd&) {
@@ -129,16 +130,26 @@ std::string noise_text(const std::vector<TwoTracks>& tracks) {
 
 namespace {
 
+template <class PoseAt>
+std::vector<std::vector<Pose>> mended(const std::vector<TwoTracks>& tracks, const PoseAt& pose_at) {
+    std::vector<std::vector<Pose>> all;
+    for (const TwoTracks& track : tracks) {
+        std::vector<Pose>& poses = all.emplace_back();
+        for (std::size_t i = 0; i < track.given.size(); ++i) poses.push_back(pose_at(track, i));
+    }
+    return all;
+}
+
 /// Describes an offset in time or another frame, if that explains more than `mostly` of the squared
 /// error.
-std::string constant_mistake(const std::vector<TwoTracks>& tracks, double mostly) {
+ConstantMistake constant_mistake(const std::vector<TwoTracks>& tracks, double mostly) {
     constexpr double kLeastOffset = 0.01, kMostOffset = 1.0;  // [s]
     constexpr double kBetter = 0.1;
     constexpr double kFarthestMount = 5.0;  // [m] larger than any vehicle
     const Fit offset = fit(
         tracks,
         [](const TwoTracks& track, std::size_t i, const Eigen::VectorXd& p) {
-            return shown_at(track, track.stamps[i] + p[0]);
+            return interpolated(track, track.shown, track.stamps[i] + p[0]);
         },
         1);
     const Fit mount = fit(
@@ -151,28 +162,39 @@ std::string constant_mistake(const std::vector<TwoTracks>& tracks, double mostly
                            std::abs(offset.parameters[0]) > kLeastOffset &&
                            std::abs(offset.parameters[0]) < kMostOffset &&
                            offset.explained > mount.explained - kBetter;
-    if (is_offset) return offset_text(offset.parameters[0]);
+    if (is_offset) {
+        const double seconds = offset.parameters[0];
+        return {offset_text(seconds), mended(tracks, [&](const TwoTracks& track, std::size_t i) {
+                    return interpolated(track, track.given, track.stamps[i] - seconds);
+                })};
+    }
     // At a constant speed, poses of another frame look like a constant drift.
     const bool is_mount = mount.explained > mostly &&
                           mount.explained > explained_by_drift(tracks) + kBetter &&
                           mount.parameters.head<3>().norm() < kFarthestMount;
-    return is_mount ? mount_text(mount.parameters) : "";
+    if (!is_mount) return {};
+    const Pose T_frame_sensor = exp(Twist(mount.parameters)).inverse();
+    return {mount_text(mount.parameters),
+            mended(tracks, [&](const TwoTracks& track, std::size_t i) {
+                return track.given[i] * T_frame_sensor;
+            })};
 }
 
 }  // namespace
 
 std::string name_mistake(const std::vector<TwoTracks>& tracks) {
     constexpr double kMostly = 0.5;
-    const std::string constant = constant_mistake(tracks, kMostly);
+    const std::string constant = constant_mistake(tracks, kMostly).text;
     return constant.empty() ? noise_text(tracks) : constant;
 }
 
-std::string name_constant_mistake(const std::vector<TwoTracks>& tracks) {
+ConstantMistake find_constant_mistake(const std::vector<TwoTracks>& tracks) {
     constexpr double kNearlyAll = 0.8;
     constexpr double kOdometry = 0.03;  // [m] error of the odometry itself
     const Eigen::VectorXd errors = errors_of(tracks, as_shown, {}, kFitApart);
     const double mean_square = 6.0 * errors.squaredNorm() / static_cast<double>(errors.size());
-    return std::sqrt(mean_square) > kOdometry ? constant_mistake(tracks, kNearlyAll) : "";
+    return std::sqrt(mean_square) > kOdometry ? constant_mistake(tracks, kNearlyAll)
+                                              : ConstantMistake{};
 }
 
 }  // namespace dynamic_filter::io

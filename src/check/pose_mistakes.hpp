@@ -22,7 +22,11 @@ std::string name_mistake(const std::vector<TwoTracks>& tracks);
 
 /// The same for scans that do not blur at the given poses. Only an offset in time or another frame
 /// is possible then, and only if it explains nearly all of a difference that is larger than the
-/// error of the odometry. Otherwise empty.
-std::string name_constant_mistake(const std::vector<TwoTracks>& tracks);
+/// error of the odometry. Whether scans overlay better without it shows whether it is one.
+struct ConstantMistake {
+    std::string text;                       ///< empty: none
+    std::vector<std::vector<Pose>> mended;  ///< the given poses without it, by track
+};
+ConstantMistake find_constant_mistake(const std::vector<TwoTracks>& tracks);
 
 }  // namespace dynamic_filter::io

@@ -246,6 +246,20 @@ bool would_be_replaced(const Recording& recording, const OdometryConfig& config)
     return !choose_poses(recording, config, false, {}).tracked.empty();
 }
 
+/// True if scans overlay more sharply at the other poses than at their own; all are parallel.
+bool sharpens(const std::vector<Piece>& pieces, const std::vector<std::vector<Pose>>& others,
+              const OdometryConfig& config) {
+    double own = 0.0, other = 0.0;
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+        const Piece piece = thinned_piece(pieces[k], config);
+        std::vector<Pose> poses;
+        for (const Scan& scan : piece) poses.push_back(scan.T_world_sensor);
+        own += overlay_blur(piece, poses, config);
+        other += overlay_blur(piece, others[k], config);
+    }
+    return other < own;
+}
+
 }  // namespace
 
 std::optional<Sweep> find_sweep(const Recording& recording, const OdometryConfig& given) {
@@ -333,8 +347,12 @@ std::string find_pose_mistake(const Recording& recording, const OdometryConfig& 
     for (Compared& piece : compared) {
         tracks.push_back({std::move(piece.stamps), std::move(piece.given), std::move(piece.shown)});
     }
-    return would_be_replaced(recording, config) ? name_mistake(tracks)
-                                                : name_constant_mistake(tracks);
+    if (would_be_replaced(recording, config)) return name_mistake(tracks);
+    // The odometry may be wrong as well: the scans decide.
+    const ConstantMistake mistake = find_constant_mistake(tracks);
+    const bool is_shown =
+        !mistake.text.empty() && sharpens(read_pieces(recording, 3, kLong), mistake.mended, config);
+    return is_shown ? mistake.text : "";
 }
 
 }  // namespace dynamic_filter::io

@@ -164,7 +164,9 @@ ScanWatch watch_scan(std::size_t scan, const Points& points, const Pose& T_world
     keep_ground(low);
     for (const Part& part : parts) {
         // Where something stands on the ground, its foot is not told from it.
-        if (part.points == 0 || !(part.high < low[part.cell] + kThick)) continue;
+        const float ground = low[part.cell];
+        const bool is_ground = ground < kNothing && part.high < ground + kThick;
+        if (part.points == 0 || !is_ground) continue;
         ++watch.ground;
         watch.ground_gone += 2 * part.gone > part.points ? 1 : 0;
     }

@@ -34,6 +34,10 @@ TwoTracks tracks(const std::function<Pose(double)>& given) {
     return out;
 }
 
+std::string constant_text(const std::vector<TwoTracks>& tracks) {
+    return find_constant_mistake(tracks).text;
+}
+
 TEST(PoseMistakes, AnOffsetInTime) {
     for (const double offset : {0.1, -0.05}) {
         const std::string text =
@@ -75,20 +79,34 @@ TEST(PoseMistakes, WhereTheWorldLiesIsNone) {
 
 // Too small to blur the scans.
 TEST(PoseMistakes, ALateOrShiftedPathIsNamedWhereScansDoNotBlur) {
-    EXPECT_HAS(name_constant_mistake({tracks([](double t) { return pose_at(t + 0.05); })}),
+    EXPECT_HAS(constant_text({tracks([](double t) { return pose_at(t + 0.05); })}),
                "50 ms after its scan");
     const Pose mount(Eigen::Translation3d(0.5, 0.0, 0.0));
-    EXPECT_HAS(name_constant_mistake({tracks([&](double t) { return pose_at(t) * mount; })}),
+    EXPECT_HAS(constant_text({tracks([&](double t) { return pose_at(t) * mount; })}),
                "of a frame that lies (0.5");
+}
+
+TEST(PoseMistakes, MendedPosesAreThoseOfTheSensor) {
+    const Pose mount(Eigen::Translation3d(2.0, -1.0, 0.5));
+    const std::vector<TwoTracks> late = {tracks([](double t) { return pose_at(t + 0.05); })},
+                                 shifted = {tracks([&](double t) { return pose_at(t) * mount; })};
+    for (const auto& mistaken : {late, shifted}) {
+        const ConstantMistake mistake = find_constant_mistake(mistaken);
+        ASSERT_EQ(mistake.mended.size(), 1U);
+        for (std::size_t i = 5; i < 55; ++i) {
+            const Pose off = mistake.mended[0][i].inverse() * mistaken[0].shown[i];
+            EXPECT_LT(off.translation().norm(), 0.05) << i;
+        }
+    }
 }
 
 TEST(PoseMistakes, WhatMayBeTheOdometrysErrorIsNotNamedWhereScansDoNotBlur) {
     test::Random random(1);
-    EXPECT_EQ(name_constant_mistake({tracks(pose_at)}), "");
-    EXPECT_EQ(name_constant_mistake({tracks([](double t) { return pose_at(t + 0.002); })}), "");
-    EXPECT_EQ(name_constant_mistake(
-                  {tracks([&](double t) { return pose_at(t) * random.pose(0.05, 0.01); })}),
-              "");
+    EXPECT_EQ(constant_text({tracks(pose_at)}), "");
+    EXPECT_EQ(constant_text({tracks([](double t) { return pose_at(t + 0.002); })}), "");
+    EXPECT_EQ(
+        constant_text({tracks([&](double t) { return pose_at(t) * random.pose(0.05, 0.01); })}),
+        "");
 }
 
 }  // namespace pose_mistakes_test
