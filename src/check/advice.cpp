@@ -10,8 +10,12 @@ namespace {
 
 /// True if the second correction takes the first one back.
 bool undoes(const std::string& first, const std::string& second) {
-    constexpr std::array<std::array<const char*, 2>, 3> kOpposites{
-        {{"inverse", "inverse"}, {"camera", "lidar"}, {"wxyz", "xyzw"}}};
+    constexpr std::array<std::array<const char*, 2>, 6> kOpposites{{{"inverse", "inverse"},
+                                                                    {"camera", "lidar"},
+                                                                    {"wxyz", "xyzw"},
+                                                                    {"transpose", "transpose"},
+                                                                    {"mirror", "mirror"},
+                                                                    {"ned", "ned"}}};
     for (const auto& [a, b] : kOpposites) {
         if ((first == a && second == b) || (first == b && second == a)) return true;
     }

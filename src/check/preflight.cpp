@@ -51,6 +51,45 @@ bool lie_in_world(const Samples& samples) {
     return near_pose > 2 * near_origin + 100;
 }
 
+/// [m] How far the surroundings move between scans that lie on each other without any motion, as
+/// those do whose points are in the world's frame; 0 if odometry finds a motion.
+double motion_of_surroundings(const Samples& samples) {
+    constexpr double kRests = 2.0;  // [m]
+    double moved = 0.0;
+    for (const auto& [i, sample] : samples) {
+        const Sample& first = samples.begin()->second;
+        const Pose way = first.T_world_sensor.inverse() * sample.T_world_sensor;
+        if (way.translation().norm() > kRests) return 0.0;
+        moved = std::max(moved, static_cast<double>((sample.middle - first.middle).norm()));
+    }
+    return moved;
+}
+
+/// A finding if points without poses are in the world's frame. Returns true if there is one.
+bool judge_frame(Preflight& result, const Recording& recording, const Samples& samples) {
+    constexpr double kFar = 4.0;  // [m] that no passing vehicle moves the middle of a scan
+    const double moved = recording.info().tracked ? motion_of_surroundings(samples) : 0.0;
+    if (moved < kFar) return false;
+    result.findings.push_back(
+        {fmt::format("the points are in the world's frame already: scans lie on each other as they "
+                     "are, but what they show moves by {:.1f} m, so the places of the sensor are "
+                     "not known",
+                     moved),
+         "give the trajectory with --poses FILE and --points-in-world, or the scans in the "
+         "sensor's frame"});
+    return true;
+}
+
+/// True if the format says in which order the components of quaternions are.
+bool names_quaternions(const Recording& recording) {
+    return recording.info().layout == "bag" || recording.info().pose_source.extension() == ".csv";
+}
+
+void leave_out_quaternions(std::vector<Overlay>& overlays) {
+    std::erase_if(overlays,
+                  [](const Overlay& o) { return o.reading == "wxyz" || o.reading == "xyzw"; });
+}
+
 /// True if scans show enough upright structures to be compared.
 bool have_structure(const Samples& samples) {
     return std::count_if(samples.begin(), samples.end(), [](const auto& sample) {
@@ -74,6 +113,10 @@ std::string meaning_of(const std::string& reading) {
         {"wxyz", "the quaternions are w x y z, but were read as x y z w"},
         {"xyzw", "the quaternions are x y z w, but were read as w x y z"},
         {"mm", "the poses are in millimetres"},
+        {"cm", "the poses are in centimetres"},
+        {"transpose", "the rotations turn in the wrong sense (R_sensor_world); positions are right"},
+        {"mirror", "the poses are left-handed: y points to the right, and yaw turns clockwise"},
+        {"ned", "the poses have z down and y to the right (north, east, down)"},
     };
     return meanings.at(reading);
 }
@@ -190,9 +233,9 @@ void judge_poses(Preflight& result, const Recording& recording, const Samples& s
         if (much) result.findings.push_back(in_sensor_finding(overlays, files_in_world));
         return;
     }
-    // In the interpretation "millimetres", only a thousandth of the given motion is left, which is
+    // In the interpretation "mm", only a thousandth of the given motion is left, which is
     // nearly the same as no motion.
-    const bool as_if_still = best->share < 1.02 * share_of(overlays, kInWorld);
+    const bool as_if_still = best->share < 1.3 * share_of(overlays, kInWorld);
     if (as_if_still || best->reading == kInSensor) {
         if (much && !nearly_right()) {
             result.findings.push_back(
@@ -203,7 +246,8 @@ void judge_poses(Preflight& result, const Recording& recording, const Samples& s
         return;
     }
     const auto& all = readings();
-    const auto& as_best = all[static_cast<std::size_t>(best - overlays.begin())];
+    const auto& as_best = *std::find_if(all.begin(), all.end(),
+                                        [&](const Reading& r) { return r.name == best->reading; });
     const bool upright_instead =
         hang_upside_down(samples, all.front()) && !hang_upside_down(samples, as_best);
     if (upright_instead || (much && !nearly_right())) {
@@ -249,6 +293,16 @@ void judge_unit(Preflight& result, const Samples& samples) {
     for (const auto& [i, sample] : samples) ranges.push_back(sample.typical_range);
     if (ranges.empty() || lie_in_world(samples)) return;
     const double typical = median(std::move(ranges));
+    constexpr double kNoLength = 1e7;  // [m]
+    if (!(typical < kNoLength)) {
+        result.findings.push_back(
+            {"the coordinates of most points are no lengths, but numbers without any order: their "
+             "bytes were read in the wrong way",
+             "check the order of bytes, the type and the number of the fields of a point (in a "
+             "bag: "
+             "is_bigendian)"});
+        return;
+    }
     if (typical < kTooFar) return;
     result.findings.push_back(
         {fmt::format("half of the points lie more than {:.0f} m from the sensor: they may be in "
@@ -390,9 +444,11 @@ Preflight check_recording(const Recording& recording, Depth depth) {
         result.unusable.push_back(stem(recording, i) + ": " + why);
     result.scans = samples.size();
     if (recording.info().has_poses) result.overlays = compare(samples, pairs);
+    if (names_quaternions(recording)) leave_out_quaternions(result.overlays);
     judge_stamps(result, recording);
     judge_order(result, recording, samples);
     judge_unit(result, samples);
+    if (judge_frame(result, recording, samples)) return result;
     if (!judge_sensors(result, recording)) judge_points(result, samples);
     if (result.overlays.empty()) return result;
     std::optional<bool> known;  // evaluated once, because it reads scans

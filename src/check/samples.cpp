@@ -115,6 +115,16 @@ float typical_range(const Points& points) {
     return median(std::move(ranges));
 }
 
+Eigen::Vector2f middle_of(const Points& points) {
+    std::vector<float> x, y;
+    for (const Point& p : points) {
+        if (!is_measured(p)) continue;
+        x.push_back(p.x());
+        y.push_back(p.y());
+    }
+    return {median(std::move(x)), median(std::move(y))};
+}
+
 Sample sample_of(const Recording& recording, const FullScan& scan) {
     const Point said = scan.T_world_sensor.translation().cast<float>();
     return {upright(scan.points),
@@ -122,6 +132,7 @@ Sample sample_of(const Recording& recording, const FullScan& scan) {
             share_of_doubles(as_measured(recording, scan)),
             count_near(scan.points, Point::Zero()),
             count_near(scan.points, said),
+            middle_of(scan.points),
             typical_range(scan.points),
             began_of(scan.cloud)};
 }

@@ -306,6 +306,13 @@ Json timing(const Whole& whole) {
     return json;
 }
 
+/// The row of the page that a scan of the recording has.
+std::ptrdiff_t row_of(const std::vector<ScanNote>& rows, std::size_t scan) {
+    return std::lower_bound(rows.begin(), rows.end(), scan,
+                            [](const ScanNote& row, std::size_t i) { return row.index < i; }) -
+           rows.begin();
+}
+
 /// What the page says of the run in words.
 void describe(PageRun& run, const Whole& whole) {
     const RunSummary& s = whole.summary;
@@ -326,6 +333,12 @@ void describe(PageRun& run, const Whole& whole) {
     run.info["counts"] = {{"static", s.still}, {"dynamic", s.dynamic}, {"unknown", s.unknown}};
     run.info["notes"] = whole.recording.info().notes;
     for (const std::string& note : s.notes) run.info["notes"].push_back(note);
+    run.info["alarms"] = Json::array();
+    for (const io::Alarm& alarm : s.alarms) {
+        run.info["alarms"].push_back({{"text", io::to_text(alarm, whole.recording)},
+                                      {"first", row_of(whole.scan_notes, alarm.first)},
+                                      {"last", row_of(whole.scan_notes, alarm.last)}});
+    }
     run.info["rejected"] = s.rejected;
     run.info["dropped"] = s.dropped;
 }

@@ -45,6 +45,7 @@ export function about({ meta }, withScores) {
   return h("article", {},
     h("h2", { class: "run-name" }, meta.name), meta.tile ? tileFacts(meta) : null, facts(meta),
     h("p", { class: "muted" }, [thinned(meta), playback(meta)].filter(Boolean).join(" ")),
+    lines("Alarms", meta.alarms?.map(({ text }) => text), "warning"),
     lines("Notes", meta.notes, "notes"), lines("Rejected scans", meta.rejected, "warning"), lines("Dropped scans", meta.dropped, "warning"),
     withScores && meta.scans ? h("section", {}, h("h2", {}, "Scores"), scoreTable([meta])) : null,
     meta.config ? h("details", {}, h("summary", {}, "Settings"), h("pre", { tabindex: 0 }, meta.config)) : null);

@@ -76,7 +76,7 @@ function fillTimeline(timeline, { run }) {
   const rows = stamps.map((_, row) => row);
   const played = rows.filter((row) => ofFrames?.[row] >= 0);
   const counts = run.arrays["path-counts"];
-  timeline.setRows({ frames: played.length ? played : rows, stamps, amounts: counts ? rows.map((row) => counts[4 * row + 1]) : [] });
+  timeline.setRows({ frames: played.length ? played : rows, stamps, amounts: counts ? rows.map((row) => counts[4 * row + 1]) : [], alarms: run.meta.alarms });
 }
 
 function panelsOf(session, runs) {

@@ -25,6 +25,7 @@ export class Timeline {
     this.frames = [];
     this.stamps = [];
     this.amounts = [];
+    this.alarms = [];
     this.slider = h("input", {
       type: "range", min: 0, max: 0, step: 1, value: 0, "aria-label": "Scan",
       oninput: () => store.set({ row: Number(this.slider.value), scan: true, playing: false }),
@@ -47,9 +48,12 @@ export class Timeline {
     new ResizeObserver(() => this.#drawStrip()).observe(this.strip);
   }
 
-  /** `frames`: rows that can be shown, ascending; `stamps`: by row, s; `amounts`: by row, drawn above the slider. */
-  setRows({ frames, stamps, amounts }) {
-    Object.assign(this, { frames, stamps, amounts });
+  /**
+   * `frames`: rows that can be shown, ascending; `stamps`: by row, s; `amounts`: by row, drawn above the slider;
+   * `alarms`: [{first, last}] of rows, marked there.
+   */
+  setRows({ frames, stamps, amounts, alarms = [] }) {
+    Object.assign(this, { frames, stamps, amounts, alarms });
     this.slider.max = Math.max(0, stamps.length - 1);
     this.element.classList.toggle("empty", stamps.length === 0);
     this.#drawStrip();
@@ -122,5 +126,10 @@ export class Timeline {
     context.lineTo(width, height);
     context.fillStyle = getComputedStyle(strip).color;
     context.fill();
+    context.fillStyle = getComputedStyle(strip).getPropertyValue("--removed");
+    for (const { first, last } of this.alarms) {
+      const [left, right] = [first, last].map((row) => (row / (amounts.length - 1)) * width);
+      context.fillRect(left, height - 2 * devicePixelRatio, Math.max(right - left, 2), 2 * devicePixelRatio);
+    }
   }
 }

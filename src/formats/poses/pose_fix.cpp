@@ -17,12 +17,21 @@ Pose with_rotation(const Pose& pose, const Eigen::Quaterniond& rotation) {
     return result;
 }
 
+/// Of world and sensor, with some axes reversed.
+Pose with_axes(const Pose& pose, const Eigen::Vector3d& signs) {
+    Pose result = pose;
+    result.linear() = signs.asDiagonal() * pose.linear() * signs.asDiagonal();
+    result.translation() = signs.cwiseProduct(pose.translation());
+    return result;
+}
+
 }  // namespace
 
 const std::vector<PoseFix>& pose_fixes() {
-    static const std::vector<PoseFix> all = {PoseFix::inverse, PoseFix::camera,
-                                             PoseFix::lidar,   PoseFix::wxyz,
-                                             PoseFix::xyzw,    PoseFix::millimetres};
+    static const std::vector<PoseFix> all = {
+        PoseFix::inverse, PoseFix::camera,      PoseFix::lidar,       PoseFix::wxyz,
+        PoseFix::xyzw,    PoseFix::millimetres, PoseFix::centimetres, PoseFix::transpose,
+        PoseFix::mirror,  PoseFix::ned};
     return all;
 }
 
@@ -42,6 +51,14 @@ std::string to_string(PoseFix fix) {
             return "xyzw";
         case PoseFix::millimetres:
             return "mm";
+        case PoseFix::centimetres:
+            return "cm";
+        case PoseFix::transpose:
+            return "transpose";
+        case PoseFix::mirror:
+            return "mirror";
+        case PoseFix::ned:
+            return "ned";
     }
     return "none";
 }
@@ -66,6 +83,15 @@ Pose fixed(PoseFix fix, const Pose& pose) {
         case PoseFix::millimetres:
             result.translation() *= 1e-3;
             return result;
+        case PoseFix::centimetres:
+            result.translation() *= 1e-2;
+            return result;
+        case PoseFix::transpose:
+            return with_rotation(pose, q.conjugate());
+        case PoseFix::mirror:
+            return with_axes(pose, {1.0, -1.0, 1.0});
+        case PoseFix::ned:
+            return with_axes(pose, {1.0, -1.0, -1.0});
     }
     return pose;
 }

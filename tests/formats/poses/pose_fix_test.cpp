@@ -11,8 +11,8 @@ namespace pose_fix_test {
 TEST(PoseFix, EachHasAName) {
     std::set<std::string> names{to_string(PoseFix::none)};
     for (const PoseFix fix : pose_fixes()) names.insert(to_string(fix));
-    EXPECT_EQ(names,
-              (std::set<std::string>{"none", "inverse", "camera", "lidar", "wxyz", "xyzw", "mm"}));
+    EXPECT_EQ(names, (std::set<std::string>{"none", "inverse", "camera", "lidar", "wxyz", "xyzw",
+                                            "mm", "cm", "transpose", "mirror", "ned"}));
 }
 
 TEST(PoseFix, EachUndoesItsMistake) {
@@ -21,10 +21,32 @@ TEST(PoseFix, EachUndoesItsMistake) {
     Pose millimetres = pose;
     millimetres.translation() *= 1000.0;
     EXPECT_TRUE(fixed(PoseFix::millimetres, millimetres).isApprox(pose, 1e-12));
+    Pose centimetres = pose;
+    centimetres.translation() *= 100.0;
+    EXPECT_TRUE(fixed(PoseFix::centimetres, centimetres).isApprox(pose, 1e-12));
+    Pose transposed = pose;
+    transposed.linear().transposeInPlace();
+    EXPECT_TRUE(fixed(PoseFix::transpose, transposed).isApprox(pose, 1e-12));
     EXPECT_TRUE(fixed(PoseFix::inverse, pose.inverse()).isApprox(pose, 1e-12));
     EXPECT_TRUE(fixed(PoseFix::camera, fixed(PoseFix::lidar, pose)).isApprox(pose, 1e-12));
     EXPECT_TRUE(fixed(PoseFix::wxyz, fixed(PoseFix::xyzw, pose)).isApprox(pose, 1e-12));
     EXPECT_TRUE(fixed(PoseFix::none, pose).isApprox(pose, 0.0));
+}
+
+/// A turn to the left, after which the sensor moves ahead: in a left-handed frame y is to the
+/// right, and so it is in a frame whose z axis points down.
+TEST(PoseFix, ReversedAxes) {
+    const auto left = Pose(Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitZ())) *
+                      Pose(Eigen::Translation3d(2, 0, 0.3));
+    const auto reversed = [&](double z, double yaw) {
+        return Pose(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ())) *
+               Pose(Eigen::Translation3d(2, 0, z));
+    };
+    EXPECT_TRUE(fixed(PoseFix::mirror, reversed(0.3, -0.5)).isApprox(left, 1e-12));
+    EXPECT_TRUE(fixed(PoseFix::ned, reversed(-0.3, -0.5)).isApprox(left, 1e-12));
+    for (const PoseFix fix : {PoseFix::mirror, PoseFix::ned}) {
+        EXPECT_TRUE(fixed(fix, fixed(fix, left)).isApprox(left, 1e-12));
+    }
 }
 
 /// Ahead, z for a camera, is x for a LiDAR.
