@@ -148,6 +148,7 @@ void assign_at_scans(Info& info, const std::function<std::optional<Pose>(double)
 /// Assigns poses from a file: interpolated if it has stamps, otherwise one row per scan.
 void assign_file_poses(Info& info, const std::filesystem::path& file) {
     PoseFile poses = read_poses(file);
+    info.notes.insert(info.notes.end(), poses.notes.begin(), poses.notes.end());
     if (poses.stamps.empty()) {
         if (poses.poses.size() != info.stamps.size()) {
             throw InputError(file, "",

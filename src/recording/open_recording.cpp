@@ -74,6 +74,7 @@ std::vector<double> assign_poses(Info& info, const Layout& layout, std::optional
     }
     if (!layout.poses) return times.empty() ? growing_times_in_names(layout.scans, unit) : times;
     const PoseFile file = read_poses(*layout.poses);
+    info.notes.insert(info.notes.end(), file.notes.begin(), file.notes.end());
     Match match = match_poses(layout, file, times, unit);
     info.T_world_sensor = std::move(match.poses);
     info.notes.push_back(match.note);
