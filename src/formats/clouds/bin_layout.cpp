@@ -123,9 +123,10 @@ BinFit fit_of(std::span<const BinSample> samples, const BinLayout& layout) {
             if (is_within(p, farthest)) plausible.push_back(p);
         }
     }
-    if (fit.points == 0 || plausible.empty()) return fit;
+    if (fit.points == 0) return fit;
     fit.plausible = static_cast<double>(plausible.size()) / static_cast<double>(fit.points);
     fit.finite = static_cast<double>(finite) / static_cast<double>(fit.points);
+    if (plausible.empty()) return fit;
     fit.roughness = roughness_of(plausible);
     describe_values(fit, plausible, layout.names.size());
     return fit;
@@ -143,6 +144,12 @@ bool is_two_points(const BinFit& fit) {
                     fit.whole.begin() + static_cast<std::ptrdiff_t>(half) + 3,
                     [&](double share) { return share < few; });
     return are_fractions && fit.range_of_second_half > unit;
+}
+
+/// True for points as PCL has them in memory: x y z 1, intensity and zeros.
+bool is_of_pcl(const BinFit& fit) {
+    return fit.size.size() == 8 && fit.fourth == 1.0 && fit.last == 0.0 && fit.size[5] == 0.0 &&
+           fit.size[6] == 0.0;
 }
 
 bool divides_most(std::span<const BinSample> samples, std::size_t bytes) {
@@ -200,8 +207,11 @@ BinChoice choose_bin_layout(std::span<const BinSample> samples) {
     for (const BinLayout& layout : std::span(bin_layouts()).subspan(1)) {
         if (!divides_most(samples, layout.point_bytes())) continue;
         const BinFit fit = fit_of(samples, layout);
-        const bool fits = fit.points >= fewest && fit.plausible >= least_share &&
-                          fit.roughness < least && !is_two_points(fit);
+        // Of points without intensity, KITTI's layout makes as many without a return.
+        const bool is_smooth = fit.roughness < least ||
+                               (is_of_pcl(fit) && fit.roughness < of_own.roughness / rough_ratio);
+        const bool fits = fit.points >= fewest && fit.plausible >= least_share && is_smooth &&
+                          !is_two_points(fit);
         if (!fits) continue;
         least = fit.roughness;
         best.layout = named(layout, fit);

@@ -75,6 +75,8 @@ TEST_F(BinPoints, ContentsTellTheLayout) {
           Case{ring_of_points<float>(6, {0.5, 0.25, 0.01}), "float32 x y z intensity c4 c5,"},
           Case{ring_of_points<float>(8, {1.0, 0.3, 0.0, 0.0, 0.0}),
                "float32 x y z c3 intensity c5 c6 c7,"},
+          Case{ring_of_points<float>(8, {1.0, 0.0, 0.0, 0.0, 0.0}),
+               "float32 x y z c3 intensity c5 c6 c7,"},
           Case{ring_of_points<double>(3, {}), "float64 x y z,"},
           Case{ring_of_points<double>(4, {0.3}), "float64 x y z intensity,"}}) {
         data.put("velodyne/0.bin", bytes);
@@ -115,6 +117,17 @@ TEST_F(BinPoints, FourFloatsStayFourFloats) {
         }
     }
     data.put("velodyne/0.bin", other);
+    EXPECT_FALSE(has_note(open(), "float32"));
+}
+
+TEST_F(BinPoints, FourFloatsMayBeInTheWorldOrInMillimetres) {
+    std::string far;
+    for (std::size_t i = 0; i < 640; ++i) {
+        for (std::size_t k = 0; k < 3; ++k)
+            far += bytes_of(static_cast<float>(4.5e5 + value_of(k, i)));
+        far += bytes_of(0.5F);
+    }
+    data.put("velodyne/0.bin", far);
     EXPECT_FALSE(has_note(open(), "float32"));
 }
 
