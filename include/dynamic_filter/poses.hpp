@@ -49,26 +49,34 @@ Pose fixed(PoseFix fix, const Pose& pose);
 /// Contents of a pose file.
 struct PoseFile {
     std::vector<Pose> poses;  ///< T_world_sensor as written; rows of NaN (lost tracking) stay NaN
-    std::vector<double> stamps;  ///< [s]; empty for KITTI rows without a stamp, and g2o
+    std::vector<double>
+        stamps;  ///< [s], not decreasing; empty for matrices without a stamp, and g2o
+    std::vector<std::string> notes;  ///< what was done to the rows, such as sorting; for the user
 };
 
-/// Reads a pose file. The format is recognized by the contents:
+/// Reads a pose file, UTF-8 or UTF-16. The format is recognized by the contents. Numbers have
+/// blanks or commas between them:
 ///
-/// - KITTI: rows of 12 numbers, a row-major 3x4 matrix; or of 13, the same after a stamp [s] or
-/// after
-///   an index that counts the rows.
+/// - KITTI: rows of 12 numbers, a row-major 3x4 matrix, or of 16, a 4x4 matrix; or either after a
+///   stamp [s] or after an index that counts the rows.
+/// - 4x4 matrices below each other, in lines of four numbers.
 /// - TUM: rows of t x y z qx qy qz qw.
-/// - CSV with a header: EuRoC (ns, x y z, qw qx qy qz), or other named columns.
-/// - CSV of 13 columns without a header: MulRan (ns and a row-major 3x4 matrix).
+/// - Rows below a line that names their columns: EuRoC (ns, x y z, qw qx qy qz), `rostopic echo
+/// -p`,
+///   or others.
+/// - MulRan: 13 numbers with commas, whole ns and a row-major 3x4 matrix.
 /// - g2o: the vertices VERTEX_SE3:QUAT id x y z qx qy qz qw, ordered by id; other lines are
 ///   skipped.
 ///
-/// Rotations within 1e-3 of orthogonal are made exact. Throws InputError for other rotations, for
-/// reflections, for quaternions more than 1 % from unit length, for wrong numbers of columns, and
-/// for two vertices with the same id.
+/// Rows that are not in the order of time are sorted, if the path gets no longer by that. Rotations
+/// within 1e-3 of orthogonal are made exact. Throws InputError for other rotations, for
+/// reflections, for quaternions more than 1 % from unit length, for wrong numbers of columns, for
+/// quaternions whose order is not known, and for two vertices with the same id.
 PoseFile read_poses(const std::filesystem::path& file);
 
-/// Reads a KITTI calib.txt: the 3x4 row after "Tr:" (velodyne to camera). Throws InputError.
+/// Reads a KITTI calib.txt: the 3x4 row after "Tr:", "Tr_velo_to_cam:" or "Tr_velo_cam:" (velodyne
+/// to camera); the latter two with the rotation after "R0_rect:" or "R_rect", if there is one.
+/// Throws InputError.
 Pose read_calib_tr(const std::filesystem::path& file);
 
 /// Reads stamps [s], one per line. Throws InputError.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <optional>
@@ -346,16 +347,30 @@ void judge_pose_stamps(Preflight& result, const Recording& recording, double ste
          kOtherPoses});
 }
 
+/// Times in whole seconds of scans that follow faster have the right unit, but tell no order.
+bool are_whole_seconds(const std::vector<double>& steps, const std::vector<double>& stamps) {
+    return stamps.front() == std::floor(stamps.front()) &&
+           std::find(steps.begin(), steps.end(), 1.0) != steps.end() &&
+           std::all_of(steps.begin(), steps.end(), [](double s) { return s == 0.0 || s == 1.0; });
+}
+
 void judge_stamps(Preflight& result, const Recording& recording) {
     if (!recording.info().measured_stamps || recording.size() < 3) return;
     std::vector<double> steps;
     for (std::size_t i = 1; i < recording.size(); ++i) {
         steps.push_back(recording.info().stamps[i] - recording.info().stamps[i - 1]);
     }
+    const bool are_rounded = are_whole_seconds(steps, recording.info().stamps);
     const double step = median(std::move(steps));
     judge_pose_stamps(result, recording, step);
     constexpr double kLongest = 20.0, kShortest = 1e-3;  // [s] between scans
     if (step < kLongest && step > kShortest) return;
+    if (are_rounded) {
+        result.findings.push_back(
+            {"the times of the scans were rounded to whole seconds, so several scans have the same",
+             "write the times with their fractions, or leave them out"});
+        return;
+    }
     for (const auto& [unit, seconds] : {std::pair{"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}}) {
         if (step * seconds > 0.5 * kLongest || step * seconds < 10.0 * kShortest) continue;
         result.findings.push_back({fmt::format("the stamps are not in seconds: scans are {:.4g} "

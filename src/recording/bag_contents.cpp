@@ -48,6 +48,9 @@ void add(BagContents& contents, const Message& message) {
             if (!driver_of(message.topic.type).empty()) {
                 contents.packets.emplace(message.topic.name, message.topic.type);
             }
+            if (!advice_on_cloud(message.topic.type).empty()) {
+                contents.other_clouds.emplace(message.topic.name, message.topic.type);
+            }
             break;
     }
 }

@@ -32,6 +32,8 @@ struct BagContents {
     std::map<std::string, PoseTopic> poses;
     // Types of topics with raw packets, from which a driver makes clouds.
     std::map<std::string, std::string> packets;
+    // Types of topics with clouds that are not read.
+    std::map<std::string, std::string> other_clouds;
     FrameTree frames;
     std::vector<std::string> notes, losses;
 };

@@ -42,7 +42,7 @@ bool is_part_of_another(const std::string& name, const std::map<std::string, Clo
 }
 
 /// Text such as "; /velodyne_packets is velodyne_msgs/VelodyneScan..." for topics with raw packets
-/// that a driver must decode first.
+/// that a driver must decode first, and with clouds of types that are not read.
 std::string tell_packets(const BagContents& contents) {
     std::string told;
     for (const auto& [name, type] : contents.packets) {
@@ -51,6 +51,9 @@ std::string tell_packets(const BagContents& contents) {
             "sensor_msgs/PointCloud2 that it publishes",
             name, type, driver_of(type));
     }
+    for (const auto& [name, type] : contents.other_clouds)
+        told +=
+            fmt::format("; {} holds {}, which is not read: {}", name, type, advice_on_cloud(type));
     return told;
 }
 
@@ -148,6 +151,7 @@ void assign_at_scans(Info& info, const std::function<std::optional<Pose>(double)
 /// Assigns poses from a file: interpolated if it has stamps, otherwise one row per scan.
 void assign_file_poses(Info& info, const std::filesystem::path& file) {
     PoseFile poses = read_poses(file);
+    info.notes.insert(info.notes.end(), poses.notes.begin(), poses.notes.end());
     if (poses.stamps.empty()) {
         if (poses.poses.size() != info.stamps.size()) {
             throw InputError(file, "",

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "recording/benchmark.hpp"
 
+#include <algorithm>
+
 #include "base/input.hpp"
 #include "dynamic_filter/error.hpp"
 #include "formats/clouds/pcd_header.hpp"
@@ -51,10 +53,12 @@ bool all_intensities_are_flags(const Info& info) {
 
 }  // namespace
 
+bool any_has_viewpoint(const Paths& scans) {
+    return std::any_of(scans.begin(), scans.end(), may_have_viewpoint);
+}
+
 void require_viewpoints(Info& info) {
-    for (const auto& scan : info.scan_files) {
-        if (may_have_viewpoint(scan)) return;
-    }
+    if (any_has_viewpoint(info.scan_files)) return;
     if (info.scan_files.size() > 1) {
         throw InputError(info.scan_files[0].parent_path(), "",
                          "no poses: VIEWPOINT of every scan is the identity; give poses with "

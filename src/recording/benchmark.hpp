@@ -7,6 +7,9 @@
 
 namespace dynamic_filter::io {
 
+/// True if any of the .pcd files has a VIEWPOINT other than the identity.
+bool any_has_viewpoint(const Paths& scans);
+
 /// Throws InputError if several scans have no pose except the identity. For a single scan, adds a
 /// note.
 void require_viewpoints(Info& info);

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "dynamic_filter/recording.hpp"
+#include "formats/clouds/cloud_size.hpp"
 
 namespace dynamic_filter::io {
 
@@ -25,7 +27,10 @@ struct Layout {
     std::vector<double> stamps;         ///< [s] stamps of the scans if the layout defines them
     std::filesystem::path pose_source;  ///< file of T_world_sensor
     std::optional<std::filesystem::path> poses, times, calib, labels, truth_map;
-    Cloud (*read)(const std::filesystem::path& scan) = read_cloud;
+    std::function<Cloud(const std::filesystem::path& scan)> read = read_cloud;
+    /// Throws InputError if the size of a scan's file alone shows that it is damaged.
+    std::function<void(const std::filesystem::path& scan)> refuse_bad_size =
+        [](const std::filesystem::path& scan) { io::refuse_bad_size(scan); };
     std::vector<std::string> notes;
 };
 

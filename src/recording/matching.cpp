@@ -99,6 +99,22 @@ std::string misfit_text(const std::vector<double>& poses, const std::vector<doub
                                  limits_for(times).nearest, times.front(), gap));
 }
 
+/// Throws if most rows have the stamp of the row before, which then tells no scan its pose.
+void refuse_rounded_stamps(const Layout& layout, const PoseFile& file) {
+    std::size_t same = 0;
+    for (std::size_t i = 1; i < file.stamps.size(); ++i) {
+        if (file.stamps[i] == file.stamps[i - 1]) ++same;
+    }
+    if (2 * same <= file.stamps.size()) return;
+    throw InputError(
+        *layout.poses, "",
+        fmt::format(
+            "its stamps are rounded: {} of {} rows have the stamp of the row before, such as "
+            "{}; expected one for each pose, to match them to {} scans; write all digits, or "
+            "give --poses none, which finds the poses",
+            same, file.stamps.size(), file.stamps[file.stamps.size() / 2], layout.scans.size()));
+}
+
 Match match_by_time(const Layout& layout, const PoseFile& file, const std::vector<double>& times,
                     const char* source) {
     Match match{.poses = {}, .stamps = times, .note = {}};
@@ -133,15 +149,17 @@ Match match_by_order(const PoseFile& file, const std::vector<double>& own) {
     return {file.poses, own, note, file.stamps};
 }
 
-Match match_by_rows(const PoseFile& file, const std::vector<std::size_t>& rows,
-                    const std::vector<double>& times) {
+Match match_by_rows(const Layout& layout, const PoseFile& file,
+                    const std::vector<std::size_t>& rows, const std::vector<double>& times) {
     Match match{.poses = {}, .stamps = times, .note = {}};
     for (const std::size_t row : rows) {
         match.poses.push_back(file.poses[row]);
         if (times.empty() && !file.stamps.empty()) match.stamps.push_back(file.stamps[row]);
     }
-    match.note = fmt::format("{} scans matched to {} poses by the numbers of their names",
-                             rows.size(), file.poses.size());
+    match.note = fmt::format(
+        "{} scans matched to {} poses by the numbers of their names: the first one is {}, "
+        "which has row {} (from 0)",
+        rows.size(), file.poses.size(), layout.scans.front().filename().string(), rows.front());
     return match;
 }
 
@@ -178,12 +196,17 @@ std::vector<std::size_t> rows_in_names(const Paths& scans, std::size_t rows) {
         if (!follows || *number >= first_time) return {};
         numbers.push_back(*number);
     }
-    // The last scan is that of the last row, so this tells whether the first row is number 0 or 1.
-    if (numbers.empty() || scans.size() >= rows) return {};
+    if (numbers.empty() || scans.size() >= rows || numbers.back() > rows) return {};
+    // If the last scan is that of the last row, this tells whether the first row is number 0 or 1.
+    if (numbers.back() == rows) {
+        if (numbers.front() == 0) return {};
+        for (std::size_t& number : numbers) --number;
+        return numbers;
+    }
     if (numbers.back() + 1 == rows) return numbers;
-    if (numbers.back() != rows || numbers.front() == 0) return {};
-    for (std::size_t& number : numbers) --number;
-    return numbers;
+    // Without gaps, the scans may have been numbered anew.
+    const bool has_gaps = numbers.back() - numbers.front() + 1 > numbers.size();
+    return has_gaps || numbers.front() > 1 ? numbers : std::vector<std::size_t>{};
 }
 
 Match match_poses(const Layout& layout, const PoseFile& given, const std::vector<double>& times,
@@ -201,6 +224,7 @@ Match match_poses(const Layout& layout, const PoseFile& given, const std::vector
         const bool time_decides = factor == 1.0 && !repeat(file.stamps) && !repeat(own) &&
                                   are_of_one_clock(file.stamps, own);
         if (!are_as_many || time_decides) {
+            if (!are_as_many) refuse_rounded_stamps(layout, file);
             const char* source = times.empty()  ? "file names"
                                  : layout.times ? "times.txt"
                                                 : "the recording's stamps";
@@ -212,7 +236,7 @@ Match match_poses(const Layout& layout, const PoseFile& given, const std::vector
         return match_by_order(file, own);
     }
     if (const auto rows = rows_in_names(layout.scans, file.poses.size()); !rows.empty()) {
-        return match_by_rows(file, rows, times);
+        return match_by_rows(layout, file, rows, times);
     }
     throw InputError(
         *layout.poses, "",

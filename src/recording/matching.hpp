@@ -29,7 +29,7 @@ struct Match {
 double unit_between(const std::vector<double>& poses, const std::vector<double>& scans);
 
 /// The row of each scan among `rows` rows, if the scans are named by the numbers of the rows and
-/// some are missing; empty if the names do not tell it.
+/// some are missing, at the end or between others; empty if the names do not tell it.
 std::vector<std::size_t> rows_in_names(const Paths& scans, std::size_t rows);
 
 /// Where poses and scans have stamps of one clock, time decides; a scan that no pose is near to has

@@ -74,6 +74,7 @@ std::vector<double> assign_poses(Info& info, const Layout& layout, std::optional
     }
     if (!layout.poses) return times.empty() ? growing_times_in_names(layout.scans, unit) : times;
     const PoseFile file = read_poses(*layout.poses);
+    info.notes.insert(info.notes.end(), file.notes.begin(), file.notes.end());
     Match match = match_poses(layout, file, times, unit);
     info.T_world_sensor = std::move(match.poses);
     info.notes.push_back(match.note);
@@ -135,9 +136,9 @@ RecordingParts open_folder(const std::filesystem::path& data, const OpenOptions&
         !options.without_poses && (layout.poses_in_scans || !info.T_world_sensor.empty());
     if (layout.poses_in_scans && info.has_poses) require_viewpoints(info);
     RecordingParts parts{.info = std::move(info),
-                         .read_cloud = [files = layout.scans, read = layout.read](std::size_t i) {
-                             return read(files.at(i));
-                         }};
+                         .read_cloud = [files = layout.scans, read = layout.read](
+                                           std::size_t i) { return read(files.at(i)); },
+                         .refuse_bad_size = layout.refuse_bad_size};
     select(parts, options.first, options.last, options.stride);
     if (layout.truth_in_intensity) find_intensity_truth(parts.info, layout);
     return parts;

@@ -178,8 +178,10 @@ Recording::Recording() : Recording(Info{}) {}
 Recording::Recording(Info info) {
     const auto files = info.scan_files;
     const auto read = [files](std::size_t i) { return io::read_cloud(files.at(i)); };
-    parts_ = std::make_shared<const RecordingParts>(
-        RecordingParts{.info = std::move(info), .read_cloud = read});
+    parts_ = std::make_shared<const RecordingParts>(RecordingParts{
+        .info = std::move(info), .read_cloud = read, .refuse_bad_size = [](const auto& file) {
+            io::refuse_bad_size(file);
+        }});
 }
 
 Recording::Recording(RecordingParts parts)
@@ -193,7 +195,9 @@ void Recording::check(std::size_t i) const {
     const std::filesystem::path& file = info().scan_files.at(i);
     check_pose(info(), i);
     refuse_repeat(info(), i);
-    if (!is_of_bag(info()) && !is_folder(file)) refuse_bad_size(file);
+    if (parts_->refuse_bad_size && !is_of_bag(info()) && !is_folder(file)) {
+        parts_->refuse_bad_size(file);
+    }
 }
 
 FullScan Recording::read(std::size_t i) const {

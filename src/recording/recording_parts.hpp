@@ -15,6 +15,9 @@ struct RecordingParts {
     Info info;
     /// Reads the cloud of scan i. Throws InputError.
     std::function<Cloud(std::size_t)> read_cloud;
+    /// Throws InputError if the size of a scan's file alone shows that it is damaged; empty for
+    /// scans that are no files.
+    std::function<void(const std::filesystem::path&)> refuse_bad_size{};
     bool with_times = false;  ///< scans have the times of their points
     /// Of the sensor, parallel to the scans, or empty: the motion within scans that have times is
     /// undone with them.

@@ -321,6 +321,14 @@ TEST_F(Stamps, OfNoUnitAreNamed) {
     expect_only(with(1e12, 0.0), "scans are 1e+12 s apart", "should be in seconds");
 }
 
+TEST_F(Stamps, InWholeSecondsOfFasterScansAreNamed) {
+    const Recording rounded = changed(open(), [](Info& info) {
+        info.measured_stamps = true;
+        info.stamps = {7, 7, 7, 8, 8};
+    });
+    expect_only(check_recording(rounded, Depth::quick), "rounded to whole seconds", "fractions");
+}
+
 TEST_F(Stamps, OfPosesThatAreNotThoseOfTheScansAreNamed) {
     expect_only(with(0.125, 1e9, 0.25), "0.25 s after those of the scans, which are 0.125 s apart",
                 "--poses");

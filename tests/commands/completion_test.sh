@@ -22,7 +22,7 @@ offers "default paper" run data --preset ""
 offers "paper" run data --preset = p
 offers "auto on off" run data --refine ""
 offers "inverse mm" check data --pose-fix ""
-offers "bag nuscenes kitti-360 kitti-raw apollo mulran pairs glim kitti benchmark folder" check data --format ""
+offers "bag nuscenes kitti-360 kitti-raw apollo mulran pairs glim hdl kitti benchmark folder" check data --format ""
 offers "map.voxel_size=" run data --set map.v
 offers "crowd street square hall jam platform city" simulate ""
 offers "vlp16 os64" simulate crowd --sensor ""

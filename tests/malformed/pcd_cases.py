@@ -102,6 +102,8 @@ VALID = [
     good("pcd no points", header("binary", 0), []),
     good("pcd no COUNT", binary(COUNT=None), POINTS),
     good("pcd organised with nan", binary(rows(HOLED), WIDTH=2, HEIGHT=2, POINTS=4), HOLED),
+    good("pcd padding of COUNT 0", binary(FIELDS="x y z _", SIZE="4 4 4 1", TYPE="F F F U",
+                                          COUNT="1 1 1 0"), POINTS),
     good("pcd padding of COUNT 10", binary(PADDED, FIELDS="x y z _", SIZE="4 4 4 1", TYPE="F F F U",
                                            COUNT="1 1 1 10"), POINTS),
     good("pcd z i x y", binary(X_LAST, FIELDS="z intensity x y", SIZE="4 4 4 4", TYPE="F F F F",

@@ -41,6 +41,8 @@ PROPERTIES = [
     bad("ply no x y z", binary(properties=XYZ.replace("float ", "float no_"))),
     bad("ply x only", header(properties="property float x\n") + "1.5\n-4.25\n7\n"),
     bad("ply x a list", binary(b"".join(b"\1" + rows([p]) for p in POINTS), properties=LIST_X), POINTS),
+    bad("ply list of a vertex cut", binary(rows(POINTS[:1]) + b"\2\7", points=1,
+                                           properties=XYZ + "property list uchar uchar view\n"), POINTS[:1]),
     bad("ply unknown type", binary(properties=XYZ.replace("float x", "quad x"))),
     bad("ply property before element", "ply\nformat ascii 1.0\n" + XYZ + "end_header\n" + text(POINTS)),
     bad("ply 2^32-1 faces first", binary(before=FACE.replace("1", str(MANY), 1))),
@@ -70,6 +72,8 @@ VALID = [
     good("ply doubles", binary(rows(POINTS, "d"), properties=XYZ.replace("float", "double")), POINTS),
     good("ply faces first", binary(b"\3" + struct.pack("<3i", 0, 1, 2) + rows(POINTS), before=FACE), POINTS),
     good("ply ascii faces first", header(before=FACE) + "3 0 1 2\n" + text(POINTS), POINTS),
+    good("ply vertices with lists", binary(b"".join(rows([p]) + b"\2\7\7" for p in POINTS),
+                                           properties=XYZ + "property list uchar uchar view\n"), POINTS),
     good("ply 1000 properties", binary(WIDE, properties=MANY_NAMES), POINTS),
 ]
 

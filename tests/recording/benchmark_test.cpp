@@ -45,11 +45,16 @@ TEST_F(BenchmarkTest, NoPoses) {
     put_pcd("pcd/000000.pcd", 0.0, 1.0F);
     EXPECT_TRUE(has_note(open(), "identity"));
     put_pcd("pcd/000001.pcd", 0.0, 1.0F);
-    EXPECT_HAS(open_error(), "VIEWPOINT of every scan is the identity");
+    EXPECT_EQ(open().info().layout, "folder");
+    EXPECT_FALSE(open().info().has_poses);
     OpenOptions options;
+    options.layout = "benchmark";
+    EXPECT_HAS(open_error(options), "VIEWPOINT of every scan is the identity");
     options.poses = data.put("p.txt", kitti_rows(2));
-    const Recording recording = open(options);
-    EXPECT_EQ(recording.read(1).points[0].x(), 9.0F);
+    EXPECT_EQ(open(options).read(1).points[0].x(), 9.0F);
+    data.put("poses.txt", kitti_rows(2));
+    EXPECT_EQ(open().read(1).T_world_sensor.translation().x(), 1.0);
+    EXPECT_EQ(open().read(1).points[0].x(), 10.0F);
 }
 
 }  // namespace benchmark_test

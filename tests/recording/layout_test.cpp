@@ -16,6 +16,26 @@ TEST_F(LayoutTest, NothingThere) {
     EXPECT_HAS(open_error(), "no *.bin");
 }
 
+TEST_F(LayoutTest, TextsWithTitlesOfPointsAreScans) {
+    data.put("scans/frame (Frame 0000).csv", "\"Points:0\",\"Points:1\",\"Points:2\"\n1,2,3\n");
+    data.put("scans/frame (Frame 0001).csv", "X,Y,Z\n4,5,6\n");
+    data.put("scans/poses.csv", "x,y,z,qx,qy,qz,qw\n0,0,0,0,0,0,1\n0,0,0,0,0,0,1\n");
+    data.put("scans/notes.csv", "a,b\n1,2\n");
+    const Recording recording = open();
+    ASSERT_EQ(recording.size(), 2U);
+    EXPECT_TRUE(recording.info().has_poses);
+    EXPECT_EQ(recording.read(1).points, (Points{{4, 5, 6}}));
+    put_bins("scans", 1);  // other scans go first
+    data.put("scans/poses.csv", "x,y,z,qx,qy,qz,qw\n0,0,0,0,0,0,1\n");
+    EXPECT_EQ(open().size(), 1U);
+}
+
+TEST_F(LayoutTest, CompressedScansAreNamedWithWhatUnpacksThem) {
+    data.put("scans/7.laz", "");
+    EXPECT_HAS(open_error(), "holds 1 .laz files");
+    EXPECT_HAS(open_error(), "pdal translate 7.laz 7.las");
+}
+
 TEST_F(LayoutTest, AnArchiveIsToBeUnpacked) {
     for (const char* head : {"PK\x03\x04", "\x1F\x8B"}) {
         const auto file = data.put("recording.zip", std::string(head) + std::string(50, '\0'));

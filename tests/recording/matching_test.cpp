@@ -131,6 +131,18 @@ TEST_F(MatchingTest, StampsThatRepeatTellNoOrder) {
     }
 }
 
+TEST_F(MatchingTest, RoundedStampsOfPosesAreNamed) {
+    for (const char* name : {"1700000000.2.bin", "1700000000.4.bin"}) {
+        data.put(std::string("scans/") + name, floats({1, 2, 3, 4}));
+    }
+    data.put("poses.csv",
+             "#timestamp [ns],x,y,z,qw,qx,qy,qz\n1.700000e+18,0,0,0,1,0,0,0\n"
+             "1.700000e+18,1,0,0,1,0,0,0\n1.700000e+18,2,0,0,1,0,0,0\n");
+    const std::string error = open_error();
+    EXPECT_HAS(error, "stamps are rounded: 2 of 3 rows");
+    EXPECT_HAS(error, "--poses none");
+}
+
 TEST_F(MatchingTest, RowsOfLostTrackingStayLost) {
     put_bins("scans", 4);
     data.put("times.txt", "10\n10.2\n10.4\n10.6\n");
@@ -225,6 +237,10 @@ TEST_F(MatchingTest, NamesThatAreTheNumbersOfTheRows) {
     EXPECT_EQ(rows_in_names({"1.bin", "3.bin", "5.bin"}, 6), (std::vector<std::size_t>{1, 3, 5}));
     EXPECT_TRUE(rows_in_names({"0.bin", "1.bin", "2.bin"}, 4).empty()) << "is a row too many?";
     EXPECT_TRUE(rows_in_names({"a.bin", "3.bin"}, 4).empty());
+    EXPECT_EQ(rows_in_names({"0.bin", "2.bin"}, 9), (std::vector<std::size_t>{0, 2}));
+    EXPECT_EQ(rows_in_names({"5.bin", "6.bin"}, 9), (std::vector<std::size_t>{5, 6}));
+    EXPECT_TRUE(rows_in_names({"1.bin", "2.bin"}, 9).empty()) << "numbered anew?";
+    EXPECT_TRUE(rows_in_names({"0.bin", "12.bin"}, 9).empty());
 }
 
 TEST_F(MatchingTest, TimesFile) {

@@ -35,8 +35,10 @@ Open opener_by_content(const fs::path& file) {
 }
 
 bool is_compressed_bag(const fs::path& path) {
-    const std::string name = to_lower(path.filename().string());
-    return name.ends_with(".db3.zstd") || name.ends_with(".mcap.zstd");
+    fs::path inner = path.filename();
+    const std::string packing = to_lower(inner.extension().string());
+    if (packing != ".zstd" && packing != ".zst") return false;
+    return opener_for(inner.replace_extension()) != nullptr;
 }
 
 /// The bag files of a folder in the order of their names, which contain numbers. Only files of one
@@ -59,7 +61,9 @@ std::vector<fs::path> bags_in(const fs::path& folder) {
 void refuse_mixture(const std::vector<fs::path>& files, const fs::path& folder) {
     for (const fs::path& file : files) {
         if (is_compressed_bag(file)) {
-            throw InputError(file, "", "is compressed as a whole; run `zstd -d` on it first");
+            throw InputError(
+                file, "",
+                "is compressed as a whole; unpack it first with `zstd -d " + file.string() + "`");
         }
         if (opener_for(file) == opener_for(files.front())) continue;
         throw InputError(folder, "",
@@ -83,7 +87,9 @@ std::string plain_type(const std::string& type) {
 
 bool Bag::recognises(const fs::path& path) {
     std::error_code ignored;
-    if (!fs::is_directory(path, ignored)) return opener_for(path) != nullptr;
+    if (!fs::is_directory(path, ignored)) {
+        return opener_for(path) != nullptr || is_compressed_bag(path);
+    }
     return fs::exists(path / "metadata.yaml", ignored) || !bags_in(path).empty();
 }
 
@@ -97,6 +103,7 @@ Bag::Bag(const fs::path& path) {
         refuse_mixture(paths_, path);
     } else {
         paths_ = {path};
+        refuse_mixture(paths_, path);
     }
     for (const fs::path& file : paths_) {
         if (read_head(file, 1).empty()) {

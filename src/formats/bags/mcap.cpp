@@ -12,6 +12,7 @@
 #include "formats/bags/decompress.hpp"
 #include "formats/bags/mcap_format.hpp"
 #include "formats/byte_reader.hpp"
+#include "formats/messages/packets.hpp"
 
 namespace dynamic_filter::io {
 namespace {
@@ -77,12 +78,25 @@ private:
         const auto id = in.number<std::uint16_t>();
         const auto schema = in.number<std::uint16_t>();
         const std::string name(in.text()), encoding(in.text());
-        if (encoding != "cdr" && encoding != "ros1") others_.insert(id);
         const auto found = schemas_.find(schema);
+        const bool is_other = encoding != "cdr" && encoding != "ros1";
+        if (is_other && others_.insert(id).second && found != schemas_.end()) {
+            tell_cloud(name, found->second, encoding);
+        }
         if (found == schemas_.end() || others_.contains(id)) return;
         topics_.try_emplace(
             id, Topic{name, plain_type(found->second),
                       encoding == "cdr" ? MessageEncoding::cdr : MessageEncoding::ros1});
+    }
+    /// Clouds in another encoding are no ROS messages, so they are not read, but they may be all
+    /// there is.
+    void tell_cloud(const std::string& topic, const std::string& type,
+                    const std::string& encoding) {
+        const std::string advice = advice_on_cloud(type);
+        if (advice.empty()) return;
+        defects_.push_back(
+            {fmt::format("{} holds {} ({}), which is not read: {}", topic, type, encoding, advice),
+             false});
     }
     void use_message(ByteReader& in, std::uint64_t chunk, std::uint64_t offset) {
         const auto id = in.number<std::uint16_t>();

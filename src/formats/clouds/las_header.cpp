@@ -159,8 +159,9 @@ private:
     }
 
     /// Reads the records between header and points. Each takes bytes, so a wrong number of records
-    /// cannot cause an endless loop.
+    /// cannot cause an endless loop. Several descriptions of Extra Bytes follow each other.
     void find_extra_fields() {
+        std::size_t at = format_bytes[format_];
         ByteReader reader(bytes_.first(header_.begin), header_size_);
         for (std::uint32_t i = 0; i < records_; ++i) {
             reader.read(2);
@@ -170,20 +171,18 @@ private:
             reader.read(32);
             const auto record = reader.read(length);
             if (id == las_extra_id && user.substr(0, user.find('\0')) == las_spec) {
-                return add_extra_fields(record);  // a second record would describe the same bytes
+                at = add_extra_fields(record, at);
             }
         }
     }
 
-    void add_extra_fields(std::span<const std::byte> record) {
-        std::size_t at = format_bytes[format_];
+    /// Adds the fields that begin `at` this byte of a point; returns where they end. Those beyond
+    /// the record of a point are described, but not there.
+    std::size_t add_extra_fields(std::span<const std::byte> record, std::size_t at) {
         for (ByteReader entries(record); entries.left() >= las_extra_bytes;) {
             at += add_extra_field(ByteReader(entries.read(las_extra_bytes)), at);
         }
-        if (at > header_.record_bytes) {
-            throw Malformed(fmt::format("Extra Bytes need {} bytes a point, which has {}", at,
-                                        header_.record_bytes));
-        }
+        return at;
     }
 
     /// Adds an extra field; returns the number of bytes that it takes in a point.
@@ -204,7 +203,8 @@ private:
         std::array<double, 6> v{};
         for (double& value : v) value = entry.number<double>();
         const bool scaled = (options & (has_scale | has_offset)) != 0;
-        for (std::size_t i = 0; i < count && !name.empty(); ++i) {
+        const bool is_there = at + count * size_of(type) <= header_.record_bytes;
+        for (std::size_t i = 0; i < count && is_there && !name.empty(); ++i) {
             LasField field = plain(count == 1 ? name : fmt::format("{}_{}", name, i), type,
                                    at + i * size_of(type));
             if (scaled) field.type = FieldType::f64;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <map>
 #include <optional>
 
 #include "base/input.hpp"
@@ -17,9 +19,11 @@ namespace {
 constexpr std::uint64_t most_columns = 1024;
 
 struct NpyHeader {
+    std::vector<Column> columns;  ///< of a structured array; otherwise empty
     FieldType type = FieldType::f32;
     bool big_endian = false;
-    std::uint64_t rows = 0, columns = 0;
+    bool column_by_column = false;  ///< true: all x come before all y
+    std::uint64_t rows = 0, count = 0;
     std::size_t begin = 0;  ///< [bytes] offset of the values
 };
 
@@ -35,10 +39,99 @@ std::string_view value_of(std::string_view dictionary, std::string_view key) {
     throw Malformed("the header has no " + quote(key));
 }
 
+std::optional<FieldType> numpy_type(std::string_view code) {
+    static const std::map<std::string, FieldType, std::less<>> types = {
+        {"i1", FieldType::i8},  {"u1", FieldType::u8},  {"b1", FieldType::u8},
+        {"i2", FieldType::i16}, {"u2", FieldType::u16}, {"i4", FieldType::i32},
+        {"u4", FieldType::u32}, {"i8", FieldType::i64}, {"u8", FieldType::u64},
+        {"f4", FieldType::f32}, {"f8", FieldType::f64}};
+    const auto found = types.find(code);
+    return found == types.end() ? std::nullopt : std::optional(found->second);
+}
+
+/// Reads [('x', '<f4'), ('y', '<f4'), ...], the fields of a structured array.
+class FieldList {
+public:
+    explicit FieldList(std::string_view text) : text_(text) {}
+
+    void read(NpyHeader& header) {
+        expect('[');
+        while (!skip(']')) {
+            expect('(');
+            const std::string name(quoted());
+            expect(',');
+            add(header, name, quoted());
+            if (skip(',') && !peek(')')) throw Malformed(in_array(name));
+            expect(')');
+            (void)skip(',');
+        }
+        if (header.columns.empty()) throw Malformed("the structured array has no fields");
+    }
+
+private:
+    static std::string in_array(const std::string& name) {
+        return "field " + quote(name) +
+               " of the structured array is itself an array, or has a "
+               "title; expected one number for each field";
+    }
+
+    void add(NpyHeader& header, const std::string& name, std::string_view code) {
+        const char order = code.empty() ? ' ' : code.front();
+        const std::string_view kind = code.substr(std::min<std::size_t>(1, code.size()));
+        if (kind.starts_with('V') && name.empty()) {
+            const auto bytes = parse_count(kind.substr(1));
+            if (!bytes || *bytes > most_padding) throw Malformed("padding of " + quote(code));
+            if (*bytes > 0)
+                header.columns.push_back(
+                    {"_", FieldType::u8, static_cast<std::uint32_t>(*bytes), true});
+            return;
+        }
+        const auto type = numpy_type(kind);
+        if (!type || std::string_view("<>|").find(order) == std::string_view::npos) {
+            throw Malformed("field " + quote(name) + " has values of type " + quote(code) +
+                            "; expected integers, float32 or float64");
+        }
+        if (header.columns.size() == most_columns) throw Malformed("too many fields");
+        if (order != '|') {
+            if (has_order_ && header.big_endian != (order == '>'))
+                throw Malformed("has fields of both byte orders; save them in one");
+            header.big_endian = order == '>';
+            has_order_ = true;
+        }
+        header.columns.push_back({name, *type});
+    }
+
+    bool peek(char c) {
+        text_ = trim(text_);
+        return text_.starts_with(c);
+    }
+    bool skip(char c) {
+        if (!peek(c)) return false;
+        text_.remove_prefix(1);
+        return true;
+    }
+    void expect(char c) {
+        if (!skip(c)) throw Malformed("the list of fields is cut off, or no list of pairs");
+    }
+    std::string_view quoted() {
+        const bool is_single = peek('\'');
+        const std::size_t end = text_.find(is_single ? '\'' : '"', 1);
+        if ((!is_single && !peek('"')) || end == std::string_view::npos)
+            throw Malformed("the list of fields has no text in quotes where it must have one");
+        const std::string_view inner = text_.substr(1, end - 1);
+        text_.remove_prefix(end + 1);
+        return inner;
+    }
+
+    static constexpr std::uint64_t most_padding = 1 << 16;
+    std::string_view text_;
+    bool has_order_ = false;
+};
+
 void read_type(NpyHeader& header, std::string_view value) {
     if (value.starts_with('[')) {
-        throw Malformed(
-            "a structured array is not read; save a plain one with x y z [intensity] as columns");
+        FieldList(value).read(header);
+        return name_in_small_letters(header.columns);
     }
     if (value.size() < 5) throw Malformed("the header's 'descr' is cut off");
     const std::string_view code = value.substr(1, value.find(value[0], 1) - 1);
@@ -53,23 +146,53 @@ void read_type(NpyHeader& header, std::string_view value) {
     header.big_endian = code[0] == '>';
 }
 
-void read_shape(NpyHeader& header, std::string_view value) {
+/// The numbers of a tuple. Throws for other text.
+std::vector<std::uint64_t> sizes_in(std::string_view value) {
     const std::size_t end = value.find(')');
     if (!value.starts_with('(') || end == std::string_view::npos) {
         throw Malformed("the header's 'shape' is no tuple");
     }
-    auto sizes = split_at(value.substr(1, end - 1), ',');
-    if (sizes.back().empty()) sizes.pop_back();
-    const auto rows = sizes.empty() ? std::nullopt : parse_count(sizes[0]);
-    const auto columns = sizes.size() == 2 ? parse_count(sizes[1]) : std::nullopt;
-    if (!rows || !columns || *columns < 3 || *columns > most_columns) {
+    auto texts = split_at(value.substr(1, end - 1), ',');
+    if (texts.back().empty()) texts.pop_back();
+    std::vector<std::uint64_t> sizes;
+    for (const auto text : texts) {
+        const auto size = parse_count(text);
+        if (!size) throw Malformed("an array of shape " + quote(value.substr(0, end + 1)));
+        sizes.push_back(*size);
+    }
+    return sizes;
+}
+
+/// True for an array with x, y, z... as its rows, such as 4 x 20000: no cloud has so few points
+/// with so many fields.
+bool is_sideways(std::uint64_t first, std::uint64_t second) {
+    constexpr std::uint64_t most_fields = 8, fewest_points = 32;
+    return first >= 3 && first <= most_fields && second >= fewest_points;
+}
+
+void read_shape(NpyHeader& header, std::string_view value, bool is_fortran) {
+    const std::vector<std::uint64_t> sizes = sizes_in(value);
+    if (!header.columns.empty()) {  // of any shape: each entry is a point
+        header.rows = 1;
+        for (const std::uint64_t size : sizes) {
+            const auto rows = product(header.rows, size);
+            if (!rows) throw Malformed("its shape overflows");
+            header.rows = *rows;
+        }
+        return;
+    }
+    const bool is_flat = sizes.size() == 2;
+    const bool sideways = is_flat && is_sideways(sizes[0], sizes[1]);
+    const std::uint64_t columns = is_flat ? sizes[sideways ? 0 : 1] : 0;
+    if (columns < 3 || columns > most_columns) {
         throw Malformed(
             fmt::format("an array of shape {}; expected N x k, k from 3 to {}: x y z "
                         "[intensity ...]",
-                        quote(value.substr(0, end + 1)), most_columns));
+                        quote(value.substr(0, value.find(')') + 1)), most_columns));
     }
-    header.rows = *rows;
-    header.columns = *columns;
+    header.rows = sizes[sideways ? 1 : 0];
+    header.count = columns;
+    header.column_by_column = sideways != is_fortran;
 }
 
 NpyHeader parse_header(std::span<const std::byte> bytes) {
@@ -86,18 +209,16 @@ NpyHeader parse_header(std::span<const std::byte> bytes) {
     NpyHeader header;
     header.begin = reader.at();
     read_type(header, value_of(dictionary, "descr"));
-    if (!value_of(dictionary, "fortran_order").starts_with("False")) {
-        throw Malformed(
-            "an array in Fortran order is not read; save numpy.ascontiguousarray of it");
-    }
-    read_shape(header, value_of(dictionary, "shape"));
+    const bool is_fortran = value_of(dictionary, "fortran_order").starts_with("True");
+    read_shape(header, value_of(dictionary, "shape"), is_fortran);
     return header;
 }
 
 std::vector<Column> columns_of(const NpyHeader& header) {
+    if (!header.columns.empty()) return header.columns;
     static const std::array names = {"x", "y", "z", "intensity"};
     std::vector<Column> columns;
-    for (std::size_t i = 0; i < header.columns; ++i) {
+    for (std::size_t i = 0; i < header.count; ++i) {
         columns.push_back({i < names.size() ? names[i] : fmt::format("c{}", i), header.type});
     }
     return columns;
@@ -115,15 +236,20 @@ Cloud read_npy(const std::filesystem::path& file) {
     }
     const std::vector<Column> columns = columns_of(header);
     Cloud cloud = empty_cloud(columns, file);
-    const std::size_t present = (bytes.size() - header.begin) / cloud.point_bytes;
+    const std::size_t stride = record_bytes(columns);
+    const std::size_t present = (bytes.size() - header.begin) / stride;
     if (header.rows > present) {
         throw InputError(file, fmt::format("byte {}", bytes.size()),
                          fmt::format("ends after {} of {} points of {} bytes; it is truncated",
-                                     present, header.rows, cloud.point_bytes));
+                                     present, header.rows, stride));
     }
-    read_rows(cloud, columns, header.rows, std::move(bytes), header.begin);
+    if (header.column_by_column) {
+        read_columns(cloud, columns, header.rows, std::span(bytes).subspan(header.begin));
+    } else {
+        read_rows(cloud, columns, header.rows, std::move(bytes), header.begin);
+    }
     if (header.big_endian) swap_bytes(cloud);
-    return cloud;
+    return with_real_coordinates(std::move(cloud));
 }
 
 }  // namespace dynamic_filter::io

@@ -101,7 +101,7 @@ Cloud read_pcd(const std::filesystem::path& file) {
             read_compressed_body(cloud, header, bytes, lines);
             break;
     }
-    return cloud;
+    return with_real_coordinates(std::move(cloud));
 }
 
 }  // namespace dynamic_filter::io

@@ -99,7 +99,7 @@ private:
     void read_counts(const Tokens& arguments) {
         for (const auto token : arguments) {
             const std::uint64_t count = count_of(token);
-            if (count == 0 || count > most_record_bytes) {
+            if (count > most_record_bytes) {
                 lines_.fail("a COUNT of " + std::to_string(count) + " is not plausible");
             }
             counts_.push_back(static_cast<std::uint32_t>(count));
@@ -158,10 +158,18 @@ private:
                 fail("field " + quote(names_[i]) + " has TYPE " + quote(types_[i]) + " SIZE " +
                      quote(sizes_[i]) + "; known are I and U of 1, 2, 4, 8 and F of 4, 8");
             }
-            const std::string name(names_[i]);
-            header_.columns.push_back({name, *type, counts_[i], name == "_"});
+            add_column(std::string(names_[i]), *type, counts_[i]);
         }
+        name_in_small_letters(header_.columns);
         if (record_bytes(header_.columns) > most_record_bytes) fail("a point of over 16 MiB");
+    }
+
+    void add_column(const std::string& name, FieldType type, std::uint32_t count) {
+        const bool is_padding = name == "_";
+        // Padding of no bytes, as PCL writes it, is no column.
+        if (count == 0 && is_padding) return;
+        if (count == 0) fail("field " + quote(name) + " has a COUNT of 0; expected 1 or more");
+        header_.columns.push_back({name, type, count, is_padding});
     }
 
     void count_points() {

@@ -56,15 +56,22 @@ PlyHeader finish(PlyFormat format, std::vector<PlyElement> elements, const Lines
     const auto vertex = std::find_if(elements.begin(), elements.end(),
                                      [](const PlyElement& e) { return e.name == "vertex"; });
     if (vertex == elements.end()) throw InputError(lines.file(), "header", "no element 'vertex'");
-    PlyHeader header{format, {elements.begin(), vertex}, vertex->count, {}};
+    PlyHeader header{.format = format,
+                     .before = {elements.begin(), vertex},
+                     .points = vertex->count,
+                     .columns = {},
+                     .properties = vertex->properties};
     for (const PlyProperty& property : vertex->properties) {
-        if (property.list_count) {
+        const std::string axis = to_lower(property.column.name);
+        if (property.list_count && (axis == "x" || axis == "y" || axis == "z")) {
             throw InputError(lines.file(), "header",
                              "vertex property " + quote(property.column.name) +
                                  " is a list; expected plain numbers");
         }
-        header.columns.push_back(property.column);
+        header.has_lists |= property.list_count.has_value();
+        if (!property.list_count) header.columns.push_back(property.column);
     }
+    name_in_small_letters(header.columns);
     return header;
 }
 

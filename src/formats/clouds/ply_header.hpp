@@ -28,7 +28,9 @@ struct PlyHeader {
     PlyFormat format = PlyFormat::ascii;
     std::vector<PlyElement> before;  ///< elements before the vertices
     std::uint64_t points = 0;
-    std::vector<Column> columns;  ///< columns of the vertices
+    std::vector<Column> columns;          ///< columns of the vertices, without lists
+    std::vector<PlyProperty> properties;  ///< the same and the lists between them
+    bool has_lists = false;
 };
 
 /// Reads the header; `lines` is then behind the end_header line. Throws InputError.

@@ -20,10 +20,10 @@ void check_coordinate(const Cloud& cloud, const std::string& name,
         throw InputError(file, "header",
                          "has no field '" + name + "'; a point cloud needs x, y, z");
     }
-    const bool is_float = field->type == FieldType::f32 || field->type == FieldType::f64;
-    if (!is_float || field->count != 1) {
+    if (field->count != 1) {
         throw InputError(file, "header",
-                         "field '" + name + "' must be one float32 or float64 per point");
+                         "field '" + name + "' has " + std::to_string(field->count) +
+                             " values a point; a coordinate is one number");
     }
 }
 
@@ -151,6 +151,21 @@ std::size_t record_bytes(const std::vector<Column>& columns) {
     return bytes;
 }
 
+void name_in_small_letters(std::vector<Column>& columns) {
+    const auto find = [&](const std::string& name) {
+        return std::find_if(columns.begin(), columns.end(),
+                            [&](const Column& column) { return column.name == name; });
+    };
+    for (const char* name : {"x", "y", "z", "intensity"}) {
+        if (find(name) != columns.end()) continue;
+        for (Column& column : columns) {
+            if (to_lower(column.name) != name) continue;
+            column.name = name;
+            break;
+        }
+    }
+}
+
 Cloud empty_cloud(const std::vector<Column>& columns, const std::filesystem::path& file) {
     Cloud cloud;
     std::unordered_set<std::string> names;
@@ -222,6 +237,35 @@ void read_columns(Cloud& cloud, const std::vector<Column>& columns, std::size_t 
         }
         from += bytes * points;
     }
+}
+
+Cloud with_real_coordinates(Cloud cloud) {
+    const auto is_real = [&](const char* name) {
+        const FieldType type = cloud.find(name)->type;
+        return type == FieldType::f32 || type == FieldType::f64;
+    };
+    if (is_real("x") && is_real("y") && is_real("z")) return cloud;
+    const auto is_axis = [](const Field& field) {
+        return field.name == "x" || field.name == "y" || field.name == "z";
+    };
+    Cloud real;
+    real.viewpoint = cloud.viewpoint;
+    for (const Field& field : cloud.fields)
+        add_field(real, field.name, is_axis(field) ? FieldType::f64 : field.type, field.count);
+    real.data.resize(cloud.size() * real.point_bytes);
+    for (std::size_t f = 0; f < cloud.fields.size(); ++f) {
+        const Field& from = cloud.fields[f];
+        std::byte* const to = real.data.data() + real.fields[f].offset;
+        if (is_axis(from)) {
+            const std::vector<double> wide = values(cloud, from);
+            copy_strided(reinterpret_cast<const std::byte*>(wide.data()), sizeof(double), to,
+                         real.point_bytes, sizeof(double), wide.size());
+        } else {
+            copy_strided(cloud.data.data() + from.offset, cloud.point_bytes, to, real.point_bytes,
+                         size_of(from.type) * from.count, cloud.size());
+        }
+    }
+    return real;
 }
 
 void swap_bytes(Cloud& cloud) {

@@ -25,8 +25,12 @@ struct Column {
 std::size_t column_bytes(const Column& column);
 std::size_t record_bytes(const std::vector<Column>& columns);  ///< as in the file, with padding
 
+/// Names the columns "X", "Y", "Z" and "Intensity", in any letters, as all else expects them,
+/// unless others have these names.
+void name_in_small_letters(std::vector<Column>& columns);
+
 /// Makes a cloud without points that has the fields of the columns. Throws InputError if x, y or z
-/// is missing or not float, or if two fields have the same name.
+/// is missing or not one number, or if two fields have the same name.
 Cloud empty_cloud(const std::vector<Column>& columns, const std::filesystem::path& file);
 
 /// Reads one point per line; blank lines are skipped. Throws InputError with the line for text that
@@ -42,6 +46,9 @@ void read_rows(Cloud& cloud, const std::vector<Column>& columns, std::size_t poi
 /// must contain all of them.
 void read_columns(Cloud& cloud, const std::vector<Column>& columns, std::size_t points,
                   std::span<const std::byte> block);
+
+/// The same cloud, with coordinates that are integers as float64.
+Cloud with_real_coordinates(Cloud cloud);
 
 /// Reverses the byte order of all values, for big-endian files.
 void swap_bytes(Cloud& cloud);

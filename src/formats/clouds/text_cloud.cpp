@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <iterator>
 
@@ -11,16 +12,47 @@
 #include "dynamic_filter/writers.hpp"
 #include "formats/clouds/field_types.hpp"
 #include "formats/clouds/records.hpp"
+#include "formats/clouds/text_cloud.hpp"
 
 namespace dynamic_filter::io {
 namespace {
 
 bool is_comment(std::string_view line) { return line.starts_with('#') || line.starts_with("//"); }
 
-std::vector<Column> named(const std::vector<std::string_view>& names) {
+/// A title as the name of a field: "X" is x, and so is "Points:0" of VeloView.
+std::string name_of_title(std::string_view title) {
+    std::string name = to_lower(title);
+    std::erase(name, '"');
+    const bool is_axis = name.starts_with("points") && name.size() > 2 &&
+                         name[name.size() - 2] == ':' && name.back() >= '0' && name.back() <= '2';
+    if (is_axis) return std::string(1, "xyz"[name.back() - '0']);
+    for (char& c : name) {
+        if (c <= ' ' || c > '~') c = '_';
+    }
+    return name;
+}
+
+bool is_separator(char c) { return c == ',' || c == ';'; }
+
+/// The fields that a line names; empty if it begins with a number.
+std::vector<Column> named(std::string_view line) {
+    const auto mark = std::find_if(line.begin(), line.end(), is_separator);
+    auto titles = mark == line.end() ? split_tokens(line) : split_at(line, *mark);
+    if (!titles.empty() && titles.back().empty()) titles.pop_back();
     std::vector<Column> columns;
-    for (const std::string_view name : names) columns.push_back({to_lower(name), FieldType::f64});
+    if (titles.empty() || parse_real(titles.front())) return columns;
+    for (const std::string_view title : titles)
+        columns.push_back({name_of_title(title), FieldType::f64});
     return columns;
+}
+
+/// The first line that is no comment and not blank; `lines` is then at it.
+std::string_view first_line(Lines& lines) {
+    while (lines.next()) {
+        const std::string_view line = trim(lines.line());
+        if (!line.empty() && !is_comment(line)) return line;
+    }
+    return {};
 }
 
 std::vector<Column> numbered(std::size_t count, const Lines& lines) {
@@ -42,20 +74,19 @@ struct Body {
     std::uint64_t points = 0;  ///< number of lines with points
 };
 
-/// Reads the text once to find the names of the columns and the number of points.
-Body survey(std::string_view text, const std::filesystem::path& file) {
-    Body body;
+/// Reads the text once to find the columns, if no titles name them, and the number of points.
+Body survey(std::string_view text, const std::filesystem::path& file, std::vector<Column> titles) {
+    Body body{.columns = std::move(titles)};
+    bool is_behind_titles = body.columns.empty();
     Lines lines(text, file);
     for (std::size_t begin = 0; lines.next(); begin = lines.offset()) {
         const std::string_view line = trim(lines.line());
         if (line.empty() || (body.points == 0 && is_comment(line))) continue;
-        const auto cells = split_tokens(line);
-        const bool numbers = parse_real(cells[0]).has_value();
-        if (body.points == 0 && body.columns.empty() && !numbers) {
-            body.columns = named(cells);
+        if (!is_behind_titles) {
+            is_behind_titles = true;
             continue;
         }
-        if (body.columns.empty()) body.columns = numbered(cells.size(), lines);
+        if (body.columns.empty()) body.columns = numbered(split_tokens(line).size(), lines);
         if (body.points++ == 0) body.offset = begin;
     }
     if (body.points == 0) throw InputError(file, "", "holds no point");
@@ -108,13 +139,24 @@ std::string write_text_cloud(const std::filesystem::path& path, const Cloud& clo
     return "";
 }
 
+bool names_points(std::string_view head) {
+    Lines lines(head, "");
+    const std::vector<Column> columns = named(first_line(lines));
+    const auto has = [&](const char* name) {
+        return std::any_of(columns.begin(), columns.end(),
+                           [&](const Column& column) { return column.name == name; });
+    };
+    // Poses have positions as well.
+    return has("x") && has("y") && has("z") && !has("qx") && !has("qw");
+}
+
 Cloud read_text_cloud(const std::filesystem::path& file) {
     std::string text = read_file(file);
     refuse_mixed_separators(text, file);
-    for (char& c : text) {
-        if (c == ',' || c == ';') c = ' ';
-    }
-    const Body body = survey(text, file);
+    Lines begin(text, file);
+    std::vector<Column> titles = named(first_line(begin));
+    std::replace_if(text.begin(), text.end(), is_separator, ' ');
+    const Body body = survey(text, file, std::move(titles));
     Cloud cloud = empty_cloud(body.columns, file);
     Lines lines(text, file);
     while (lines.offset() < body.offset) lines.next();

@@ -5,6 +5,17 @@
 
 namespace dynamic_filter::io {
 
+namespace {
+
+/// The type as ROS 1 writes it.
+std::string without_msg(const std::string& type) {
+    std::string plain = type;
+    if (const std::size_t at = plain.find("/msg/"); at != std::string::npos) plain.erase(at, 4);
+    return plain;
+}
+
+}  // namespace
+
 std::string driver_of(const std::string& type) {
     static const std::map<std::string, std::string> drivers = {
         {"velodyne_msgs/VelodyneScan", "velodyne_pointcloud"},
@@ -23,10 +34,26 @@ std::string driver_of(const std::string& type) {
         {"rslidar_msgs/rslidarScan", "rslidar_sdk"},
         {"livox_ros_driver/LivoxPacket", "livox_ros_driver2"},
     };
-    std::string plain = type;
-    if (const std::size_t at = plain.find("/msg/"); at != std::string::npos) plain.erase(at, 4);
-    const auto found = drivers.find(plain);
+    const auto found = drivers.find(without_msg(type));
     return found == drivers.end() ? "" : found->second;
+}
+
+std::string advice_on_cloud(const std::string& type) {
+    const std::string plain = without_msg(type);
+    if (plain == "point_cloud_interfaces/CompressedPointCloud2") {
+        return "play the bag to `ros2 run point_cloud_transport republish` with "
+               "out_transport:=raw, and "
+               "record the sensor_msgs/PointCloud2 that it publishes";
+    }
+    if (plain == "sensor_msgs/PointCloud") {
+        return "play the bag to a node that publishes sensor_msgs/PointCloud2, such as "
+               "point_cloud_converter, and record that";
+    }
+    if (plain == "foxglove.PointCloud" || plain == "foxglove_msgs/PointCloud" ||
+        plain == "foxglove.CompressedPointCloud") {
+        return "write the clouds as sensor_msgs/PointCloud2 (ros1 or cdr), or as .pcd files";
+    }
+    return "";
 }
 
 }  // namespace dynamic_filter::io

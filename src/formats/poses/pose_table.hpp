@@ -1,17 +1,27 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <filesystem>
+#include <string_view>
+
 #include "base/text.hpp"
-#include "dynamic_filter/poses.hpp"
+#include "formats/poses/pose_rows.hpp"
 
 namespace dynamic_filter::io {
 
-/// Reads a CSV file with a header that names its columns (EuRoC, ERASOR and others), or one without
-/// a header that has MulRan's 13 columns. Throws InputError.
-PoseFile read_pose_table(Lines& lines);
+/// The line with the titles of the columns.
+struct Titles {
+    std::size_t line = 0;  ///< from 1; 0 if there is none
+    bool are_read = true;  ///< false: they are those of a matrix, whose order is known without them
+};
 
-/// Appends a stamp. Throws InputError at the current line if the stamp is not finite or smaller
-/// than the previous one.
-void append_stamp(PoseFile& file, double stamp, const Lines& where);
+/// Looks at the first line of data, and at the comments before it, of which one may name as many
+/// columns as the rows have.
+Titles find_titles(std::string_view text, const std::filesystem::path& file);
+
+/// Reads rows below the line `titles`, which names their columns (EuRoC, ERASOR, `rostopic echo -p`
+/// and others). Throws InputError.
+PoseRows read_pose_table(Lines& lines, std::size_t titles);
 
 }  // namespace dynamic_filter::io

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "recording/benchmark.hpp"
 #include "recording/folders.hpp"
 #include "recording/layouts/beside.hpp"
 
@@ -6,8 +7,11 @@ namespace dynamic_filter::io {
 
 std::optional<Layout> find_benchmark(const Place& place) {
     const std::filesystem::path folder = place.data / "pcd";
-    const bool fits = is_folder(folder) && !list_files(folder, {".pcd"}).empty();
-    if (!place.is_named() && !fits) return std::nullopt;
+    if (!place.is_named()) {
+        const Paths scans = is_folder(folder) ? list_files(folder, {".pcd"}) : Paths{};
+        const bool is_single = scans.size() == 1 || present(place.data / "gt_cloud.pcd");
+        if (scans.empty() || (!is_single && !any_has_viewpoint(scans))) return std::nullopt;
+    }
     Layout layout = scans_in(folder, ".pcd", "benchmark");
     layout.poses = place.options.poses;
     layout.poses_in_scans = !layout.poses;

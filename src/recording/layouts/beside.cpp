@@ -41,7 +41,7 @@ Layout scans_in(const fs::path& folder, const char* extension, const char* layou
                          fmt::format("no *{} found; a recording of format {} keeps its scans there",
                                      extension, layout));
     }
-    refuse_other_floats(folder, found.scans);
+    choose_bin_points(found);
     return found;
 }
 

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <string>
 
+#include "base/input.hpp"
 #include "dynamic_filter/error.hpp"
 #include "formats/clouds/registry.hpp"
+#include "formats/clouds/text_cloud.hpp"
 #include "recording/folders.hpp"
 #include "recording/layouts/beside.hpp"
 #include "recording/layouts/pose_notes.hpp"
@@ -21,19 +24,65 @@ std::string patterns_of_scans() {
     return patterns;
 }
 
+/// The .csv files with a header that names x, y and z; others hold poses or anything else.
+Paths csv_scans(const fs::path& folder) {
+    constexpr std::size_t header = 1U << 12U;
+    std::error_code ignored;
+    Paths scans;
+    for (const fs::path& file : list_files(folder, {".csv"}, ignored)) {
+        try {
+            if (names_points(read_head(file, header))) scans.push_back(file);
+        } catch (const InputError&) {
+            continue;  // it cannot be read, so it is no scan
+        }
+    }
+    return scans;
+}
+
+/// Throws with the command that unpacks them if there are compressed scans.
+void refuse_compressed(const fs::path& folder) {
+    std::error_code ignored;
+    const Paths files = list_files(folder, {".laz"}, ignored);
+    if (files.empty()) return;
+    const fs::path las = fs::path(files[0].filename()).replace_extension(".las");
+    throw InputError(folder, "",
+                     "holds " + std::to_string(files.size()) +
+                         " .laz files, which are compressed and "
+                         "not read; unpack them to LAS, for instance each with `pdal translate " +
+                         files[0].filename().string() + " " + las.string() +
+                         "` or all with `laszip -i *.laz`");
+}
+
+/// The folders that may hold the scans, in the order in which they are looked for.
+Paths folders_of_scans(const fs::path& data) {
+    Paths folders;
+    for (const std::string& name : usual_scan_folders()) {
+        const fs::path folder = name == "." ? data : data / name;
+        if (is_folder(folder)) folders.push_back(folder);
+    }
+    return folders;
+}
+
 /// Finds the scans of one kind, in the usual subfolder or in the folder itself (which may also
 /// contain maps).
 void find_scans(Layout& layout, const fs::path& data) {
-    for (const std::string& name : usual_scan_folders()) {
-        layout.scan_folder = name == "." ? data : data / name;
-        if (!is_folder(layout.scan_folder)) continue;
-        layout.scans = list_files(layout.scan_folder, scan_extensions());
-        if (!layout.scans.empty()) break;
-    }
+    const Paths folders = folders_of_scans(data);
+    const auto find = [&](const auto& scans_in) {
+        for (const fs::path& folder : folders) {
+            if (!layout.scans.empty()) return;
+            layout.scan_folder = folder;
+            layout.scans = scans_in(folder);
+        }
+    };
+    find([](const fs::path& folder) { return list_files(folder, scan_extensions()); });
+    find(csv_scans);
     if (layout.scans.empty()) {
+        for (const fs::path& folder : folders) refuse_compressed(folder);
         throw InputError(data, "",
                          "holds no scans; looked for velodyne/*.bin, pcd/*.pcd, and " +
-                             patterns_of_scans() + " here and in Scans/, scans/, pcds/, clouds/");
+                             patterns_of_scans() +
+                             ", or *.csv with columns x, y, z, here and in Scans/, scans/, pcds/, "
+                             "clouds/");
     }
     const std::string kind = extension_of(layout.scans[0]);
     for (const fs::path& scan : layout.scans) {
@@ -42,7 +91,7 @@ void find_scans(Layout& layout, const fs::path& data) {
                          "mixes " + layout.scans[0].filename().string() + " and " +
                              scan.filename().string() + "; keep scans of one kind in the folder");
     }
-    refuse_other_floats(layout.scan_folder, layout.scans);
+    choose_bin_points(layout);
 }
 
 /// Folders that may contain the files that belong to the scans: that of the scans, the one above,

@@ -26,8 +26,9 @@ struct Place {
 /// a velodyne/ without scans, or if the layout is named.
 std::optional<Layout> find_kitti(const Place& place);
 
-/// pcd/*.pcd with points in the world frame, as in DynamicMap_Benchmark. Throws InputError if the
-/// layout is named.
+/// pcd/*.pcd with points in the world frame, as in DynamicMap_Benchmark. Nothing for several scans
+/// that all have the identity as VIEWPOINT, which is no pose. Throws InputError if the layout is
+/// named.
 std::optional<Layout> find_benchmark(const Place& place);
 
 /// Scans in the folder or in one of the usual subfolders, with files beside them. Throws InputError
@@ -44,6 +45,11 @@ std::optional<Layout> find_glim(const Place& place);
 
 /// Reads x y z, and the intensity if there is an intensities_compact.bin. Throws InputError.
 Cloud read_submap(const std::filesystem::path& folder);
+
+/// The dump of hdl_graph_slam: NNNNNN/ with cloud.pcd and `data`, which has the pose of the
+/// keyframe as a 4x4 matrix below "estimate" or "odom", and its stamp. A scan is such a folder.
+/// Throws InputError for a `data` without a pose.
+std::optional<Layout> find_hdl(const Place& place);
 
 /// MulRan: Ouster/NANOSECONDS.bin, here or in sensor_data/, and global_pose.csv. The folder may
 /// also be Ouster itself. The file contains poses of the vehicle; the poses of the sensor follow
@@ -76,8 +82,10 @@ std::optional<Layout> find_apollo(const Place& place);
 /// read; the message says what to do.
 void refuse_argoverse(const std::filesystem::path& data);
 
-/// Throws InputError if the sizes of these .bin files show that a point has other than four floats.
-void refuse_other_floats(const std::filesystem::path& folder, const Paths& scans);
+/// Chooses how the points of .bin files are read, by the contents of a few of them, and notes it if
+/// they are not those of KITTI. Throws InputError if sizes or contents show that they have a layout
+/// that is not known.
+void choose_bin_points(Layout& layout);
 
 /// Throws InputError with the names of the recordings.
 [[noreturn]] void refuse_several(const std::filesystem::path& data, const Paths& recordings);

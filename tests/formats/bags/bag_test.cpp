@@ -318,6 +318,9 @@ TEST_F(Bags, Folders) {
     std::filesystem::remove(folder_ / "bag_3.bag");
     folder_.put("bag_3.mcap.zstd", "");
     EXPECT_HAS(error_of([&] { Bag{folder_.path()}; }), "zstd -d");
+    EXPECT_TRUE(Bag::recognises(folder_ / "bag_3.mcap.zstd"));
+    EXPECT_HAS(error_of([&] { Bag{folder_ / "bag_3.mcap.zstd"}; }), "bag_3.mcap.zstd`");
+    EXPECT_FALSE(Bag::recognises(folder_ / "notes.txt.zstd"));
     const TemporaryFolder empty;
     empty.put("metadata.yaml", "");
     EXPECT_HAS(error_of([&] { Bag{empty.path()}; }), "holds no bag");

@@ -58,7 +58,7 @@ TEST(PcdHeader, GarbageIsNamed) {
         {"SIZE", "SIZE 4 4 3", "'3'"},
         {"TYPE", "TYPE F F X", "'X'"},
         {"TYPE", "", "disagree"},
-        {"COUNT", "COUNT 1 1 0", "plausible"},
+        {"COUNT", "COUNT 1 1 0", "COUNT of 0"},
         {"COUNT", "COUNT 1 1 1000000000", "plausible"},
         {"COUNT", "COUNT", "disagree"},
         {"WIDTH", "WIDTH -1", "line 6"},

@@ -118,6 +118,20 @@ TEST_F(Pcd, BombIsNotAllocated) {
     EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 64 * 1024);  // [KiB]
 }
 
+TEST_F(Pcd, PaddingOfNoBytesCapitalsAndIntegers) {
+    const Cloud cloud = read(
+        "FIELDS X Y _ Z _ Intensity\nSIZE 2 4 1 8 1 4\nTYPE I I U F U F\nCOUNT 1 1 4 1 0 1\n"
+        "WIDTH 1\nHEIGHT 1\nDATA binary\n" +
+        bytes_of(std::int16_t{-7}) + bytes_of(std::int32_t{70000}) + "pppp" + bytes_of(3.5) +
+        floats({0.5F}));
+    EXPECT_EQ(positions(cloud), (Points{{-7, 70000, 3.5F}}));
+    EXPECT_EQ(cloud.find("x")->type, FieldType::f64);
+    EXPECT_EQ(column(cloud, "intensity").at(0), 0.5);
+    EXPECT_EQ(positions(read("FIELDS x y z X\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\nWIDTH 1\n"
+                             "HEIGHT 1\nDATA ascii\n1 2 3 9\n")),
+              (Points{{1, 2, 3}}));
+}
+
 TEST_F(Pcd, PaddingAndOddOrder) {
     const std::string head =
         "FIELDS _ z _ y x n\nSIZE 1 4 1 8 4 2\nTYPE U F U F F I\nCOUNT 3 1 5 1 1 2\nWIDTH 1\n"

@@ -79,6 +79,33 @@ TEST_F(Ply, ElementsAroundTheVertices) {
         read(head("ascii", camera + face) + "1 2\n3 4\n1 7 0\n0 0\n1 2 3 97\n4 5 6 98\n"));
 }
 
+TEST_F(Ply, ListsOfVerticesArePassedOver) {
+    const std::string element =
+        "element vertex 2\nproperty list uchar short view\nproperty float x\nproperty float y\n"
+        "property list uchar float more\nproperty int Z\nend_header\n";
+    for (const bool big : {false, true}) {
+        const auto shorts = [&](std::int16_t v) { return bytes_of(v, big); };
+        const std::string body = "\x02" + shorts(7) + shorts(8) + floats({1, 2}, big) +
+                                 std::string("\x00", 1) + bytes_of(std::int32_t{3}, big) +
+                                 std::string("\x00", 1) + floats({4, 5}, big) + "\x01" +
+                                 floats({9}, big) + bytes_of(std::int32_t{6}, big);
+        const std::string start =
+            std::string("ply\nformat binary_") + (big ? "big" : "little") + "_endian 1.0\n";
+        EXPECT_EQ(positions(read(start + element + body)), (Points{{1, 2, 3}, {4, 5, 6}}));
+        for (std::size_t n = 0; n < body.size(); ++n)
+            EXPECT_HAS(error(start + element + body.substr(0, n)), "truncated");
+    }
+    const std::string ascii = "ply\nformat ascii 1.0\n" + element;
+    EXPECT_EQ(positions(read(ascii + "2 7 8 1 2 0 3\n\n0 4 5 1 9 6\n")),
+              (Points{{1, 2, 3}, {4, 5, 6}}));
+    EXPECT_HAS(error(ascii + "2 7 8 1 2 0 3\n1\n"), "line 11");
+    EXPECT_HAS(error(ascii + "2 7 8 1 2 0 3\n-1 4 5 0 6\n"), "no length of the list 'view'");
+    EXPECT_HAS(error(ascii + "2 7 8 1 2 0 3\n"), "1 of 2 points");
+    EXPECT_HAS(error("ply\nformat binary_little_endian 1.0\nelement vertex 4294967295\n" +
+                     element.substr(element.find('\n') + 1) + std::string(20, '\xff')),
+               "truncated");
+}
+
 TEST_F(Ply, HugeCountsCostNothing) {
     const std::string list = "element face 18446744073709551615\nproperty list int int v\n";
     const std::string flat = "element face 18446744073709551615\nproperty int v\n";

@@ -62,8 +62,8 @@ TEST(Records, AsciiChecksEveryValue) {
 TEST(Records, CoordinatesAreRequired) {
     EXPECT_HAS(error_of([] { empty_cloud({{"x", FieldType::f32, 1, false}}, "f"); }), "'y'");
     std::vector<Column> columns = padded;
-    columns[1].type = FieldType::u8;
-    EXPECT_HAS(error_of([&] { empty_cloud(columns, "f"); }), "float32");
+    columns[1].count = 2;
+    EXPECT_HAS(error_of([&] { empty_cloud(columns, "f"); }), "one number");
     columns[1] = columns[3];
     EXPECT_HAS(error_of([&] { empty_cloud(columns, "f"); }), "two fields");
 }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "formats/clouds/text_cloud.hpp"
+
 #include "dynamic_filter/cloud.hpp"
 #include "dynamic_filter/writers.hpp"
 #include "support/bytes.hpp"
@@ -32,6 +34,19 @@ TEST_F(TextCloud, ColumnsWithNames) {
     EXPECT_EQ(positions(cloud), (Points{{1, 2, 3}}));
     EXPECT_EQ(column(cloud, "time").at(0), 9);
     EXPECT_HAS(error("a,b,c\n1,2,3\n"), "'x'");
+    const Cloud veloview = read(
+        "\"intensity\",\"laser id\",\"Points_m_XYZ:0\",\"Points_m_XYZ:1\",\"Points_m_XYZ:2\"\n"
+        "9,7,1,2,3\n");
+    EXPECT_EQ(positions(veloview), (Points{{1, 2, 3}}));
+    EXPECT_EQ(column(veloview, "laser_id").at(0), 7);
+}
+
+TEST_F(TextCloud, TitlesOfPointsAreNoTitlesOfPoses) {
+    EXPECT_TRUE(names_points("# scan\nX,Y,Z,I\n"));
+    EXPECT_TRUE(names_points("Points:0,Points:1,Points:2\n"));
+    EXPECT_FALSE(names_points("t,x,y,z,qx,qy,qz,qw\n"));
+    EXPECT_FALSE(names_points("1,2,3\n"));
+    EXPECT_FALSE(names_points(""));
 }
 
 TEST_F(TextCloud, WhatIsWrittenReadsBackAsItWas) {

@@ -35,5 +35,24 @@ TEST(Packets, AreNamedWithTheirDriver) {
     EXPECT_HAS(error_of<ConfigError>([&] { (void)open_recording(file, options); }), "raw packets");
 }
 
+TEST(Packets, CloudsOfOtherTypesAreNamed) {
+    const TemporaryFolder data;
+    const std::string packed = mcap::schema(1, "point_cloud_interfaces/msg/CompressedPointCloud2") +
+                               mcap::channel(1, 1, "/points/draco") +
+                               mcap::message(1, 5, std::string(99, 'x'));
+    const auto error = [&](const std::string& records) {
+        const auto file = data.put("a.mcap", mcap::file(records));
+        return error_of([&] { (void)open_recording(file); });
+    };
+    EXPECT_HAS(error(packed), "/points/draco holds point_cloud_interfaces/CompressedPointCloud2");
+    EXPECT_HAS(error(packed), "republish");
+    const std::string foxglove = mcap::schema(1, "foxglove.PointCloud") +
+                                 mcap::channel(1, 1, "/points", "protobuf") +
+                                 mcap::message(1, 5, std::string(99, 'x'));
+    EXPECT_HAS(error(foxglove), "/points holds foxglove.PointCloud (protobuf)");
+    EXPECT_HAS(error(foxglove), "sensor_msgs/PointCloud2");
+    EXPECT_EQ(advice_on_cloud("sensor_msgs/PointCloud2"), "");
+}
+
 }  // namespace packets_test
 }  // namespace dynamic_filter::io

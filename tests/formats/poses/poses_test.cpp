@@ -54,19 +54,73 @@ TEST_F(Poses, KittiRowsAfterAStampOrAnIndex) {
     }
     EXPECT_FALSE(read("1 nan 0 0 7 0 1 0 8 0 0 1 9\n").poses.at(0).matrix().allFinite());
     EXPECT_HAS(error("nan" + row), "not finite");
-    EXPECT_HAS(error("2" + row + "1" + row), "line 2");
+}
+
+TEST_F(Poses, RowsOfWholeMatrices) {
+    const std::string matrix = "1 0 0 7 0 1 0 8 0 0 1 9 0 0 0 1\n";
+    const PoseFile file = read(matrix + "nan 0 0 7 0 1 0 8 0 0 1 9 0 0 0 1\n");
+    ASSERT_EQ(file.poses.size(), 2U);
+    EXPECT_TRUE(file.stamps.empty());
+    EXPECT_EQ(file.poses[0].translation(), Eigen::Vector3d(7, 8, 9));
+    EXPECT_FALSE(file.poses[1].matrix().allFinite());
+    EXPECT_EQ(read("0.5 " + matrix + "0.75 " + matrix).stamps, (std::vector<double>{0.5, 0.75}));
+    EXPECT_TRUE(read("0 " + matrix + "1 " + matrix).stamps.empty());
+}
+
+TEST_F(Poses, MatricesBelowEachOther) {
+    const std::string block = "1 0 0 7\n0 1 0 8\n0 0 1 9\n0 0 0 1\n";
+    const PoseFile file = read("# two\n" + block + "\n" + block);
+    ASSERT_EQ(file.poses.size(), 2U);
+    EXPECT_EQ(file.poses[1].translation(), Eigen::Vector3d(7, 8, 9));
+    EXPECT_HAS(error(block + "1 0 0 7\n"), "after 1 of the 4 rows");
+    EXPECT_HAS(error("1 0 0 7\n0 1 0 8\n0 0 1 9\n1 0 0 7\n"), "line 4");
+}
+
+TEST_F(Poses, CommasInPlaceOfBlanks) {
+    const PoseFile tum = read("1.5,1,2,3,0,0,1,0\n2.5, 1, 2, 3, 0, 0, 0, 1,\n");
+    EXPECT_EQ(tum.stamps, (std::vector<double>{1.5, 2.5}));
+    EXPECT_EQ(tum.poses.at(0).linear()(0, 0), -1.0);
+    EXPECT_EQ(read("1,0,0,7,0,1,0,8,0,0,1,9\n").poses.at(0).translation(),
+              Eigen::Vector3d(7, 8, 9));
+    EXPECT_EQ(read("1.5,1,0,0,7,0,1,0,8,0,0,1,9\n").stamps.at(0), 1.5);
+    EXPECT_HAS(error("1700000000000000000,1,2,3,1,0,0,0\n"), "EuRoC");
+}
+
+TEST_F(Poses, RowsAreSortedByTime) {
+    const PoseFile file = read("1 1 0 0 0 0 0 1\n3 3 0 0 0 0 0 1\n2 2 0 0 0 0 0 1\n");
+    EXPECT_EQ(file.stamps, (std::vector<double>{1, 2, 3}));
+    EXPECT_EQ(file.poses.at(1).translation().x(), 2.0);
+    EXPECT_HAS(file.notes.at(0), "line 3");
+    EXPECT_TRUE(read("1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n").notes.empty());
+    const std::string second = "1 50 0 0 0 0 0 1\n2 51 0 0 0 0 0 1\n3 52 0 0 0 0 0 1\n";
+    EXPECT_HAS(error("1 0 0 0 0 0 0 1\n2 1 0 0 0 0 0 1\n3 2 0 0 0 0 0 1\n" + second),
+               "several trajectories");
+}
+
+TEST_F(Poses, MarksOfTheOrderOfBytes) {
+    const std::string row = "1.5 1 2 3 0 0 1 0\n";
+    EXPECT_EQ(read("\xEF\xBB\xBF" + row).stamps.at(0), 1.5);
+    std::string little = "\xFF\xFE", big = "\xFE\xFF";
+    for (const char c : row) {
+        little += std::string{c, '\0'};
+        big += std::string{'\0', c};
+    }
+    EXPECT_EQ(read(little).stamps.at(0), 1.5);
+    EXPECT_EQ(read(big).poses.at(0).translation(), Eigen::Vector3d(1, 2, 3));
+    EXPECT_HAS(error(little + std::string("x\0", 2)), "line 2");
 }
 
 TEST_F(Poses, BadRowsAreNamed) {
     EXPECT_HAS(error(""), "no pose");
     EXPECT_HAS(error("1 2 3\n"), "3 columns");
-    EXPECT_HAS(error("1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1\n"), "4x4");
+    EXPECT_HAS(error("1 2 3 0 0 0 1\n"), "x y z qw qx qy qz");
+    EXPECT_HAS(error("1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 2\n"), "0 0 0 2; expected 0 0 0 1");
+    EXPECT_HAS(error("1 0 0 0 0 1 0 0 0 0 1 0 7 8 9 1\n"), "transposed");
     EXPECT_HAS(error("1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0\n"), "line 2");
     EXPECT_HAS(error("1 0 0 0 0 1 0 0 0 0 1 zero\n"), "'zero'");
     EXPECT_HAS(error("2 0 0 0 0 2 0 0 0 0 2 0\n"), "scaled by 2");
     EXPECT_HAS(error("0 1 2 3 0 0 0 0\n"), "xyzw");
     EXPECT_HAS(error("0 1 2 3 0 0 0 0.9\n"), "line 1");
-    EXPECT_HAS(error("2 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n"), "line 2");
     EXPECT_HAS(error("nan 0 0 0 0 0 0 1\n"), "not finite");
     error_of([&] { read_poses(folder_ / "none.txt"); });
 }
@@ -150,8 +204,13 @@ TEST_F(Poses, CalibTr) {
     const Pose Tr = calib("P0: 1 2\nTr: 0 -1 0 7 0 0 -1 8 1 0 0 9\n");
     EXPECT_EQ(Tr.translation(), Eigen::Vector3d(7, 8, 9));
     EXPECT_EQ(Tr * Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(7, 8, 10));
+    const std::string other = "0 -1 0 7 0 0 -1 8 1 0 0 9\n";
+    EXPECT_EQ(calib("Tr_velo_cam: " + other).matrix(), Tr.matrix());
+    const Pose turned = calib("R0_rect: 0 -1 0 1 0 0 0 0 1\nTr_velo_to_cam: " + other);
+    EXPECT_EQ(turned.translation(), Eigen::Vector3d(-8, 7, 9));
     EXPECT_HAS(error_of([&] { calib("P0: 1\n"); }), "no line 'Tr:'");
     EXPECT_HAS(error_of([&] { calib("Tr: 1 2 3\n"); }), "12 finite");
+    EXPECT_HAS(error_of([&] { calib("R_rect 1 2 3\nTr_velo_cam: " + other); }), "9 numbers");
 }
 
 TEST_F(Poses, Times) {
