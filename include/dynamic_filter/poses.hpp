@@ -33,9 +33,9 @@ enum class PoseFix {
     xyzw,         ///< quaternions are x y z w, but were read as w x y z
     millimetres,  ///< translations are in millimetres
     centimetres,  ///< translations are in centimetres
-    transpose,    ///< rotations are R_sensor_world, and turn in the wrong sense; positions are right
-    mirror,       ///< y points to the right, and yaw turns clockwise, as in left-handed simulators
-    ned,          ///< world and vehicle have x ahead, y to the right, z down
+    transpose,  ///< rotations are R_sensor_world, and turn in the wrong sense; positions are right
+    mirror,     ///< y points to the right, and yaw turns clockwise, as in left-handed simulators
+    ned,        ///< world and vehicle have x ahead, y to the right, z down
 };
 
 /// All corrections except `none`, in the order in which --pose-fix lists them.

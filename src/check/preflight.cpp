@@ -115,7 +115,8 @@ std::string meaning_of(const std::string& reading) {
         {"xyzw", "the quaternions are x y z w, but were read as w x y z"},
         {"mm", "the poses are in millimetres"},
         {"cm", "the poses are in centimetres"},
-        {"transpose", "the rotations turn in the wrong sense (R_sensor_world); positions are right"},
+        {"transpose",
+         "the rotations turn in the wrong sense (R_sensor_world); positions are right"},
         {"mirror", "the poses are left-handed: y points to the right, and yaw turns clockwise"},
         {"ned", "the poses have z down and y to the right (north, east, down)"},
     };
@@ -236,7 +237,7 @@ void judge_poses(Preflight& result, const Recording& recording, const Samples& s
     }
     // In the interpretation "mm", only a thousandth of the given motion is left, which is
     // nearly the same as no motion.
-    const bool as_if_still = best->share < 1.3 * share_of(overlays, kInWorld);
+    const bool as_if_still = best->share < 1.1 * share_of(overlays, kInWorld);
     if (as_if_still || best->reading == kInSensor) {
         if (much && !nearly_right()) {
             result.findings.push_back(
@@ -305,10 +306,12 @@ void judge_unit(Preflight& result, const Samples& samples) {
         return;
     }
     if (typical < kTooFar) return;
+    // Half of the points of a scan lie within some tens of metres.
+    const char* unit = typical > 4000.0 ? "millimetres" : "centimetres";
     result.findings.push_back(
         {fmt::format("half of the points lie more than {:.0f} m from the sensor: they may be in "
-                     "millimetres, or in the world's frame",
-                     typical),
+                     "{}, or in the world's frame",
+                     typical, unit),
          "write the points in metres, or give --points-in-world and the poses"});
 }
 

@@ -48,7 +48,7 @@ public:
     /// `finest` [m]: edge of the smallest voxels. `narrowest`: smallest spread of the points in
     /// both directions of a plane, as a share of the edge of its voxel. The planes of narrower
     /// strips are tilted by the noise of the ranges.
-    explicit SurfaceMap(double finest, double narrowest = 0.15);
+    explicit SurfaceMap(double finest, double narrowest = 0.12);
 
     void insert(const Points& in_map);
 

@@ -14,6 +14,7 @@ COVERED = {  # test -> the units that it covers
         "recording/world_records run/run run/filter_whole run/run_state run/scored_scans run/summary run/write_scans",
     "export/tileset_test.cpp": "export/glb",
     "formats/clouds/cloud_test.cpp": "formats/clouds/bin",
+    "formats/poses/poses_test.cpp": "base/utf16 formats/poses/pose_rows",
     "formats/clouds/las_test.cpp": "formats/clouds/las_header formats/clouds/las_writer",
     "live/dds_bus_test.cpp": "live/dds_log live/dds_type",
     "live/dds_peer_test.cpp": "live/dds_configuration",

@@ -77,7 +77,7 @@ public:
             const Points* points = around(place, l);
             if (points == nullptr || points->size() < 5) continue;
             const Plane plane(*points);
-            const double flat = plane.spread_1 / std::pow(0.15 * static_cast<double>(size(l)), 2);
+            const double flat = plane.spread_1 / std::pow(0.12 * static_cast<double>(size(l)), 2);
             found.close |= std::abs(flat - 1.0) < 0.01;
             if (flat < 1.0) continue;
             const double variance = plane.variance_at(place);

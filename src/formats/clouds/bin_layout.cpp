@@ -15,11 +15,11 @@
 namespace dynamic_filter::io {
 namespace {
 
-constexpr double farthest = 1000.0;   // [m] no sensor on a vehicle measures farther
-constexpr double smallest = 1e-6;     // [m] smaller numbers are bits of something else
-constexpr std::size_t fewest = 50;    // points with which a layout can be told
-constexpr double rough_ratio = 0.5;   // another layout is this much smoother than KITTI's
-constexpr double least_share = 0.98;  // of the points of a plausible layout
+constexpr double kFarthestReturn = 1000.0;  // [m] no sensor on a vehicle measures farther
+constexpr double kSmallestNumber = 1e-6;    // [m] smaller numbers are bits of something else
+constexpr std::size_t kFewestTold = 50;     // points with which a layout can be told
+constexpr double kMuchSmoother = 0.5;       // another layout is this much smoother than KITTI's
+constexpr double kLeastPlausible = 0.98;    // of the points of a plausible layout
 
 /// Points of a sample: the values of point i begin at i * names.size().
 std::vector<double> values_of(const BinSample& sample, const BinLayout& layout) {
@@ -54,7 +54,7 @@ struct BinFit {
 
 bool is_within(const double* p, double limit) {
     const auto is_fine = [&](double v) {
-        return v == 0.0 || (std::abs(v) >= smallest && std::abs(v) <= limit);
+        return v == 0.0 || (std::abs(v) >= kSmallestNumber && std::abs(v) <= limit);
     };
     return is_fine(p[0]) && is_fine(p[1]) && is_fine(p[2]);
 }
@@ -83,13 +83,13 @@ std::optional<double> constant_of(const std::vector<const double*>& points, std:
 
 /// Of each value, what tells its meaning.
 void describe_values(BinFit& fit, const std::vector<const double*>& points, std::size_t count) {
-    constexpr double most_rings = 255.0;
+    constexpr double kMostRings = 255.0;
     for (std::size_t k = 0; k < count; ++k) {
         std::vector<double> sizes;
         double whole = 0.0;
         for (const double* const p : points) {
             sizes.push_back(std::isfinite(p[k]) ? std::abs(p[k]) : 0.0);
-            if (p[k] >= 0.0 && p[k] <= most_rings && p[k] == std::floor(p[k])) whole += 1.0;
+            if (p[k] >= 0.0 && p[k] <= kMostRings && p[k] == std::floor(p[k])) whole += 1.0;
         }
         fit.whole.push_back(whole / static_cast<double>(points.size()));
         fit.size.push_back(median(std::move(sizes)));
@@ -105,7 +105,7 @@ void describe_values(BinFit& fit, const std::vector<const double*>& points, std:
 }
 
 BinFit fit_of(std::span<const BinSample> samples, const BinLayout& layout) {
-    constexpr double in_world = 1e8;  // [m] also of maps in UTM
+    constexpr double kInWorld = 1e8;  // [m] also of maps in UTM
     BinFit fit;
     std::vector<std::vector<double>> numbers;
     std::vector<const double*> plausible;
@@ -119,8 +119,8 @@ BinFit fit_of(std::span<const BinSample> samples, const BinLayout& layout) {
             const bool is_nan = std::isnan(p[0]) && std::isnan(p[1]) && std::isnan(p[2]);
             if (is_zero || is_nan) continue;
             ++fit.points;
-            if (is_within(p, in_world)) ++finite;
-            if (is_within(p, farthest)) plausible.push_back(p);
+            if (is_within(p, kInWorld)) ++finite;
+            if (is_within(p, kFarthestReturn)) plausible.push_back(p);
         }
     }
     if (fit.points == 0) return fit;
@@ -135,15 +135,15 @@ BinFit fit_of(std::span<const BinSample> samples, const BinLayout& layout) {
 /// True if the second half of a point is another one, as where every second point is far behind
 /// that before it: its coordinates are no whole numbers, and no unit vector.
 bool is_two_points(const BinFit& fit) {
-    constexpr double unit = 1.5, few = 0.5;
+    constexpr double kUnitVector = 1.5, kFew = 0.5;
     const std::size_t half = fit.size.size() / 2;
     if (fit.size.size() % 2 != 0 || half < 3) return false;
     if (half == 4 && fit.fourth && fit.fourth == fit.last) return true;  // as all intensities
     const bool are_fractions =
         std::all_of(fit.whole.begin() + static_cast<std::ptrdiff_t>(half),
                     fit.whole.begin() + static_cast<std::ptrdiff_t>(half) + 3,
-                    [&](double share) { return share < few; });
-    return are_fractions && fit.range_of_second_half > unit;
+                    [&](double share) { return share < kFew; });
+    return are_fractions && fit.range_of_second_half > kUnitVector;
 }
 
 /// True for points as PCL has them in memory: x y z 1, intensity and zeros.
@@ -152,22 +152,23 @@ bool is_of_pcl(const BinFit& fit) {
            fit.size[6] == 0.0;
 }
 
+/// Of three files, one may be truncated.
 bool divides_most(std::span<const BinSample> samples, std::size_t bytes) {
     const auto whole = std::count_if(samples.begin(), samples.end(),
                                      [&](const BinSample& s) { return s.size % bytes == 0; });
-    return 10 * whole >= 9 * static_cast<std::ptrdiff_t>(samples.size());
+    return 5 * whole >= 3 * static_cast<std::ptrdiff_t>(samples.size());
 }
 
 /// The layout with the names that its values tell.
 BinLayout named(BinLayout layout, const BinFit& fit) {
-    constexpr double nearly_all = 0.999;
+    constexpr double kNearlyAll = 0.999;
     std::size_t next = 3;
     for (std::size_t k = 3; k < layout.names.size(); ++k) layout.names[k] = fmt::format("c{}", k);
     if (layout.names.size() == 8 && fit.fourth) next = 4;  // the fourth coordinate of PCL's points
     if (next < layout.names.size()) layout.names[next] = "intensity";
     const std::size_t ring = next + 1;
     const bool has_ring = ring < layout.names.size() && next == 3 &&
-                          fit.whole[ring] >= nearly_all && fit.size[ring] > 0.0;
+                          fit.whole[ring] >= kNearlyAll && fit.size[ring] > 0.0;
     if (has_ring) layout.names[ring] = "ring";
     return layout;
 }
@@ -199,25 +200,25 @@ BinChoice choose_bin_layout(std::span<const BinSample> samples) {
     const BinLayout& own = bin_layouts().front();
     const BinFit of_own = fit_of(samples, own);
     const bool own_divides = divides_most(samples, own.point_bytes());
-    const bool own_is_plausible = own_divides && of_own.plausible >= least_share;
-    if (of_own.points < fewest) return {own, false};
+    const bool own_is_plausible = own_divides && of_own.plausible >= kLeastPlausible;
+    if (of_own.points < kFewestTold) return {own, false};
     BinChoice best{own, true};
-    double least = own_is_plausible ? rough_ratio * of_own.roughness : rough_ratio;
+    double least = own_is_plausible ? kMuchSmoother * of_own.roughness : kMuchSmoother;
     bool is_found = own_is_plausible;
     for (const BinLayout& layout : std::span(bin_layouts()).subspan(1)) {
         if (!divides_most(samples, layout.point_bytes())) continue;
         const BinFit fit = fit_of(samples, layout);
         // Of points without intensity, KITTI's layout makes as many without a return.
         const bool is_smooth = fit.roughness < least ||
-                               (is_of_pcl(fit) && fit.roughness < of_own.roughness / rough_ratio);
-        const bool fits = fit.points >= fewest && fit.plausible >= least_share && is_smooth &&
-                          !is_two_points(fit);
+                               (is_of_pcl(fit) && fit.roughness < of_own.roughness / kMuchSmoother);
+        const bool fits = fit.points >= kFewestTold && fit.plausible >= kLeastPlausible &&
+                          is_smooth && !is_two_points(fit);
         if (!fits) continue;
         least = fit.roughness;
         best.layout = named(layout, fit);
         is_found = true;
     }
-    if (is_found || (own_divides && of_own.finite >= rough_ratio)) return best;
+    if (is_found || (own_divides && of_own.finite >= kMuchSmoother)) return best;
     return {std::nullopt, true};
 }
 
