@@ -4,7 +4,6 @@
 #include "base/exit_code.hpp"
 #include "check/advice.hpp"
 #include "check/motion.hpp"
-#include "check/trial_run.hpp"
 #include "commands/all.hpp"
 #include "commands/shared_options.hpp"
 #include "dynamic_filter/check.hpp"
@@ -12,6 +11,7 @@
 #include "recording/data_options.hpp"
 #include "recording/drives.hpp"
 #include "recording/scans.hpp"
+#include "run/trial_run.hpp"
 
 namespace dynamic_filter::app {
 namespace {
@@ -46,7 +46,7 @@ bool try_one(io::Recording recording, const DataOptions& options) {
     if (recording.info().has_poses) {
         choose_motion(recording, config, {.deskew = options.deskew, .quiet = true});
     }
-    const std::vector<io::Alarm> alarms = io::try_run(recording, config);
+    const std::vector<io::Alarm> alarms = try_run(recording, config);
     for (const io::Alarm& alarm : alarms) {
         print_finding(
             {"of a part that was filtered, " + io::to_text(alarm, recording), alarm.advice},

@@ -35,8 +35,11 @@ class PosesInScan {
 public:
     explicit PosesInScan(const Twist& velocity) : velocity_(velocity) {}
     const Eigen::Isometry3f& at(float time) {
-        constexpr float kStep = 1e-4F;  // [s] points within this time share a pose
-        const float step = std::isfinite(time) ? std::round(time / kStep) : 0.0F;
+        constexpr float kStep = 1e-4F;      // [s] points within this time share a pose
+        constexpr float kMostSteps = 1e9F;  // fits into an integer
+        const float step = std::isfinite(time)
+                               ? std::clamp(std::round(time / kStep), -kMostSteps, kMostSteps)
+                               : 0.0F;
         // Steps that are far apart may share a place, and are then computed again.
         Entry& entry =
             entries_[static_cast<std::uint32_t>(static_cast<std::int64_t>(step)) % entries_.size()];

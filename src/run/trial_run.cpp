@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "check/trial_run.hpp"
+#include "run/trial_run.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -8,7 +8,7 @@
 #include "dynamic_filter/filter.hpp"
 #include "dynamic_filter/parallel.hpp"
 
-namespace dynamic_filter::io {
+namespace dynamic_filter::app {
 namespace {
 
 /// About every n-th point, so that the sensor's rings stay whole.
@@ -22,7 +22,7 @@ Scan thinned_scan_of(Scan scan) {
     return scan;
 }
 
-std::vector<ScanWatch> watch_piece(const Piece& piece, const Config& config) {
+std::vector<io::ScanWatch> watch_piece(const io::Piece& piece, const Config& config) {
     DynamicFilter filter(config);
     std::vector<Scan> scans;
     for (const Scan& scan : piece) {
@@ -30,30 +30,30 @@ std::vector<ScanWatch> watch_piece(const Piece& piece, const Config& config) {
         filter.push(scans.back());
     }
     filter.finish();
-    std::vector<ScanWatch> watch;
+    std::vector<io::ScanWatch> watch;
     for (const Scan& scan : scans) {
-        watch.push_back(
-            watch_scan(scan.index, scan.points, scan.T_world_sensor, filter.verdict(scan).labels));
+        watch.push_back(io::watch_scan(scan.index, scan.points, scan.T_world_sensor,
+                                       filter.verdict(scan).labels));
     }
     return watch;
 }
 
 }  // namespace
 
-std::vector<Alarm> try_run(const Recording& recording, const Config& config) {
+std::vector<io::Alarm> try_run(const io::Recording& recording, const Config& config) {
     constexpr std::size_t kTrialPlaces = 3, kTrialScans = 40;
-    std::vector<ScanWatch> watch;
-    for (const Piece& piece : read_pieces(recording, kTrialPlaces, kTrialScans)) {
-        const std::vector<ScanWatch> more = watch_piece(piece, config);
+    std::vector<io::ScanWatch> watch;
+    for (const io::Piece& piece : io::read_pieces(recording, kTrialPlaces, kTrialScans)) {
+        const std::vector<io::ScanWatch> more = watch_piece(piece, config);
         watch.insert(watch.end(), more.begin(), more.end());
     }
     std::sort(watch.begin(), watch.end(),
-              [](const ScanWatch& a, const ScanWatch& b) { return a.scan < b.scan; });
-    std::vector<Alarm> alarms = alarms_of(watch);
-    for (Alarm& alarm : alarms) {
-        alarm = explain(std::move(alarm), recording, PosesFrom::given, config.odometry);
+              [](const io::ScanWatch& a, const io::ScanWatch& b) { return a.scan < b.scan; });
+    std::vector<io::Alarm> alarms = io::alarms_of(watch);
+    for (io::Alarm& alarm : alarms) {
+        alarm = io::explain(std::move(alarm), recording, io::PosesFrom::given, config.odometry);
     }
     return alarms;
 }
 
-}  // namespace dynamic_filter::io
+}  // namespace dynamic_filter::app

@@ -9,10 +9,10 @@
 #include "dynamic_filter/recording.hpp"
 #include "dynamic_filter/settings.hpp"
 
-namespace dynamic_filter::io {
+namespace dynamic_filter::app {
 
 /// Filters up to 40 consecutive scans at each of up to three places, with every n-th point, and
 /// returns what the watch finds there. The recording must have poses.
-std::vector<Alarm> try_run(const Recording& recording, const Config& config);
+std::vector<io::Alarm> try_run(const io::Recording& recording, const Config& config);
 
-}  // namespace dynamic_filter::io
+}  // namespace dynamic_filter::app
