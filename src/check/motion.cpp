@@ -112,7 +112,7 @@ std::string to_text(const Track& track) {
 /// Why poses that the odometry found are not to be trusted, among the losses of the recording.
 /// Given poses bind scans that do not show their motion.
 void add_doubts(io::Recording& recording, const Track& track) {
-    constexpr double kManyWeak = 0.3;  // share of the scans
+    constexpr double kManyWeak = 0.5;  // share of the scans
     std::vector<std::string> doubts;
     if (track.lost > 0) {
         doubts.push_back(fmt::format(

@@ -468,7 +468,8 @@ Preflight check_recording(const Recording& recording, Depth depth) {
     judge_unit(result, samples);
     if (judge_frame(result, recording, samples)) return result;
     if (!judge_sensors(result, recording)) judge_points(result, samples);
-    if (result.overlays.empty()) return result;
+    // Poses that odometry found fit the scans, as far as these show it.
+    if (result.overlays.empty() || recording.info().tracked) return result;
     std::optional<bool> known;  // evaluated once, because it reads scans
     const auto nearly_right = [&] {
         if (depth == Depth::quick) return false;

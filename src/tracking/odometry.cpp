@@ -37,7 +37,7 @@ constexpr double kFarFromOrigin = 1000.0;
 /// which is an extrapolation of the previous motion, or hardly any of what they give in all. In a
 /// smooth tunnel, the noise of the normals alone gives a little, and it says that the sensor rests.
 bool is_weak(const Registration& found, const PosePrior& prior) {
-    constexpr double kNoiseOfNormals = 0.003;
+    constexpr double kNoiseOfNormals = 0.011;
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(
         found.information.topLeftCorner<3, 3>());
     const double least = axes.eigenvalues()[0];
