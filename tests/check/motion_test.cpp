@@ -46,10 +46,10 @@ TEST_F(UseTrack, LostScansAreALoss) {
 }
 
 TEST_F(UseTrack, MotionThatManyScansDoNotShowIsALoss) {
-    EXPECT_TRUE(placed(TrackStatus::weak, 3).info().losses.empty());
-    const io::Recording recording = placed(TrackStatus::weak, 4);
+    EXPECT_TRUE(placed(TrackStatus::weak, 5).info().losses.empty());
+    const io::Recording recording = placed(TrackStatus::weak, 6);
     ASSERT_EQ(recording.info().losses.size(), 1U);
-    EXPECT_HAS(recording.info().losses[0], "4 of 10 scans do not show how far the sensor went");
+    EXPECT_HAS(recording.info().losses[0], "6 of 10 scans do not show how far the sensor went");
 }
 
 TEST_F(UseTrack, GivenPosesBindScansThatDoNotShowTheirMotion) {
