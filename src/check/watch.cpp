@@ -88,7 +88,7 @@ double share(std::size_t part, std::size_t all) {
 std::optional<Alarm> ground_alarm(std::span<const ScanWatch> scans) {
     constexpr double kMuch = 0.15;           // of the ground of a scan
     constexpr std::size_t kFewGround = 100;  // parts of the ground, 25 m2
-    constexpr double kMany = 0.03;           // of the scans
+    constexpr double kMany = 0.05;           // of the scans
     constexpr std::size_t kLeast = 3;        // scans
     Alarm alarm;
     std::size_t count = 0, first = 0, ground = 0, gone = 0;
