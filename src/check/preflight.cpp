@@ -235,9 +235,10 @@ void judge_poses(Preflight& result, const Recording& recording, const Samples& s
         if (much) result.findings.push_back(in_sensor_finding(overlays, files_in_world));
         return;
     }
-    // In the interpretation "mm", only a thousandth of the given motion is left, which is
-    // nearly the same as no motion.
-    const bool as_if_still = best->share < 1.1 * share_of(overlays, kInWorld);
+    // If poses are read as mm or cm, hardly anything of the given motion is left, which is nearly
+    // the same as no motion. Such a reading must explain clearly more.
+    const bool is_scale = best->reading == "mm" || best->reading == "cm";
+    const bool as_if_still = best->share < (is_scale ? 1.1 : 1.02) * share_of(overlays, kInWorld);
     if (as_if_still || best->reading == kInSensor) {
         if (much && !nearly_right()) {
             result.findings.push_back(

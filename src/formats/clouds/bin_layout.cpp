@@ -199,8 +199,9 @@ const std::vector<BinLayout>& bin_layouts() {
 BinChoice choose_bin_layout(std::span<const BinSample> samples) {
     const BinLayout& own = bin_layouts().front();
     const BinFit of_own = fit_of(samples, own);
-    const bool own_divides = divides_most(samples, own.point_bytes());
-    const bool own_is_plausible = own_divides && of_own.plausible >= kLeastPlausible;
+    // By its contents alone: a file whose size does not fit is truncated, and named when it is
+    // read.
+    const bool own_is_plausible = of_own.plausible >= kLeastPlausible;
     if (of_own.points < kFewestTold) return {own, false};
     BinChoice best{own, true};
     double least = own_is_plausible ? kMuchSmoother * of_own.roughness : kMuchSmoother;
@@ -218,7 +219,7 @@ BinChoice choose_bin_layout(std::span<const BinSample> samples) {
         best.layout = named(layout, fit);
         is_found = true;
     }
-    if (is_found || (own_divides && of_own.finite >= kMuchSmoother)) return best;
+    if (is_found || of_own.finite >= kMuchSmoother) return best;
     return {std::nullopt, true};
 }
 

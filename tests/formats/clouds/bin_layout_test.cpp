@@ -59,11 +59,13 @@ TEST(BinLayout, IsToldByTheContents) {
     EXPECT_EQ(chosen<double>(4), "float64 x y z intensity");
 }
 
-TEST(BinLayout, ATruncatedFileAmongThreeDoesNotMatter) {
-    const std::vector<BinSample> samples = {rings<float>(4), rings<float>(4, 7), rings<float>(4)};
-    const BinChoice choice = choose_bin_layout(samples);
-    ASSERT_TRUE(choice.layout);
-    EXPECT_EQ(to_string(*choice.layout), "float32 x y z intensity");
+TEST(BinLayout, ATruncatedFileAmongTwoOrThreeDoesNotMatter) {
+    const BinSample whole = rings<float>(4), cut = rings<float>(4, 7);
+    for (const auto& samples : {std::vector{whole, cut}, std::vector{whole, cut, whole}}) {
+        const BinChoice choice = choose_bin_layout(samples);
+        ASSERT_TRUE(choice.layout);
+        EXPECT_EQ(to_string(*choice.layout), "float32 x y z intensity");
+    }
 }
 
 TEST(BinLayout, OfFewPointsKittisIsTaken) {
