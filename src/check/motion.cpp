@@ -14,6 +14,7 @@
 #include "dynamic_filter/check.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/writers.hpp"
+#include "geometry/thinning.hpp"
 #include "recording/recording_parts.hpp"
 #include "recording/scans.hpp"
 #include "settings/config_file.hpp"
@@ -128,18 +129,29 @@ void add_doubts(io::Recording& recording, const Track& track) {
     if (!doubts.empty()) recording = io::with_losses(recording, doubts);
 }
 
-/// Beams without a return that are written as points.
-std::string no_returns_note(const io::Recording& recording) {
+/// What the first scan shows of how its points were made.
+std::vector<std::string> notes_on_points(const io::Recording& recording) {
+    std::vector<std::string> notes;
     try {
         const io::FullScan scan = recording.read(0);
-        if (scan.no_returns == 0) return "";
-        return fmt::format(
-            "{:.1f} % of the points of the first scan lie on a sphere around the sensor: they "
-            "stand for beams without a return, and are left out",
-            100.0 * static_cast<double>(scan.no_returns) / static_cast<double>(scan.points.size()));
-    } catch (const InputError&) {
-        return "";
+        if (scan.no_returns > 0) {
+            notes.push_back(fmt::format(
+                "{:.1f} % of the points of the first scan lie on a sphere around the sensor: they "
+                "stand for beams without a return, and are left out",
+                100.0 * static_cast<double>(scan.no_returns) /
+                    static_cast<double>(scan.points.size())));
+        }
+        const float side = thinning_of(scan.points);
+        if (side > 0.0F) {
+            notes.push_back(fmt::format(
+                "the points of the first scan are about {:.2f} m apart near the sensor too: a "
+                "voxel filter has thinned the scans; the filter allows for it, but finds more of "
+                "what moves in the scans as measured",
+                static_cast<double>(side)));
+        }
+    } catch (const InputError&) {  // scans that cannot be read are rejected later, with the reason
     }
+    return notes;
 }
 
 /// Poses of all scans, and what they rest on. The recording has them afterwards.
@@ -166,7 +178,7 @@ void use_found_poses(io::Recording& recording, const Config& config, const Motio
 ChosenMotion choose_motion(io::Recording& recording, Config& config, const MotionChoice& choice) {
     ChosenMotion chosen;
     add(chosen.notes, choose_sensor_place(recording));
-    add(chosen.notes, no_returns_note(recording));
+    for (std::string& note : notes_on_points(recording)) add(chosen.notes, std::move(note));
     const bool has_poses = recording.info().has_poses;
     const bool judges_times = has_poses && !recording.info().sparse_poses && choice.deskew != "off";
     const io::Recording measured = as_measured(recording);
@@ -209,9 +221,14 @@ ChosenMotion choose_motion(io::Recording& recording, Config& config, const Motio
 
 void ensure_poses(io::Recording& recording, const Config& config, const std::string& deskew,
                   bool quiet) {
-    const std::string place = choose_sensor_place(recording);
-    if (!place.empty()) recording = io::with_notes(recording, {place});
-    if (recording.info().has_poses && !recording.info().sparse_poses) return;
+    const bool has_poses = recording.info().has_poses && !recording.info().sparse_poses;
+    std::vector<std::string> notes;
+    add(notes, choose_sensor_place(recording));
+    if (has_poses) {
+        for (std::string& note : notes_on_points(recording)) add(notes, std::move(note));
+    }
+    recording = io::with_notes(recording, notes);
+    if (has_poses) return;
     Config chosen = config;
     const auto motion = choose_motion(recording, chosen, {.deskew = deskew, .quiet = quiet});
     recording = io::with_notes(recording, motion.notes);

@@ -163,6 +163,7 @@ void EvidenceMap::check_new() {
 SightMargins EvidenceMap::margins_for(const Keyframe& keyframe) const {
     SightMargins margins = margins_;
     margins.farthest = keyframe.reach;
+    if (keyframe.thinned > 0.0F) margins.apart = keyframe.thinned + grid_.voxel_size();
     return margins;
 }
 

@@ -5,8 +5,16 @@
 #include <bit>
 
 #include "filter/keyframe.hpp"
+#include "geometry/thinning.hpp"
 
 namespace dynamic_filter {
+
+namespace {
+
+/// Pixels of thinned scans, whose rings are broken: far away, neighbors are as close as this.
+constexpr BeamPattern kFine{.azimuth_spacing = 0.0052F, .elevation_spacing = 0.0087F};
+
+}  // namespace
 
 bool Keyframes::is_reliable(const BeamPattern& beams, const Scan& scan) const {
     return beams.azimuth_spacing > 0.0F && beams.elevation_spacing > 0.0F &&
@@ -16,14 +24,17 @@ bool Keyframes::is_reliable(const BeamPattern& beams, const Scan& scan) const {
 bool Keyframes::add(const Scan& scan) {
     if (last_keyframe_ && !is_keyframe(*last_keyframe_, scan, keyframe_)) return false;
     const BeamPattern beams = beams_ ? *beams_ : estimate_beam_pattern({&scan, 1});
-    if (!beams_ && is_reliable(beams, scan)) beams_ = beams;
+    if (!beams_ && is_reliable(beams, scan)) {
+        beams_ = beams;
+        thinned_ = thinning_of(scan.points);
+    }
     last_keyframe_ = Scan{{}, scan.T_world_sensor, scan.stamp, scan.index};
     const bool looks_far = kept_.empty() || scan.stamp - last_far_look_ >= keyframe_.interval;
     if (looks_far) last_far_look_ = scan.stamp;
     const float reach =
         looks_far ? farthest_ : std::min(static_cast<float>(config_.near_reach), farthest_);
-    kept_.push_back({BeamImage(scan.points, beams), scan.T_world_sensor.inverse().cast<float>(),
-                     reach, scan.index});
+    kept_.push_back({BeamImage(scan.points, thinned_ > 0.0F ? kFine : beams),
+                     scan.T_world_sensor.inverse().cast<float>(), reach, scan.index, thinned_});
     ++total_;
     if (kept_.size() > most_) kept_.pop_front();
     return true;

@@ -20,6 +20,7 @@ struct Keyframe {
     Eigen::Isometry3f T_sensor_map = Eigen::Isometry3f::Identity();
     float reach = 0.0F;     ///< [m] how far the keyframe looks
     std::size_t index = 0;  ///< Scan::index
+    float thinned = 0.0F;   ///< [m] see thinning_of()
 };
 
 /// Stores the newest keyframes of a drive. Single caller.
@@ -63,6 +64,7 @@ private:
     float farthest_;  // [m]
     std::size_t most_;
     std::optional<BeamPattern> beams_;
+    float thinned_ = 0.0F;               // [m] measured with `beams_`
     std::optional<Scan> last_keyframe_;  // only its pose and stamp
     double last_far_look_ = 0.0;         // [s]
     std::deque<Keyframe> kept_;

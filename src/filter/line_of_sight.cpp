@@ -71,6 +71,7 @@ void check_lines_of_sight(const BeamImage& image, const Directions& places,
             .same_spot = margins.same_spot,
             .clear = margins.clear,
             .clear_unseen = margins.clear_unseen,
+            .apart = margins.apart,
             .azimuth = places.azimuth.data(),
             .elevation = places.elevation.data(),
             .range = places.range.data(),
@@ -89,7 +90,8 @@ bool may_see(const BeamImage& image, const Beam& center, float radius,
     // The bounds below hold only for distant spheres.
     if (nearest < 2.0F * radius || slant > 1.3F) return true;
     // The angular radius is at least asin(radius / range).
-    const float reach = 1.1F * radius / center.range + margins.beside / nearest;
+    const float reach =
+        1.1F * radius / center.range + std::max(margins.beside, margins.apart) / nearest;
     const float rows = reach / grid.elevation_step + 1.1F;
     const float columns = reach / (std::cos(slant) * grid.azimuth_step) + 1.1F;
     const float row = (center.elevation - grid.elevation_min) / grid.elevation_step;

@@ -19,6 +19,7 @@ struct SightMargins {
     float beside, beyond, touch, surface, per_metre, nearest, farthest;
     float own_pixels, close_pixels, close_beside, same_spot;
     float clear, clear_unseen;
+    float apart = 0.0F;  ///< distance between points that a voxel filter has thinned
 };
 SightMargins margins_of(const ScansConfig::Sight& config, double voxel_size);
 

@@ -43,8 +43,9 @@ public:
         cos_elevation_ = std::max(std::cos(place.elevation), 0.01F);
         beside_ = margins.beside / place.range;
         const float column = grid_.azimuth_step * cos_elevation_;
-        reach_right_ = std::max(column, beside_);
-        reach_up_ = std::max(grid_.elevation_step, beside_);
+        const float apart = std::max(margins.apart / place.range, beside_);
+        reach_right_ = std::max(column, apart);
+        reach_up_ = std::max(grid_.elevation_step, apart);
         own_right_ = std::max(margins.own_pixels * column, beside_);
         own_up_ = std::max(margins.own_pixels * grid_.elevation_step, beside_);
         touch_ = margins.touch + margins.per_metre * place.range;

@@ -61,10 +61,11 @@ DF_INLINE Places places_at(const SightArgs& args, const float* azimuths, const f
     p.row = ((p.in_range ? elevation : zero) - args.elevation_min) / args.elevation_step;
     const Floats beside = args.beside / p.range;
     const Floats beside_columns = beside / p.column_width;
+    const Floats apart = larger(beside, args.apart / p.range);
     p.beside_rows = beside / args.elevation_step;
     const float around = 0.49F * static_cast<float>(args.columns - 1);
-    p.reach_columns = smaller(larger(one, beside_columns), zero + around);
-    p.reach_rows = larger(one, p.beside_rows);
+    p.reach_columns = smaller(larger(one, apart / p.column_width), zero + around);
+    p.reach_rows = larger(one, apart / args.elevation_step);
     p.own_columns = larger(args.own_pixels * one, beside_columns);
     p.own_rows = larger(args.own_pixels * one, p.beside_rows);
     p.per_reach_column = 1.0F / p.reach_columns;

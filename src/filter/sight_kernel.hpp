@@ -20,7 +20,7 @@ struct SightArgs {
     float beside = 0.0F, beyond = 0.0F, touch = 0.0F, surface = 0.0F, per_metre = 0.0F;
     float nearest = 0.0F, farthest = 0.0F;
     float own_pixels = 0.0F, close_pixels = 0.0F, close_beside = 0.0F, same_spot = 0.0F;
-    float clear = 0.0F, clear_unseen = 0.0F;
+    float clear = 0.0F, clear_unseen = 0.0F, apart = 0.0F;
     // The places, and the resulting values of Sight.
     const float *azimuth = nullptr, *elevation = nullptr, *range = nullptr;
     std::size_t count = 0;

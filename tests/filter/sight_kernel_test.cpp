@@ -54,8 +54,7 @@ Directions places(std::size_t count, test::Random& random) {
 
 template <class Level>
 std::vector<std::uint8_t> check_with(const Level& level, const BeamImage& image,
-                                     const Directions& places) {
-    const SightMargins& m = kMargins;
+                                     const Directions& places, const SightMargins& m = kMargins) {
     const ImageGrid& grid = image.grid();
     std::vector<std::uint8_t> sights(places.range.size(), 7);
     level.run({image.view().pixels,
@@ -80,6 +79,7 @@ std::vector<std::uint8_t> check_with(const Level& level, const BeamImage& image,
                m.same_spot,
                m.clear,
                m.clear_unseen,
+               m.apart,
                places.azimuth.data(),
                places.elevation.data(),
                places.range.data(),
@@ -91,12 +91,19 @@ std::vector<std::uint8_t> check_with(const Level& level, const BeamImage& image,
 TEST(SightKernel, EveryLevelAgreesWithTheScalarFormAndBitByBitWithTheOthers) {
     test::Random random(5);
     std::array<int, 15> seen{};
-    for (const auto& [step, view] : {std::pair{1.0, 360.0},
-                                     {1.0, 359.0},
-                                     {1.0, 357.0},
-                                     {0.3, 360.0},
-                                     {0.5, 70.0},
-                                     {0.5, 8.0}}) {
+    struct Case {
+        double step, view;
+        float apart;
+    };
+    for (const auto& [step, view, apart] : {Case{1.0, 360.0, 0.0F},
+                                            {1.0, 359.0, 0.0F},
+                                            {1.0, 357.0, 0.0F},
+                                            {0.3, 360.0, 0.0F},
+                                            {0.3, 360.0, 0.45F},
+                                            {0.5, 70.0, 0.0F},
+                                            {0.5, 8.0, 0.0F}}) {
+        SightMargins margins = kMargins;
+        margins.apart = apart;
         const BeamImage image = scan(step, view, random);
         Directions asked = places(20001, random);  // no whole number of vectors
         if (view < 20.0) {  // what is seen lies on both sides of where the circle closes
@@ -104,15 +111,15 @@ TEST(SightKernel, EveryLevelAgreesWithTheScalarFormAndBitByBitWithTheOthers) {
             for (float& r : asked.range) r *= 0.4F;
         }
         const auto baseline =
-            check_with(DYNAMIC_FILTER_LEVELS_OF(check_lines_of_sight)[0], image, asked);
+            check_with(DYNAMIC_FILTER_LEVELS_OF(check_lines_of_sight)[0], image, asked, margins);
         for (const auto& level : DYNAMIC_FILTER_LEVELS_OF(check_lines_of_sight)) {
-            EXPECT_EQ(check_with(level, image, asked), baseline) << level.name;
+            EXPECT_EQ(check_with(level, image, asked, margins), baseline) << level.name;
         }
         std::array<int, 3> kinds{};  // unknown, occupied, free, be they weak or sure
         int other = 0;               // by rounding, at the very edge of a margin
         for (std::size_t i = 0; i < baseline.size(); ++i) {
             const Sight expected = line_of_sight(
-                image, {asked.azimuth[i], asked.elevation[i], asked.range[i]}, kMargins);
+                image, {asked.azimuth[i], asked.elevation[i], asked.range[i]}, margins);
             ++seen[static_cast<std::size_t>(expected)];
             ++kinds[is_occupied(expected) ? 1U : is_free(expected) ? 2U : 0U];
             other += static_cast<std::uint8_t>(expected) != baseline[i] ? 1 : 0;
