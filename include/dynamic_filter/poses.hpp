@@ -33,6 +33,7 @@ enum class PoseFix {
     xyzw,         ///< quaternions are x y z w, but were read as w x y z
     millimetres,  ///< translations are in millimetres
     centimetres,  ///< translations are in centimetres
+    feet,         ///< translations are in feet
     transpose,  ///< rotations are R_sensor_world, and turn in the wrong sense; positions are right
     mirror,     ///< y points to the right, and yaw turns clockwise, as in left-handed simulators
     ned,        ///< world and vehicle have x ahead, y to the right, z down

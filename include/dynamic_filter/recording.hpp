@@ -12,7 +12,9 @@
 /// - Errors: InputError (with the file and the place in it) and ConfigError.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -37,6 +39,9 @@ struct LayoutName {
 std::vector<LayoutName> layouts();
 std::vector<std::string> layout_names();  ///< the names alone, in the same order
 
+/// Axis-aligned boxes [m].
+using Boxes = std::vector<Eigen::AlignedBox3f>;
+
 /// How to read a recording, where its files do not tell.
 struct OpenOptions {
     /// Name of one of layouts(), to read this one only; empty: recognised by the files.
@@ -59,6 +64,8 @@ struct OpenOptions {
     /// [m] Place of the sensor in the frame of the points; empty: what the recording says, or not
     /// known.
     std::optional<Eigen::Vector3d> sensor_at;
+    double point_unit = 1.0;  ///< [m] per unit of the coordinates of points
+    Boxes own_body{};         ///< see Info::own_body
 };
 
 /// What is known of a recording without reading the scans.
@@ -94,6 +101,10 @@ struct Info {
     /// sensor frame; empty: not known, so taken for the origin. The poses above, and the points and
     /// the pose of a FullScan, are those of the sensor.
     std::optional<Eigen::Vector3d> sensor_at;
+    double point_unit = 1.0;  ///< [m] per unit of the coordinates of points in the files
+    /// What moves with the sensor, such as its vehicle, in the sensor frame. Points in these boxes
+    /// are no measurements of the world.
+    Boxes own_body{};
     bool intensity_is_truth = false;  ///< `benchmark` with ground truth in the intensity
     std::vector<std::string> notes;   ///< assumptions that were made, as sentences for the user
     /// What makes the result doubtful or incomplete, as sentences for the user: parts of a bag that
@@ -124,6 +135,9 @@ struct FullScan {
     /// Points at the greatest range, where drivers put beams without a return; in `points`, they
     /// are at the origin, as points without a measurement.
     std::size_t no_returns = 0;
+    /// 1 for each point of the own body, or empty; in `points`, they are at the origin, as points
+    /// without a measurement.
+    std::vector<std::uint8_t> own{};
 };
 
 struct RecordingParts;

@@ -9,12 +9,14 @@
 
 #include "base/progress.hpp"
 #include "check/choose_poses.hpp"
+#include "check/own_body.hpp"
 #include "check/scan_times.hpp"
 #include "check/sensor_place.hpp"
 #include "dynamic_filter/check.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/writers.hpp"
 #include "geometry/thinning.hpp"
+#include "recording/mask.hpp"
 #include "recording/recording_parts.hpp"
 #include "recording/scans.hpp"
 #include "settings/config_file.hpp"
@@ -154,6 +156,21 @@ std::vector<std::string> notes_on_points(const io::Recording& recording) {
     return notes;
 }
 
+/// What moves with the sensor is left out of the recording afterwards. Returns a note, or "".
+std::string leave_out_body(io::Recording& recording) {
+    const io::OwnBody body = io::find_own_body(as_measured(recording));
+    if (body.boxes.empty()) return "";
+    recording = io::with_own_body(recording, body.boxes);
+    Eigen::AlignedBox3f around;
+    for (const Eigen::AlignedBox3f& box : body.boxes) around.extend(box);
+    const Point low = around.min(), high = around.max();
+    return fmt::format(
+        "own body: {:.1f} % of the points, at x {:.1f} to {:.1f} m, y {:.1f} to {:.1f} m, z {:.1f} "
+        "to {:.1f} m from the sensor, move with it; they are left out and labelled dynamic "
+        "(--mask none keeps them, --mask FILE names other boxes)",
+        100.0 * body.share, low.x(), high.x(), low.y(), high.y(), low.z(), high.z());
+}
+
 /// Poses of all scans, and what they rest on. The recording has them afterwards.
 void use_found_poses(io::Recording& recording, const Config& config, const MotionChoice& choice,
                      ChosenMotion& chosen) {
@@ -203,7 +220,10 @@ ChosenMotion choose_motion(io::Recording& recording, Config& config, const Motio
             timed && choice.deskew == "auto" &&
             io::measure_motion(looked_at, config.odometry).found.is_distorted();
         add(chosen.notes, choose_deskew(recording, config.odometry, choice, timed, is_distorted));
-        if (!choice.online) use_found_poses(recording, config, choice, chosen);
+        if (!choice.online) {
+            use_found_poses(recording, config, choice, chosen);
+            if (choice.finds_body) add(chosen.notes, leave_out_body(recording));
+        }
         return chosen;
     }
     if (times.sweep) {
@@ -216,21 +236,22 @@ ChosenMotion choose_motion(io::Recording& recording, Config& config, const Motio
     } else if (choice.deskew == "on" && !recording.info().deskewed) {
         add_not_undone(recording);
     }
+    if (choice.finds_body) add(chosen.notes, leave_out_body(recording));
     return chosen;
 }
 
-void ensure_poses(io::Recording& recording, const Config& config, const std::string& deskew,
-                  bool quiet) {
+void ensure_poses(io::Recording& recording, const Config& config, const MotionChoice& choice) {
     const bool has_poses = recording.info().has_poses && !recording.info().sparse_poses;
     std::vector<std::string> notes;
     add(notes, choose_sensor_place(recording));
     if (has_poses) {
         for (std::string& note : notes_on_points(recording)) add(notes, std::move(note));
+        if (choice.finds_body) add(notes, leave_out_body(recording));
     }
     recording = io::with_notes(recording, notes);
     if (has_poses) return;
     Config chosen = config;
-    const auto motion = choose_motion(recording, chosen, {.deskew = deskew, .quiet = quiet});
+    const auto motion = choose_motion(recording, chosen, choice);
     recording = io::with_notes(recording, motion.notes);
 }
 

@@ -18,6 +18,7 @@ struct MotionChoice {
     /// True: poses are found or refined scan by scan, while the scans are judged.
     bool online = false;
     bool quiet = true;  ///< false: shows how far the odometry is
+    bool finds_body = false;  ///< true: what moves with the sensor is found and left out
 };
 
 /// What was decided about the motion of a recording.
@@ -33,9 +34,8 @@ struct ChosenMotion {
 ChosenMotion choose_motion(io::Recording& recording, Config& config, const MotionChoice& choice);
 
 /// For whatever needs poses: if the recording lacks some, they are found by odometry, and notes of
-/// the recording say how far that got. `deskew`: as in MotionChoice.
-void ensure_poses(io::Recording& recording, const Config& config, const std::string& deskew,
-                  bool quiet);
+/// the recording say how far that got. The own body is found as well, if `choice` says so.
+void ensure_poses(io::Recording& recording, const Config& config, const MotionChoice& choice);
 
 /// The recording has these poses afterwards, by scan; what makes them doubtful is among its losses.
 /// Returns how far the odometry got, in a sentence.

@@ -44,6 +44,11 @@ std::vector<Reading> all_readings() {
     for (const PoseFix fix : pose_fixes()) {
         all.push_back({to_string(fix), [fix](const Pose& pose) { return fixed(fix, pose); }});
     }
+    all.push_back({kPointsInFeet, [](const Pose& pose) {
+                       Pose longer = pose;
+                       longer.translation() /= 0.3048;
+                       return longer;
+                   }});
     all.push_back({kInWorld, [](const Pose&) { return Pose(Pose::Identity()); }});
     all.push_back({kInSensor, [](const Pose& pose) { return pose * pose; }});
     return all;
@@ -78,6 +83,10 @@ std::vector<Overlay> compare(const Samples& samples, const std::vector<Pair>& pa
     if (compared == 0) return {};
     for (Overlay& overlay : overlays) overlay.share /= static_cast<double>(compared);
     return overlays;
+}
+
+double overlay_of(const Points& from, const Points& to, const Pose& T_from_to) {
+    return share_inside(thinned(to), T_from_to, voxels_of(from));
 }
 
 Search search_around(const Sample& a, const Sample& b) {

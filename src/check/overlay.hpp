@@ -17,11 +17,14 @@ struct Reading {
     std::function<Pose(const Pose&)> pose;
 };
 inline constexpr const char *kAsGiven = "as given", *kInWorld = "points in world",
-                            *kInSensor = "points in sensor";
+                            *kInSensor = "points in sensor", *kPointsInFeet = "points in feet";
 const std::vector<Reading>& readings();  ///< "as given" is first
 
 /// Mean share of each interpretation, in the order of readings(); empty if no pair could be read.
 std::vector<Overlay> compare(const Samples& samples, const std::vector<Pair>& pairs);
+
+/// Share, 0..1, of points of `to` that fall into voxels with points of `from`.
+double overlay_of(const Points& from, const Points& to, const Pose& T_from_to);
 
 /// Result of a search for the best position of scan b around the position from its pose.
 struct Search {

@@ -115,6 +115,8 @@ std::string meaning_of(const std::string& reading) {
         {"xyzw", "the quaternions are x y z w, but were read as w x y z"},
         {"mm", "the poses are in millimetres"},
         {"cm", "the poses are in centimetres"},
+        {"feet", "the poses are in feet"},
+        {kPointsInFeet, "the points are in feet, the poses in metres"},
         {"transpose",
          "the rotations turn in the wrong sense (R_sensor_world); positions are right"},
         {"mirror", "the poses are left-handed: y points to the right, and yaw turns clockwise"},
@@ -129,7 +131,9 @@ std::string fits_better(const std::vector<Overlay>& overlays, const std::string&
 }
 
 Finding pose_finding(const std::vector<Overlay>& overlays, const std::string& reading) {
-    return {meaning_of(reading) + ": " + fits_better(overlays, reading), "--pose-fix " + reading};
+    const bool is_of_points = reading == kPointsInFeet;
+    return {meaning_of(reading) + ": " + fits_better(overlays, reading),
+            is_of_points ? "--point-unit feet" : "--pose-fix " + reading};
 }
 
 /// True if scans far apart overlay as well as neighbors do, because the sensor stands still.
@@ -289,14 +293,17 @@ void judge_points(Preflight& result, const Samples& samples) {
          "use the scans of one sensor, each with its own pose"});
 }
 
-/// Sensors of all kinds see less far than this with half of their beams.
-void judge_unit(Preflight& result, const Samples& samples) {
-    constexpr float kTooFar = 500.0F;  // [m]
-    std::vector<double> ranges;
-    for (const auto& [i, sample] : samples) ranges.push_back(sample.typical_range);
-    if (ranges.empty() || lie_in_world(samples)) return;
-    const double typical = median(std::move(ranges));
-    constexpr double kNoLength = 1e7;  // [m]
+/// A finding if the coordinates are no metres. Sensors of all kinds see less far than 500 m with
+/// half of their beams. Returns true if there is one.
+bool judge_unit(Preflight& result, const Samples& samples) {
+    constexpr double kTooFar = 500.0, kNoLength = 1e7;  // [m]
+    std::vector<double> ranges, middles;
+    for (const auto& [i, sample] : samples) {
+        ranges.push_back(sample.typical_range);
+        middles.push_back(sample.middle.norm());
+    }
+    if (ranges.empty() || lie_in_world(samples)) return false;
+    const double typical = median(std::move(ranges)), middle = median(std::move(middles));
     if (!(typical < kNoLength)) {
         result.findings.push_back(
             {"the coordinates of most points are no lengths, but numbers without any order: their "
@@ -304,16 +311,24 @@ void judge_unit(Preflight& result, const Samples& samples) {
              "check the order of bytes, the type and the number of the fields of a point (in a "
              "bag: "
              "is_bigendian)"});
-        return;
+        return true;
     }
-    if (typical < kTooFar) return;
+    if (typical < kTooFar) return false;
+    const std::string far = fmt::format("half of the points lie more than {:.0f} m from the sensor",
+                                        typical);
+    // Around a sensor, points lie on all sides; seen from the origin of a world, on one.
+    if (middle > 0.5 * typical) {
+        result.findings.push_back({far + ", all in one direction: they are in the world's frame",
+                                   "--points-in-world with --poses FILE, or write the scans in the "
+                                   "sensor's frame"});
+        return true;
+    }
     // Half of the points of a scan lie within some tens of metres.
-    const char* unit = typical > 4000.0 ? "millimetres" : "centimetres";
+    const bool is_mm = typical > 4000.0;
     result.findings.push_back(
-        {fmt::format("half of the points lie more than {:.0f} m from the sensor: they may be in "
-                     "{}, or in the world's frame",
-                     typical, unit),
-         "write the points in metres, or give --points-in-world and the poses"});
+        {fmt::format("the points are in {}: {}", is_mm ? "millimetres" : "centimetres", far),
+         std::string("--point-unit ") + (is_mm ? "mm" : "cm")});
+    return true;
 }
 
 /// Scans and poses were matched by order, but both have stamps, which may contradict each other.
@@ -466,8 +481,7 @@ Preflight check_recording(const Recording& recording, Depth depth) {
     if (names_quaternions(recording)) leave_out_quaternions(result.overlays);
     judge_stamps(result, recording);
     judge_order(result, recording, samples);
-    judge_unit(result, samples);
-    if (judge_frame(result, recording, samples)) return result;
+    if (judge_unit(result, samples) || judge_frame(result, recording, samples)) return result;
     if (!judge_sensors(result, recording)) judge_points(result, samples);
     // Poses that odometry found fit the scans, as far as these show it.
     if (result.overlays.empty() || recording.info().tracked) return result;

@@ -20,35 +20,6 @@ namespace {
 
 constexpr float kNearest = 2.0F, kFarthest = 30.0F;  // [m]
 
-/// Upright structures. The ground is left out, because its rings look the same from everywhere, as
-/// if the sensor had not moved.
-Points upright(const Points& points) {
-    constexpr float kColumn = 0.6F, kTall = 0.5F;  // [m]
-    struct Extent {
-        float low, high;
-    };
-    tsl::robin_map<VoxelKey, Extent, VoxelHash> columns;
-    const auto column_of = [&](const Point& p) -> std::optional<VoxelKey> {
-        const bool usable = is_measured(p) && p.norm() > kNearest && p.norm() < kFarthest;
-        const auto cell = usable ? cell_of({p.x(), p.y(), 0.0F}, 1.0F / kColumn) : std::nullopt;
-        return cell ? std::optional(pack(*cell)) : std::nullopt;
-    };
-    for (const Point& p : points) {
-        if (const auto column = column_of(p)) {
-            Extent& e = columns.try_emplace(*column, Extent{p.z(), p.z()}).first.value();
-            e = {std::min(e.low, p.z()), std::max(e.high, p.z())};
-        }
-    }
-    Points kept;
-    for (const Point& p : points) {
-        const auto column = column_of(p);
-        if (!column) continue;
-        const Extent& e = columns.at(*column);
-        if (e.high - e.low > kTall && p.z() > e.low + 0.5F * kTall) kept.push_back(p);
-    }
-    return kept;
-}
-
 /// Share of pairs of points in nearly the same direction that have different ranges. From one
 /// place, one direction has one range. Two returns of one beam have exactly the same direction and
 /// are not counted.
@@ -104,7 +75,7 @@ std::optional<double> began_of(const Cloud& cloud) {
 Points as_measured(const Recording& recording, const FullScan& scan) {
     const Info& info = recording.info();
     if (info.points_in_world) return scan.points;
-    return seen_from(info.sensor_at.value_or(Eigen::Vector3d::Zero()), positions(scan.cloud));
+    return seen_from(info.sensor_at.value_or(Eigen::Vector3d::Zero()), in_metres(positions(scan.cloud), info));
 }
 
 float typical_range(const Points& points) {
@@ -138,6 +109,33 @@ Sample sample_of(const Recording& recording, const FullScan& scan) {
 }
 
 }  // namespace
+
+Points upright(const Points& points) {
+    constexpr float kColumn = 0.6F, kTall = 0.5F;  // [m]
+    struct Extent {
+        float low, high;
+    };
+    tsl::robin_map<VoxelKey, Extent, VoxelHash> columns;
+    const auto column_of = [&](const Point& p) -> std::optional<VoxelKey> {
+        const bool usable = is_measured(p) && p.norm() > kNearest && p.norm() < kFarthest;
+        const auto cell = usable ? cell_of({p.x(), p.y(), 0.0F}, 1.0F / kColumn) : std::nullopt;
+        return cell ? std::optional(pack(*cell)) : std::nullopt;
+    };
+    for (const Point& p : points) {
+        if (const auto column = column_of(p)) {
+            Extent& e = columns.try_emplace(*column, Extent{p.z(), p.z()}).first.value();
+            e = {std::min(e.low, p.z()), std::max(e.high, p.z())};
+        }
+    }
+    Points kept;
+    for (const Point& p : points) {
+        const auto column = column_of(p);
+        if (!column) continue;
+        const Extent& e = columns.at(*column);
+        if (e.high - e.low > kTall && p.z() > e.low + 0.5F * kTall) kept.push_back(p);
+    }
+    return kept;
+}
 
 std::vector<Pair> choose_pairs(std::size_t scans, std::size_t places) {
     std::vector<Pair> pairs;

@@ -3,6 +3,7 @@
 
 #include "base/exit_code.hpp"
 #include "check/advice.hpp"
+#include "check/continuity.hpp"
 #include "check/motion.hpp"
 #include "commands/all.hpp"
 #include "commands/shared_options.hpp"
@@ -44,7 +45,7 @@ void print_finding(const io::Finding& finding, const DataOptions& options) {
 bool try_one(io::Recording recording, const DataOptions& options) {
     Config config = preset("default");
     if (recording.info().has_poses) {
-        choose_motion(recording, config, {.deskew = options.deskew, .quiet = true});
+        choose_motion(recording, config, {.deskew = options.deskew});
     }
     const std::vector<io::Alarm> alarms = try_run(recording, config);
     for (const io::Alarm& alarm : alarms) {
@@ -57,7 +58,8 @@ bool try_one(io::Recording recording, const DataOptions& options) {
 
 /// True if nothing was found.
 bool check_one(io::Recording recording, const DataOptions& options) {
-    ensure_poses(recording, preset("default"), options.deskew, true);
+    ensure_poses(recording, preset("default"),
+                 {.deskew = options.deskew, .finds_body = !options.mask});
     for (const std::string& note : recording.info().notes) fmt::print("note      {}\n", note);
     const io::Preflight preflight = io::check_recording(recording, io::Depth::thorough);
     fmt::print("scans     {}, of which {} were read\n", recording.size(), preflight.scans);
@@ -68,11 +70,16 @@ bool check_one(io::Recording recording, const DataOptions& options) {
     for (const io::Finding& finding : preflight.findings) {
         print_finding(blame_needless_fix(finding, options), options);
     }
-    bool fine =
+    const bool fine =
         preflight.findings.empty() && preflight.unusable.empty() && recording.info().losses.empty();
     // Where the cause is known already, its effect is no news.
-    if (preflight.findings.empty()) fine = try_one(recording, options) && fine;
-    return fine;
+    if (!preflight.findings.empty()) return false;
+    const std::vector<io::Alarm> breaks =
+        recording.info().has_poses ? io::breaks_in(recording) : std::vector<io::Alarm>{};
+    for (const io::Alarm& alarm : breaks) {
+        print_finding({io::to_text(alarm, recording), alarm.advice}, options);
+    }
+    return try_one(recording, options) && fine && breaks.empty();
 }
 
 std::string match_text(const io::DriveOffset& offset) {

@@ -86,7 +86,7 @@ int convert_recording(const ConvertOptions& o) {
         o.labels ? open_for_result(o.data, *o.labels) : RecordingOfResult{open(o.data)};
     io::Recording recording = opened.recording;
     say(opened.note);
-    ensure_poses(recording, preset("default"), o.data.deskew, false);
+    ensure_poses(recording, preset("default"), {.deskew = o.data.deskew, .quiet = false});
     // What is written is of the frame that the files have.
     recording = io::with_sensor_at(recording, Eigen::Vector3d::Zero());
     for (const std::string& note : recording.info().notes) fmt::print(stderr, "note: {}\n", note);

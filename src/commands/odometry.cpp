@@ -31,7 +31,7 @@ int odometry(const OdometryOptions& o) {
     without_poses.poses = "none";
     io::Recording recording = open(without_poses);
     catch_interrupts();
-    ensure_poses(recording, config, o.data.deskew, o.quiet);
+    ensure_poses(recording, config, {.deskew = o.data.deskew, .quiet = o.quiet});
     if (interrupted()) return kInterrupted;
     write_poses(o.output, recording);
     for (const std::string& line : recording.info().losses) {

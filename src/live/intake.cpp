@@ -298,7 +298,7 @@ bool Intake::give_pose(LiveScan& scan) {
     scan.has_pose = true;
     scan.world = source->world;
     scan.T_world_sensor = *pose;
-    if (source->points_in_world) scan.points = io::into_sensor(scan.cloud, *pose);
+    if (source->points_in_world) scan.points = io::into_sensor(scan.cloud, 1.0, *pose);
     if (config_.filter.odometry.refine || scan.times.empty()) return true;
     const io::Trajectory trajectory = io::trajectory_of(*source);
     const double end = scan.stamp + static_cast<double>(latest(scan.times));

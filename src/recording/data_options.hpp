@@ -17,6 +17,9 @@ namespace dynamic_filter::app {
 /// As a pose file: the poses of the recording are not read. A file of that name is meant by ./none.
 inline constexpr const char* kNoPoses = "none";
 
+/// As a mask: nothing is taken for the own body.
+inline constexpr const char* kNoMask = "none";
+
 /// A recording, and how to read it.
 struct DataOptions {
     std::filesystem::path data;
@@ -26,6 +29,8 @@ struct DataOptions {
     std::string pose_fix = "none", time_unit = "s";
     bool points_in_world = false;
     std::string sensor_at{};  ///< "X,Y,Z" [m]; empty: not known
+    std::string point_unit = "m";
+    std::optional<std::filesystem::path> mask{};  ///< or kNoMask
     std::string deskew = "auto";
     std::size_t first = 0;
     std::optional<std::size_t> last{};
@@ -74,6 +79,14 @@ void visit_reading(Options& options, const Visit& visit) {
                  "(default: found from the rings of a rotating sensor, or from /tf_static)",
          .is_place = true},
         options.sensor_at);
+    row({.name = "point_unit",
+         .help = "unit of the coordinates of points; results are in metres",
+         .choices = {"m", "cm", "mm", "feet"}},
+        options.point_unit);
+    row({.name = "mask",
+         .help = "file of boxes around what moves with the sensor, which is left out; `none` leaves "
+                 "nothing out (default: found, if the sensor moves)"},
+        options.mask);
     row({.name = "time_unit", .help = "unit of the stamps", .choices = {"s", "ms", "us", "ns"}},
         options.time_unit);
     row({.name = "deskew",

@@ -182,6 +182,8 @@ Recording open_recording(const std::filesystem::path& data, const OpenOptions& o
         is_bag(data, options) ? open_selected_bag(data, options) : open_folder(data, options);
     Info& info = parts.info;
     if (options.points_in_world) info.points_in_world = true;
+    info.point_unit = options.point_unit;
+    info.own_body = options.own_body;
     if (!info.has_poses) refuse_world_frame(info, data);
     apply_fix(info);
     const auto at = options.sensor_at ? options.sensor_at : std::exchange(info.sensor_at, {});

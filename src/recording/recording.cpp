@@ -12,6 +12,7 @@
 #include "formats/clouds/cloud_size.hpp"
 #include "geometry/no_returns.hpp"
 #include "recording/folders.hpp"
+#include "recording/mask.hpp"
 #include "recording/recording_parts.hpp"
 
 namespace dynamic_filter::io {
@@ -106,9 +107,10 @@ void place(FullScan& scan, const Info& info, std::size_t i) {
     } else if (info.has_poses) {
         scan.T_world_sensor = info.T_world_sensor[i];
     }
-    scan.points = info.points_in_world ? into_sensor(scan.cloud, scan.T_world_sensor)
-                                       : seen_from(at, positions(scan.cloud));
+    scan.points = info.points_in_world ? into_sensor(scan.cloud, info.point_unit, scan.T_world_sensor)
+                                       : seen_from(at, in_metres(positions(scan.cloud), info));
     scan.no_returns = drop_no_returns(scan.points);
+    scan.own = take_out(info.own_body, scan.points);
     if (std::none_of(scan.points.begin(), scan.points.end(), is_measured)) {
         throw InputError(info.scan_files[i], "", "has no finite point away from the sensor");
     }
@@ -144,7 +146,13 @@ Points seen_from(const Eigen::Vector3d& at, Points points) {
     return points;
 }
 
-Points into_sensor(const Cloud& cloud, const Pose& T_world_sensor) {
+Points in_metres(Points points, const Info& info) {
+    if (info.point_unit == 1.0) return points;
+    for (Point& p : points) p *= static_cast<float>(info.point_unit);
+    return points;
+}
+
+Points into_sensor(const Cloud& cloud, double unit, const Pose& T_world_sensor) {
     const Pose T_sensor_world = T_world_sensor.inverse();
     const std::array<std::vector<double>, 3> world = {values(cloud, *cloud.find("x")),
                                                       values(cloud, *cloud.find("y")),
@@ -152,7 +160,7 @@ Points into_sensor(const Cloud& cloud, const Pose& T_world_sensor) {
     Points points(cloud.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
         const Eigen::Vector3d p(world[0][i], world[1][i], world[2][i]);
-        points[i] = (T_sensor_world * p).cast<float>();
+        points[i] = (T_sensor_world * (unit * p)).cast<float>();
     }
     return points;
 }

@@ -34,9 +34,12 @@ void select(RecordingParts& parts, std::size_t first, std::optional<std::size_t>
 /// The scans of these indices, in this order.
 Recording chosen_scans(const Recording& recording, const std::vector<std::size_t>& indices);
 
+/// Points as a file has them, in metres.
+Points in_metres(Points points, const Info& info);
+
 /// Transforms the points of a cloud in world coordinates into the sensor frame; in double, because
-/// the world may be far from its origin.
-Points into_sensor(const Cloud& cloud, const Pose& T_world_sensor);
+/// the world may be far from its origin. `unit`: [m] per unit of the coordinates.
+Points into_sensor(const Cloud& cloud, double unit, const Pose& T_world_sensor);
 
 /// Points of the frame in which the sensor is at `at` [m], moved into the sensor frame. Those at
 /// the sensor itself are no returns, which were (0, 0, 0) before they were moved into the other

@@ -11,6 +11,7 @@
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/parallel.hpp"
 #include "geometry/pose.hpp"
+#include "recording/mask.hpp"
 
 namespace dynamic_filter::app {
 
@@ -26,6 +27,12 @@ io::PoseFix pose_fix_of(const std::string& name) {
 double seconds_of(const std::string& unit) {
     static const std::map<std::string, double> units = {
         {"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}};
+    return units.at(unit);
+}
+
+double metres_of(const std::string& unit) {
+    static const std::map<std::string, double> units = {
+        {"m", 1.0}, {"cm", 1e-2}, {"mm", 1e-3}, {"feet", 0.3048}};
     return units.at(unit);
 }
 
@@ -49,7 +56,9 @@ io::Recording open(const DataOptions& options) {
                         .pose_fix = pose_fix_of(options.pose_fix),
                         .points_in_world = options.points_in_world,
                         .time_unit = seconds_of(options.time_unit),
-                        .sensor_at = place_of(options.sensor_at)};
+                        .sensor_at = place_of(options.sensor_at),
+                        .point_unit = metres_of(options.point_unit)};
+    if (options.mask && *options.mask != kNoMask) how.own_body = io::read_boxes(*options.mask);
     if (how.poses == std::filesystem::path(kNoPoses)) {
         how.poses.reset();
         how.without_poses = true;

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "base/progress.hpp"
+#include "check/continuity.hpp"
 #include "check/motion.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
@@ -54,7 +55,8 @@ struct Whole {
     Eigen::Vector3d scoring_origin = Eigen::Vector3d::Zero();
     std::vector<Notice> notices{};
     Maps maps{job.config, limits()};
-    ScanQueue queue{};          ///< refuses what cannot be judged; scans do not wait in it
+    io::Continuity continuity{};  ///< of the scans that were accepted
+    ScanQueue queue{};            ///< refuses what cannot be judged; scans do not wait in it
     std::uint64_t stretch = 0;  ///< of the scan before
     /// With --online: takes the scans, and judges them in a thread of its own.
     std::optional<ScanWorker> worker{};
@@ -165,6 +167,7 @@ void filter_scans(Whole& whole) {
     whole.tracked.resize(whole.recording.size());
     std::vector<io::Field> fields;
     std::optional<Clock::time_point> start;
+    std::vector<io::ScanGist> gists(whole.recording.size());
     const auto use = [&](std::size_t i, MaybeScan& maybe) {
         if (!start) start = Clock::now();
         if (!maybe.scan) {
@@ -178,6 +181,7 @@ void filter_scans(Whole& whole) {
                 whole.summary.notes.push_back(maybe.scan->truth_fault +
                                               "; the scan is filtered, but not scored");
             }
+            whole.continuity.add(i, std::exchange(gists[i], {}));
             keep_pace(whole, *start, maybe.scan->stamp);
             if (whole.live) {
                 whole.live->feed().expect(maybe.scan->points, maybe.scan->T_world_sensor,
@@ -188,7 +192,10 @@ void filter_scans(Whole& whole) {
         progress.advance();
         return !(whole.summary.interrupted = interrupted());
     };
-    for_each_scan(whole.recording, all_scans(whole.recording), {}, use);
+    const auto prepare = [&](std::size_t i, MaybeScan& maybe) {
+        if (maybe.scan->has_pose) gists[i] = io::gist_of(maybe.scan->points, maybe.scan->T_world_sensor);
+    };
+    for_each_scan(whole.recording, all_scans(whole.recording), prepare, use);
     finish(whole);
     add_notices(whole);
     use_poses(whole);
@@ -213,7 +220,7 @@ void note(Whole& whole, std::size_t i, const io::FullScan& scan, const Labels& l
 
 io::PosesFrom poses_from(const Whole& whole) {
     if (!whole.job.tracked.empty()) {
-        return whole.job.with_given_poses ? io::PosesFrom::refined : io::PosesFrom::found;
+        return whole.job.has_given_poses ? io::PosesFrom::refined : io::PosesFrom::found;
     }
     const bool were_tracked = std::any_of(whole.tracked.begin(), whole.tracked.end(),
                                           [](const auto& t) { return t.has_value(); });
@@ -246,6 +253,7 @@ void write_results(Whole& whole) {
     };
     const auto watched = write_scans(whole.recording, scans, whole.job.config, whole.o.maps,
                                      whole.output.path(), {.decide = decide, .use = use});
+    whole.summary.alarms = whole.continuity.breaks();
     for (io::Alarm& alarm : io::alarms_of(watched)) {
         whole.summary.alarms.push_back(io::explain(std::move(alarm), whole.recording,
                                                    poses_from(whole), whole.job.config.odometry));

@@ -7,6 +7,7 @@
 
 #include "check/advice.hpp"
 #include "check/motion.hpp"
+#include "check/replaced_poses.hpp"
 #include "dynamic_filter/check.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/parallel.hpp"
@@ -68,8 +69,9 @@ Job open_tiled_job(const RunOptions& o, std::vector<DriveSource> sources) {
             .drives = {},
             .fingerprints = {},
             .tracked = {},
-            .with_given_poses = {},
+            .has_given_poses = false,
             .mistakes = {},
+            .mended_mistakes = {},
             .is_tiled = true,
             .part = {},
             .plan = {},
@@ -97,8 +99,9 @@ Job open_job(const RunOptions& o) {
             .drives = {},
             .fingerprints = {},
             .tracked = {},
-            .with_given_poses = {},
+            .has_given_poses = false,
             .mistakes = {},
+            .mended_mistakes = {},
             .is_tiled = false,
             .part = {},
             .plan = {},
@@ -114,11 +117,20 @@ void choose_job_motion(Job& job, const RunOptions& o) {
         const io::Recording opened = recording;
         ChosenMotion chosen = choose_motion(
             recording, job.config,
-            {.refine = o.refine, .deskew = o.data.deskew, .online = o.online, .quiet = o.quiet});
+            {.refine = o.refine,
+             .deskew = o.data.deskew,
+             .online = o.online,
+             .quiet = o.quiet,
+             .finds_body = !o.data.mask});
         recording = io::with_notes(recording, chosen.notes);
         job.tracked = std::move(chosen.tracked);
-        if (!job.tracked.empty() && opened.info().has_poses) job.with_given_poses = opened;
+        job.has_given_poses = opened.info().has_poses;
         job.mistakes = mistakes_in(recording, o);
+        if (job.tracked.empty() || !job.has_given_poses) return;
+        for (const io::Finding& found : io::mistakes_in_replaced(opened, recording)) {
+            auto& list = io::is_of_points(found) ? job.mistakes : job.mended_mistakes;
+            list.push_back(warning_of(found, o.data));
+        }
     });
     job.mark = version_text() + state_of(recording) + to_toml(job.config);
 }
@@ -142,9 +154,7 @@ void tell_notes(const Job& job, const RunOptions& o) {
         const io::Recording& recording = job.drives.front().recording;
         for (const std::string& text : recording.info().notes) note(text);
         for (const std::string& text : job.mistakes) warn(text);
-        if (!job.mistakes.empty() || !job.with_given_poses) return;
-        // The mistake in poses that were replaced is worth a word as well.
-        for (const std::string& text : mistakes_in(*job.with_given_poses, o)) warn(text);
+        for (const std::string& text : job.mended_mistakes) warn(text);
         return;
     }
     for (const std::string& text : job.plan.warnings) warn(text);

@@ -22,10 +22,11 @@ struct Job {
     std::vector<std::string> fingerprints;  ///< of the drives as they were opened; placed.hpp
     /// Of the only recording of a job in memory, by scan, if its poses were found or refined.
     std::vector<std::optional<Tracked>> tracked;
-    /// The same as it was opened, if its own poses were replaced.
-    std::optional<io::Recording> with_given_poses;
+    bool has_given_poses = false;  ///< of that recording: it came with poses
     /// What is wrong with it as it is filtered, as far as it shows beforehand.
     std::vector<std::string> mistakes;
+    /// What was wrong with given poses that were replaced.
+    std::vector<std::string> mended_mistakes;
     /// True: filtered tile by tile, which needs a plan. False: one recording, in memory.
     bool is_tiled = false;
     std::optional<PartNumber> part;  ///< empty: all tiles

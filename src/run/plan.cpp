@@ -15,6 +15,7 @@
 #include "dynamic_filter/check.hpp"
 #include "dynamic_filter/error.hpp"
 #include "geometry/voxel.hpp"
+#include "recording/mask.hpp"
 #include "recording/scans.hpp"
 #include "tracking/pose_jump.hpp"
 
@@ -223,10 +224,12 @@ void look_at(Drive& drive, const Config& config, const DataOptions& how, Planned
     Config unrefined = config;
     planned.notes = drive.recording.info().notes;
     const auto chosen =
-        choose_motion(drive.recording, unrefined, {.refine = "off", .deskew = how.deskew});
+        choose_motion(drive.recording, unrefined,
+                      {.refine = "off", .deskew = how.deskew, .finds_body = !how.mask});
     planned.notes.insert(planned.notes.end(), chosen.notes.begin(), chosen.notes.end());
     planned.deskew = drive.recording.info().deskewed;
     planned.sweep = drive.recording.info().sweep;
+    planned.own_body = drive.recording.info().own_body;
     planned.sensor_at = drive.recording.info().sensor_at.value_or(Eigen::Vector3d::Zero());
     for (const auto& found : io::check_recording(drive.recording, io::Depth::quick).findings) {
         planned.warnings.push_back(warning_of(found, how));
@@ -351,6 +354,7 @@ void prepare(std::vector<Drive>& drives, const Plan& plan) {
     for (std::size_t d = 0; d < drives.size(); ++d) {
         io::Recording& recording = drives[d].recording;
         recording = io::with_sensor_at(recording, plan.drives[d].sensor_at);
+        recording = io::with_own_body(recording, plan.drives[d].own_body);
         if (!plan.drives[d].deskew || recording.info().deskewed) continue;
         recording = io::deskewed(recording, plan.drives[d].sweep);
     }

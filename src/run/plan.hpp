@@ -33,6 +33,7 @@ struct PlannedDrive {
     bool deskew = false;
     std::optional<Sweep> sweep;
     Eigen::Vector3d sensor_at = Eigen::Vector3d::Zero();  ///< [m] as in io::Info
+    io::Boxes own_body{};                                 ///< as in io::Info
 };
 
 /// Indices of the scans that were not rejected.

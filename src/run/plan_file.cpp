@@ -50,6 +50,13 @@ PlanJson json_of(const PlannedDrive& drive) {
                   {"deskew", drive.deskew},       {"most_points", drive.most_points}};
     const auto& at = drive.sensor_at;
     json["sensor_at"] = {at.x(), at.y(), at.z()};
+    std::vector<float> corners;
+    for (const Eigen::AlignedBox3f& box : drive.own_body) {
+        for (const Point& corner : {box.min(), box.max()}) {
+            corners.insert(corners.end(), corner.begin(), corner.end());
+        }
+    }
+    json["own_body"] = blob(corners);
     if (drive.sweep) {
         json["sweep"] = {drive.sweep->clockwise, drive.sweep->seam, drive.sweep->duration,
                          drive.sweep->in_order, drive.sweep->shift};
@@ -68,6 +75,10 @@ PlannedDrive drive_of(const PlanJson& json) {
     const PlanJson& at = json.at("sensor_at");
     drive.sensor_at =
         Eigen::Vector3d(at.at(0).get<double>(), at.at(1).get<double>(), at.at(2).get<double>());
+    const auto corners = from_blob<float>(json.at("own_body"));
+    for (std::size_t i = 0; i + 6 <= corners.size(); i += 6) {
+        drive.own_body.emplace_back(Point(&corners[i]), Point(&corners[i + 3]));
+    }
     if (json.contains("sweep")) {
         const PlanJson& sweep = json["sweep"];
         drive.sweep = Sweep{.clockwise = sweep[0],

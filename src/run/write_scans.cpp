@@ -7,6 +7,7 @@
 #include "dynamic_filter/file.hpp"
 #include "dynamic_filter/writers.hpp"
 #include "formats/label_files.hpp"
+#include "recording/mask.hpp"
 #include "recording/scans.hpp"
 #include "run/map_files.hpp"
 #include "run/map_gaps.hpp"
@@ -34,6 +35,7 @@ std::vector<io::ScanWatch> write_scans(const io::Recording& recording,
     const auto decide = [&](std::size_t i, MaybeScan& maybe) {
         const io::FullScan& scan = *maybe.scan;
         verdicts[i] = results.decide(i, scan);
+        io::label_own_body(scan.own, verdicts[i].labels);
         seen[i] = io::watch_scan(i, scan.points, scan.T_world_sensor, verdicts[i].labels);
         io::write_labels(io::label_file(labels, io::stem(recording, i)), verdicts[i].labels,
                          io::Durable::contents);

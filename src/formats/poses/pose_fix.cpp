@@ -30,7 +30,8 @@ Pose with_axes(const Pose& pose, const Eigen::Vector3d& signs) {
 const std::vector<PoseFix>& pose_fixes() {
     static const std::vector<PoseFix> all = {
         PoseFix::inverse, PoseFix::camera,      PoseFix::lidar,       PoseFix::wxyz,
-        PoseFix::xyzw,    PoseFix::millimetres, PoseFix::centimetres, PoseFix::transpose,
+        PoseFix::xyzw,    PoseFix::millimetres, PoseFix::centimetres, PoseFix::feet,
+        PoseFix::transpose,
         PoseFix::mirror,  PoseFix::ned};
     return all;
 }
@@ -53,6 +54,8 @@ std::string to_string(PoseFix fix) {
             return "mm";
         case PoseFix::centimetres:
             return "cm";
+        case PoseFix::feet:
+            return "feet";
         case PoseFix::transpose:
             return "transpose";
         case PoseFix::mirror:
@@ -85,6 +88,9 @@ Pose fixed(PoseFix fix, const Pose& pose) {
             return result;
         case PoseFix::centimetres:
             result.translation() *= 1e-2;
+            return result;
+        case PoseFix::feet:
+            result.translation() *= 0.3048;
             return result;
         case PoseFix::transpose:
             return with_rotation(pose, q.conjugate());

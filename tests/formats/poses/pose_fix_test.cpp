@@ -12,7 +12,7 @@ TEST(PoseFix, EachHasAName) {
     std::set<std::string> names{to_string(PoseFix::none)};
     for (const PoseFix fix : pose_fixes()) names.insert(to_string(fix));
     EXPECT_EQ(names, (std::set<std::string>{"none", "inverse", "camera", "lidar", "wxyz", "xyzw",
-                                            "mm", "cm", "transpose", "mirror", "ned"}));
+                                            "mm", "cm", "feet", "transpose", "mirror", "ned"}));
 }
 
 TEST(PoseFix, EachUndoesItsMistake) {

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include "check/continuity.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "base/numbers.hpp"
+#include "check/overlay.hpp"
+#include "check/samples.hpp"
+#include "recording/scans.hpp"
+
+namespace dynamic_filter::io {
+namespace {
+
+constexpr std::size_t kAround = 10;  // scans before and after one, with which it is compared
+
+/// Median of a value over the steps around one, without the nearest ones.
+template <class Steps, class Value>
+double usual(const Steps& steps, std::size_t at, const Value& value) {
+    std::vector<double> values;
+    const std::size_t begin = at > kAround ? at - kAround : 0;
+    for (std::size_t i = begin; i < std::min(at + kAround + 1, steps.size()); ++i) {
+        if (i + 1 >= at && i <= at + 1) continue;
+        if (const std::optional<double> v = value(steps[i])) values.push_back(*v);
+    }
+    return values.size() < kAround / 2 ? 0.0 : median(std::move(values));
+}
+
+}  // namespace
+
+ScanGist gist_of(const Points& points, const Pose& T_world_sensor) {
+    constexpr std::size_t kMost = 30000;
+    ScanGist gist{.points = 0, .upright = {}, .T_world_sensor = T_world_sensor};
+    const std::size_t stride = points.size() / kMost + 1;
+    Points some;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (!is_measured(points[i])) continue;
+        ++gist.points;
+        if (i % stride == 0) some.push_back(points[i]);
+    }
+    gist.upright = upright(some);
+    return gist;
+}
+
+void Continuity::add(std::size_t scan, ScanGist gist) {
+    constexpr std::size_t kEnough = 200;  // points
+    Step step{.scan = scan, .points = gist.points};
+    const Pose way = last_.T_world_sensor.inverse() * gist.T_world_sensor;
+    step.way = way.translation().norm();
+    step.is_comparable = !steps_.empty() && scan == steps_.back().scan + 1 && way.matrix().allFinite() &&
+                         std::min(last_.upright.size(), gist.upright.size()) > kEnough;
+    if (step.is_comparable) step.overlay = overlay_of(last_.upright, gist.upright, way);
+    steps_.push_back(step);
+    last_ = std::move(gist);
+}
+
+std::vector<Alarm> Continuity::breaks() const {
+    constexpr double kClear = 0.3, kHalf = 0.5, kFarther = 2.0, kStride = 1.0;
+    constexpr std::size_t kMost = 5;  // more do not tell more
+    std::vector<Alarm> breaks;
+    for (std::size_t i = 1; i < steps_.size() && breaks.size() < kMost; ++i) {
+        const Step& step = steps_[i];
+        const auto with = [](double Step::*value) {
+            return [value](const Step& s) {
+                return s.is_comparable ? std::optional(s.*value) : std::nullopt;
+            };
+        };
+        const double overlay = usual(steps_, i, with(&Step::overlay));
+        const double way = usual(steps_, i, with(&Step::way));
+        const bool is_break = step.is_comparable && overlay > kClear &&
+                              step.overlay < kHalf * overlay && step.way < kFarther * way + kStride;
+        if (is_break) {
+            breaks.push_back(
+                {.what = fmt::format("by their poses the sensor went {:.1f} m from the first to "
+                                     "the second, but they overlay by {:.0f} %, and their "
+                                     "neighbors by {:.0f} %: the order of scans or poses is broken "
+                                     "there, or a pose is wrong",
+                                     step.way, 100.0 * step.overlay, 100.0 * overlay),
+                 .advice = "check that the names of scans sort by time and that no scan or pose is "
+                           "missing there",
+                 .first = steps_[i - 1].scan,
+                 .last = step.scan,
+                 .worst = step.scan});
+        }
+        const double points = usual(steps_, i, [](const Step& s) {
+            return std::optional(static_cast<double>(s.points));
+        });
+        const bool follows = i + 1 < steps_.size();
+        const auto is_short = [&](const Step& s) {
+            return static_cast<double>(s.points) < kHalf * points;
+        };
+        if (is_short(step) && !is_short(steps_[i - 1]) && follows && !is_short(steps_[i + 1])) {
+            breaks.push_back(
+                {.what = fmt::format("it has {} points, the scans beside it about {:.0f}: a part "
+                                     "of it is missing",
+                                     step.points, points),
+                 .advice = "copy the file again if it was cut off; the rest of it is used",
+                 .first = step.scan,
+                 .last = step.scan,
+                 .worst = step.scan});
+        }
+    }
+    return breaks;
+}
+
+std::vector<Alarm> breaks_in(const Recording& recording) {
+    constexpr std::size_t kPieces = 30, kPiece = 50;  // scans that follow each other
+    std::vector<std::size_t> scans;
+    const std::size_t step = std::max(recording.size() / kPieces, kPiece);
+    for (std::size_t i = 0; i < recording.size(); ++i) {
+        if (i % step < kPiece) scans.push_back(i);
+    }
+    Continuity continuity;
+    std::vector<ScanGist> gists(recording.size());
+    app::for_each_scan(
+        recording, scans,
+        [&](std::size_t i, app::MaybeScan& maybe) {
+            gists[i] = gist_of(maybe.scan->points, maybe.scan->T_world_sensor);
+        },
+        [&](std::size_t i, app::MaybeScan& maybe) {
+            if (maybe.scan) continuity.add(i, std::exchange(gists[i], {}));
+            return true;
+        });
+    return continuity.breaks();
+}
+
+}  // namespace dynamic_filter::io
