@@ -11,7 +11,8 @@
 #include "base/numbers.hpp"
 #include "check/overlay.hpp"
 #include "check/samples.hpp"
-#include "recording/scans.hpp"
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/parallel.hpp"
 
 namespace dynamic_filter::io {
 namespace {
@@ -114,17 +115,20 @@ std::vector<Alarm> breaks_in(const Recording& recording) {
     for (std::size_t i = 0; i < recording.size(); ++i) {
         if (i % step < kPiece) scans.push_back(i);
     }
+    std::vector<std::optional<ScanGist>> gists(scans.size());
+    parallel_for(scans.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+            try {
+                const FullScan scan = recording.read(scans[k]);
+                gists[k] = gist_of(scan.points, scan.T_world_sensor);
+            } catch (const InputError&) {  // is named as unusable
+            }
+        }
+    });
     Continuity continuity;
-    std::vector<ScanGist> gists(recording.size());
-    app::for_each_scan(
-        recording, scans,
-        [&](std::size_t i, app::MaybeScan& maybe) {
-            gists[i] = gist_of(maybe.scan->points, maybe.scan->T_world_sensor);
-        },
-        [&](std::size_t i, app::MaybeScan& maybe) {
-            if (maybe.scan) continuity.add(i, std::exchange(gists[i], {}));
-            return true;
-        });
+    for (std::size_t k = 0; k < scans.size(); ++k) {
+        if (gists[k]) continuity.add(scans[k], *std::move(gists[k]));
+    }
     return continuity.breaks();
 }
 

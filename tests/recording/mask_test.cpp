@@ -68,10 +68,15 @@ TEST_F(Mask, OfARecordingIsOfTheSensorFrame) {
 
 TEST_F(Mask, PointsInOtherUnitsAreReadInMetres) {
     put_bins("scans", 1);
-    const FullScan scan = open({.point_unit = 0.3048}).read(0);
+    OpenOptions feet;
+    feet.point_unit = 0.3048;
+    const FullScan scan = open(feet).read(0);
     EXPECT_LT((scan.points[1] - 0.3048F * Point(4, 5, 6)).norm(), 1e-5F);
     data.put("poses.txt", "1 0 0 1 0 1 0 0 0 0 1 0\n");
-    const FullScan world = open({.points_in_world = true, .point_unit = 0.001}).read(0);
+    OpenOptions mm;
+    mm.points_in_world = true;
+    mm.point_unit = 0.001;
+    const FullScan world = open(mm).read(0);
     EXPECT_LT((world.points[1] - Point(0.004F - 1.0F, 0.005F, 0.006F)).norm(), 1e-5F);
 }
 
