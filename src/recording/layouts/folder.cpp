@@ -9,6 +9,7 @@
 #include "recording/folders.hpp"
 #include "recording/layouts/beside.hpp"
 #include "recording/layouts/pose_notes.hpp"
+#include "recording/viewpoints.hpp"
 
 namespace dynamic_filter::io {
 namespace {
@@ -127,6 +128,7 @@ std::optional<Layout> find_folder(const Place& place) {
     find_scans(layout, place.data);
     const Paths folders = companions(layout, place);
     find_poses(layout, folders, place.options);
+    if (!layout.poses && !place.options.without_poses) use_viewpoints(layout);
     find_times_and_labels(layout, folders);
     return layout;
 }
