@@ -51,13 +51,13 @@ Judged judge(const std::vector<Candidate>& candidates, const Question& question)
             return candidate.source.T_world_sensor(question.stamps[i]).value_or(lost_pose());
         };
         shares.push_back(overlay.share(pose, candidate.source.points_in_world));
-        told += fmt::format("{} by {:.0f} % at those of {}", told.empty() ? "" : ",",
+        told += fmt::format("{} by {:.0f} % with {}", told.empty() ? "" : ",",
                             100.0 * shares.back(), candidate.name);
         if (overlays_better(shares.back(), shares[judged.best])) judged.best = shares.size() - 1;
     }
-    judged.note = fmt::format(
-        "the bag has several poses of the sensor; scans overlay{}: those of {} are used", told,
-        candidates[judged.best].name);
+    judged.note =
+        fmt::format("the poses of the bag can be read in several ways; scans overlay{}: {} is used",
+                    told, candidates[judged.best].name);
     return judged;
 }
 
@@ -89,10 +89,10 @@ std::vector<Candidate> by_frames(const Question& question, const std::string& fr
     for (FrameReading& reading : question.contents.frames.readings(frame)) {
         const auto tree = std::make_shared<const FrameTree>(std::move(reading.tree));
         if (!tree->moves(frame)) continue;
-        candidates.push_back({tree,
-                              {},
-                              from_frames(*tree, frame, world, question.lookup),
-                              reading.link + (reading.author.empty() ? "" : " ") + reading.author});
+        std::string name = reading.link.empty() ? fmt::format("'{}' in /tf", frame) : reading.link;
+        if (!reading.author.empty()) name += " " + reading.author;
+        candidates.push_back(
+            {tree, {}, from_frames(*tree, frame, world, question.lookup), std::move(name)});
     }
     return candidates;
 }
@@ -129,6 +129,22 @@ std::optional<std::string> seer_in(const FrameTree& tree, const std::string& wor
     return leaves.size() == 1 ? std::optional(leaves.front()) : std::nullopt;
 }
 
+/// Some drivers give their clouds the name of the world's frame, although the points are the
+/// sensor's own.
+void add_in_sensor(std::vector<Candidate>& candidates) {
+    const std::size_t worlds = candidates.size();
+    for (std::size_t i = 0; i < worlds; ++i) {
+        Candidate candidate = candidates[i];
+        candidate.source.points_in_world = false;
+        std::string& note = candidate.source.note;
+        note = note.substr(0, note.find(", so the points")) +
+               " by their headers; but as the scans show, the points are in the sensor frame";
+        candidate.name += " with points in the sensor frame";
+        candidates[i].name += " with points in the world frame";
+        candidates.push_back(std::move(candidate));
+    }
+}
+
 /// Of clouds that were moved into a frame of the world, in which their sensor moves.
 std::vector<Candidate> in_world(const Question& question) {
     const auto seer = seer_in(question.contents.frames, question.sensor);
@@ -141,6 +157,7 @@ std::vector<Candidate> in_world(const Question& question) {
             "points are transformed into the sensor frame",
             *seer, question.sensor);
     }
+    add_in_sensor(candidates);
     return candidates;
 }
 
@@ -168,9 +185,11 @@ std::vector<Candidate> of_topic(const Question& question, const Topics::value_ty
     const auto& [name, topic] = named;
     std::vector<Candidate> candidates{of_topic(question, name, topic)};
     const std::string vehicle = vehicle_of(question.contents.frames, question.sensor);
-    if (!topic.child.empty() || vehicle.empty() || question.sensor == topic.parent) {
+    if (question.sensor == topic.parent) {
+        add_in_sensor(candidates);
         return candidates;
     }
+    if (!topic.child.empty() || vehicle.empty()) return candidates;
     PoseTopic of_vehicle = topic;
     of_vehicle.child = vehicle;
     candidates.push_back(of_topic(question, name, of_vehicle));

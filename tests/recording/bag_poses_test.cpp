@@ -41,7 +41,7 @@ TEST_F(BagPosesTest, OfTwoParentsTheOneThatFitsTheScansIsTaken) {
     });
     const Recording recording = opened();
     expect_the_curve(recording);
-    EXPECT_TRUE(has_note(recording, "those of 'lidar' in 'map' are used"));
+    EXPECT_TRUE(has_note(recording, ": 'lidar' in 'map' is used"));
 }
 
 TEST_F(BagPosesTest, OfTwoAuthorsTheOneThatFitsTheScansIsTaken) {
@@ -51,7 +51,7 @@ TEST_F(BagPosesTest, OfTwoAuthorsTheOneThatFitsTheScansIsTaken) {
         transform("odom", "lidar", on_a_curve(scan), at);
     });
     const Recording recording = opened();
-    EXPECT_TRUE(has_note(recording, "'lidar' in 'odom' by its second author are used"));
+    EXPECT_TRUE(has_note(recording, ": 'lidar' in 'odom' by its second author is used"));
     expect_the_curve(recording);
 }
 
@@ -89,7 +89,7 @@ TEST_F(BagPosesTest, OfTwoOdometriesTheOneThatFitsTheScansIsTaken) {
     });
     const Recording recording = opened();
     expect_the_curve(recording);
-    EXPECT_TRUE(has_note(recording, "those of /b are used"));
+    EXPECT_TRUE(has_note(recording, ": /b is used"));
 }
 
 TEST_F(BagPosesTest, OdometryThatNamesNoFrameIsTheVehicles) {
@@ -121,6 +121,15 @@ TEST_F(BagPosesTest, CloudsInAFrameOfTheWorldAreSeenFromTheLidarThatMovesInIt) {
     const Recording recording = opened();
     EXPECT_TRUE(recording.info().points_in_world);
     EXPECT_TRUE(has_note(recording, "frame 'lidar' in 'map', which is also the frame of the"));
+    expect_the_curve(recording);
+}
+
+TEST_F(BagPosesTest, CloudsThatOnlyBearTheNameOfTheWorldStayInTheSensorFrame) {
+    drive_among_pillars("map");
+    along([&](double at, double scan) { transform("map", "lidar", on_a_curve(scan), at); });
+    const Recording recording = opened();
+    EXPECT_FALSE(recording.info().points_in_world);
+    EXPECT_TRUE(has_note(recording, "as the scans show, the points are in the sensor frame"));
     expect_the_curve(recording);
 }
 

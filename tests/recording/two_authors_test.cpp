@@ -35,7 +35,7 @@ TEST(TwoAuthors, AJumpIsOfOneAuthor) {
 
 TEST(TwoAuthors, NoiseIsOfOneAuthor) {
     for (const double speed : {0.0, 0.001, 0.1}) {
-        Random random(3);
+        test::Random random(3);
         Trajectory poses;
         for (int i = 0; i < 500; ++i) {
             add(poses, 0.02 * i, speed * i + 0.05 * random.uniform(-1.0, 1.0),

@@ -48,7 +48,9 @@ TEST_F(ViewpointsTest, TimesAndOtherPosesBesideTheScansCount) {
     for (int i = 0; i < 24; ++i) times += std::to_string(100.0 + 0.5 * i) + "\n";
     data.put("times.txt", times);
     EXPECT_NEAR(open().info().stamps[2], 101.0, 1e-6);
-    EXPECT_NEAR(open({.stride = 2}).read(3).T_world_sensor.translation().x(),
+    OpenOptions every_second;
+    every_second.stride = 2;
+    EXPECT_NEAR(open(every_second).read(3).T_world_sensor.translation().x(),
                 on_a_curve(6).translation().x(), 1e-4);
     data.put("poses.txt", kitti_rows(24));
     EXPECT_NEAR(open().read(7).T_world_sensor.translation().x(), 7.0, 1e-6);
