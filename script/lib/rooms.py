@@ -35,7 +35,7 @@ ROOMS = {
     "sim": "base geometry",
     "paper": f"{BASE} geometry settings dynamic_filter/filter.hpp filter/keyframe.hpp filter/label.hpp",
     "online": f"{BASE} geometry settings filter tracking paper",
-    "recording": "base geometry formats",
+    "recording": "base geometry formats tracking/upright.hpp",
     "check": "base geometry settings tracking formats recording",
     "export": "base geometry formats draw recording",
     "page": "base geometry formats score recording dynamic_filter/filter.hpp",

@@ -12,6 +12,7 @@
 #include "base/numbers.hpp"
 #include "check/choose_poses.hpp"
 #include "check/overlay.hpp"
+#include "check/rotation_parts.hpp"
 #include "check/samples.hpp"
 #include "check/scan_times.hpp"
 #include "dynamic_filter/error.hpp"
@@ -482,6 +483,10 @@ Preflight check_recording(const Recording& recording, Depth depth) {
     judge_stamps(result, recording);
     judge_order(result, recording, samples);
     if (judge_unit(result, samples) || judge_frame(result, recording, samples)) return result;
+    if (auto parts = find_rotation_parts(recording)) {
+        result.findings.push_back(std::move(*parts));
+        return result;
+    }
     if (!judge_sensors(result, recording)) judge_points(result, samples);
     // Poses that odometry found fit the scans, as far as these show it.
     if (result.overlays.empty() || recording.info().tracked) return result;

@@ -3,6 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <span>
+
+#include "base/crc.hpp"
 #include "formats/byte_reader.hpp"
 #include "formats/messages/messages.hpp"
 #include "formats/messages/packets.hpp"
@@ -11,23 +15,28 @@ namespace dynamic_filter::io {
 
 namespace {
 
+/// Of scans with noise, the last bytes alone tell them apart.
+std::uint32_t end_of(std::span<const std::byte> data) {
+    constexpr std::size_t kEnd = 4096;
+    return crc_of(data.last(std::min(kEnd, data.size())));
+}
+
 void add(BagContents& contents, const Message& message) {
     switch (kind_of(message.topic.type)) {
         case MessageKind::cloud:
         case MessageKind::livox: {
             const MessageHeader header = read_header(message);
             CloudTopic& found = contents.clouds[message.topic.name];
-            if (found.scans.empty()) {
-                found.topic = message.topic;
-                found.frame = header.frame;
-            }
-            found.scans.push_back({header.stamp, message.recorded_ns, message.ref});
+            if (found.scans.empty()) found.topic = message.topic;
+            found.scans.push_back({header.stamp, message.recorded_ns, message.ref, header.frame,
+                                   message.data.size(), end_of(message.data)});
             break;
         }
         case MessageKind::odometry:
         case MessageKind::pose: {
             const PoseMessage pose = read_pose_message(message);
             PoseTopic& found = contents.poses[message.topic.name];
+            found.kind = kind_of(message.topic.type);
             found.parent = pose.parent;
             found.child = pose.child;
             if (!pose.T_parent_child.matrix().allFinite()) break;
@@ -82,6 +91,7 @@ BagContents contents_of(const Bag& bag) {
                             malformed, first));
     }
     contents.frames.put_in_order();
+    contents.frames.fix_constant_links();
     for (auto& [name, topic] : contents.poses) put_in_order(topic.trajectory);
     return contents;
 }

@@ -19,10 +19,12 @@ struct FoundScan {
     double stamp = 0.0;
     std::int64_t recorded_ns = 0;
     MessageRef ref;
+    std::string frame;
+    std::size_t bytes = 0;  // size of the message
+    std::uint32_t end = 0;  // checksum of its last bytes
 };
 struct CloudTopic {
     Topic topic;
-    std::string frame;  // frame of its first message
     std::vector<FoundScan> scans;
 };
 

@@ -4,142 +4,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <functional>
-#include <map>
+#include <memory>
 
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/poses.hpp"
 #include "formats/byte_reader.hpp"
 #include "formats/messages/messages.hpp"
-#include "formats/messages/packets.hpp"
-#include "formats/poses/rigid.hpp"
+#include "recording/bag_clouds.hpp"
 #include "recording/bag_contents.hpp"
+#include "recording/bag_poses.hpp"
 #include "recording/matching.hpp"
-#include "recording/pose_source.hpp"
 #include "recording/poses_at_scans.hpp"
 
 namespace dynamic_filter::io {
 namespace {
-
-template <class Topics>
-std::string topic_names(const Topics& topics) {
-    std::string names;
-    for (const auto& [name, topic] : topics) names += (names.empty() ? "" : ", ") + name;
-    return names;
-}
-
-/// True for output topics of `convert`, which repeat the scans of another topic or of all topics.
-bool is_part_of_another(const std::string& name, const std::map<std::string, CloudTopic>& clouds) {
-    if (name == "/static_map" && clouds.size() > 1) return true;
-    for (const std::string_view part : {"_static", "_dynamic"}) {
-        if (name.ends_with(part) && clouds.contains(name.substr(0, name.size() - part.size()))) {
-            return true;
-        }
-    }
-    return false;
-}
-
-/// Text such as "; /velodyne_packets is velodyne_msgs/VelodyneScan..." for topics with raw packets
-/// that a driver must decode first, and with clouds of types that are not read.
-std::string tell_packets(const BagContents& contents) {
-    std::string told;
-    for (const auto& [name, type] : contents.packets) {
-        told += fmt::format(
-            "; {} holds raw packets ({}): play the bag to the driver's node {} and record the "
-            "sensor_msgs/PointCloud2 that it publishes",
-            name, type, driver_of(type));
-    }
-    for (const auto& [name, type] : contents.other_clouds)
-        told +=
-            fmt::format("; {} holds {}, which is not read: {}", name, type, advice_on_cloud(type));
-    return told;
-}
-
-const CloudTopic& choose_clouds(const BagContents& contents, const std::filesystem::path& data,
-                                const OpenOptions& options) {
-    const auto& clouds = contents.clouds;
-    if (!options.topic.empty()) {
-        const auto found = clouds.find(options.topic);
-        if (found != clouds.end()) return found->second;
-        throw ConfigError(fmt::format("no point clouds on topic {}; there are: {}{}", options.topic,
-                                      clouds.empty() ? "none" : topic_names(clouds),
-                                      tell_packets(contents)));
-    }
-    if (clouds.empty()) {
-        const auto& known = contents.losses.empty() ? contents.notes : contents.losses;
-        const std::string why = known.empty() ? "" : " (" + known.front() + ")";
-        throw InputError(data, "",
-                         "holds no point clouds (sensor_msgs/PointCloud2 or Livox's CustomMsg)" +
-                             why + tell_packets(contents));
-    }
-    std::vector<const CloudTopic*> whole;
-    for (const auto& [name, topic] : clouds) {
-        if (!is_part_of_another(name, clouds)) whole.push_back(&topic);
-    }
-    if (whole.size() > 1) {
-        std::string names;
-        for (const auto& [name, topic] : clouds) {
-            names +=
-                fmt::format("{}{} ({} scans)", names.empty() ? "" : ", ", name, topic.scans.size());
-        }
-        throw ConfigError("point clouds on several topics: " + names + "; choose one with --topic");
-    }
-    return *whole.front();
-}
-
-/// Orders scans by the stamps of their headers, or by the time of recording if the driver left the
-/// stamps at zero.
-std::vector<FoundScan> in_order(CloudTopic topic, std::vector<std::string>& notes) {
-    const bool unset = std::all_of(topic.scans.begin(), topic.scans.end(),
-                                   [](const FoundScan& s) { return s.stamp == 0.0; });
-    if (unset) {
-        for (FoundScan& scan : topic.scans)
-            scan.stamp = 1e-9 * static_cast<double>(scan.recorded_ns);
-        notes.push_back("headers have no stamps; the times of recording are used");
-    }
-    std::stable_sort(topic.scans.begin(), topic.scans.end(),
-                     [](const FoundScan& a, const FoundScan& b) { return a.stamp < b.stamp; });
-    return std::move(topic.scans);
-}
-
-/// Chooses the source of the poses. If there are none, returns nothing, and a note says why.
-std::optional<PoseSource> choose_poses(const BagContents& contents, const CloudTopic& clouds,
-                                       const OpenOptions& options, const LinkLookup& lookup,
-                                       std::vector<std::string>& notes) {
-    if (options.without_poses) return std::nullopt;
-    const FrameTree& frames = contents.frames;
-    const bool by_frames = frames.moves(clouds.frame);
-    const auto named = contents.poses.find(options.pose_topic);
-    const auto source = [&](const auto& topic) {
-        return from_topic(topic.first, topic.second, frames, clouds.frame, lookup);
-    };
-    if (!options.pose_topic.empty()) {
-        if (options.pose_topic == "/tf" && by_frames) {
-            return from_frames(frames, clouds.frame, {}, lookup);
-        }
-        if (named != contents.poses.end()) return source(*named);
-        std::string known = topic_names(contents.poses);
-        if (by_frames) known += (known.empty() ? "" : ", ") + std::string("/tf");
-        throw ConfigError(fmt::format("no poses on topic {}; there are: {}", options.pose_topic,
-                                      known.empty() ? "none" : known));
-    }
-    if (by_frames) return from_frames(frames, clouds.frame, {}, lookup);
-    if (contents.poses.empty()) {
-        notes.push_back(
-            fmt::format("no poses of the frame '{}' found; looked for /tf that leads to it, "
-                        "nav_msgs/Odometry, geometry_msgs/PoseStamped",
-                        clouds.frame));
-        return std::nullopt;
-    }
-    PoseSource first = source(*contents.poses.begin());
-    if (contents.poses.size() > 1) {
-        first.note +=
-            fmt::format(" (of {}; choose with --pose-topic)", topic_names(contents.poses));
-    }
-    return first;
-}
 
 void assign_at_scans(Info& info, const std::function<std::optional<Pose>(double)>& known) {
     PosesAtScans found = poses_at_scans(info.stamps, info.trajectory, known);
@@ -173,45 +52,18 @@ void assign_file_poses(Info& info, const std::filesystem::path& file) {
     info.notes.push_back("poses interpolated at the scans' stamps, from " + file.string());
 }
 
-void assign_poses(Info& info, const PoseSource& source) {
-    info.trajectory = trajectory_of(source);
-    assign_at_scans(info, source.T_world_sensor);
-    info.notes.push_back(source.note);
-}
-
-/// True for the names that drivers give to the frames of their LiDARs.
-bool names_lidar(std::string frame) {
-    std::transform(frame.begin(), frame.end(), frame.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    constexpr std::array<std::string_view, 9> kNames = {"lidar",  "laser",     "velodyne",
-                                                        "ouster", "os_sensor", "hesai",
-                                                        "pandar", "livox",     "robosense"};
-    return std::any_of(kNames.begin(), kNames.end(), [&](std::string_view name) {
-        return frame.find(name) != std::string::npos;
-    });
-}
-
-/// Clouds in the frame of a vehicle are seen from its LiDAR, if /tf_static has a single one. A
-/// frame that has another one of these names below it is a housing.
+/// Clouds in the frame of a vehicle are seen from its LiDAR, if /tf_static has a single one.
 void find_sensor(Info& info, const FrameTree& frames, const std::string& of_clouds) {
     if (names_lidar(of_clouds)) return;
-    std::vector<std::string> lidars = frames.fixed_below(of_clouds);
-    std::erase_if(lidars, [](const std::string& frame) { return !names_lidar(frame); });
-    const std::vector<std::string> named = lidars;
-    std::erase_if(lidars, [&](const std::string& frame) {
-        return std::any_of(named.begin(), named.end(), [&](const std::string& other) {
-            const auto chain = frames.above(other);
-            return other != frame && std::find(chain.begin(), chain.end(), frame) != chain.end();
-        });
-    });
-    if (lidars.size() != 1) return;
-    const auto pose = frames.pose(lidars.front(), of_clouds, info.stamps.front());
+    const auto lidar = only_lidar(frames, frames.fixed_below(of_clouds));
+    if (!lidar) return;
+    const auto pose = frames.pose(*lidar, of_clouds, info.stamps.front());
     if (!pose) return;
     info.sensor_at = pose->translation();
     info.notes.push_back(fmt::format(
         "points in the frame '{}' are seen from '{}', which is at ({:.2f}, {:.2f}, {:.2f}) m by "
         "/tf_static; --sensor-at 0,0,0 takes its origin",
-        of_clouds, lidars.front(), info.sensor_at->x(), info.sensor_at->y(), info.sensor_at->z()));
+        of_clouds, *lidar, info.sensor_at->x(), info.sensor_at->y(), info.sensor_at->z()));
 }
 
 void refuse_if_all_lost(const Info& info, const std::filesystem::path& data) {
@@ -233,7 +85,6 @@ void refuse_if_all_lost(const Info& info, const std::filesystem::path& data) {
 RecordingParts open_bag(const std::filesystem::path& data, const OpenOptions& options) {
     auto scans = std::make_shared<BagScans>(BagScans{Bag(data), {}, {}});
     const BagContents contents = contents_of(scans->bag);
-    const CloudTopic& clouds = choose_clouds(contents, data, options);
     Info info;
     info.layout = "bag";
     info.root = data;
@@ -244,21 +95,30 @@ RecordingParts open_bag(const std::filesystem::path& data, const OpenOptions& op
             "{} bags are read as parts of one recording; if they are not, give one of them",
             scans->bag.files().size()));
     }
-    info.notes.push_back("scans from " + clouds.topic.name);
-    for (const FoundScan& scan : in_order(clouds, info.notes)) {
+    const BagClouds clouds = choose_clouds(scans->bag, contents, data, options.topic);
+    const std::string& frame = clouds.frame;
+    info.notes.insert(info.notes.end(), clouds.notes.begin(), clouds.notes.end());
+    info.losses.insert(info.losses.end(), clouds.losses.begin(), clouds.losses.end());
+    for (const FoundScan& scan : clouds.scans) {
         info.stamps.push_back(scan.stamp);
         scans->messages.push_back(scan.ref);
     }
+    info.repeats = clouds.repeats;
     info.measured_stamps = true;
     scans->topic = clouds.topic;
-    const LinkLookup lookup{.gap = limits_for(info.stamps).apart, .holds = true};
     if (options.poses) {
         assign_file_poses(info, *options.poses);
-    } else if (const auto source = choose_poses(contents, clouds, options, lookup, info.notes)) {
-        assign_poses(info, *source);
-        info.points_in_world = source->points_in_world;
+    } else if (!options.without_poses) {
+        const auto read = [&](std::size_t i) { return read_bag_cloud(*scans, i); };
+        BagPoses poses = choose_poses(contents, frame, info.stamps, options.pose_topic, read);
+        info.notes.insert(info.notes.end(), poses.notes.begin(), poses.notes.end());
+        info.points_in_world = poses.points_in_world;
+        if (poses.T_world_sensor) {
+            info.trajectory = std::move(poses.trajectory);
+            assign_at_scans(info, poses.T_world_sensor);
+        }
     }
-    if (!options.sensor_at) find_sensor(info, contents.frames, clouds.frame);
+    if (!options.sensor_at && !info.points_in_world) find_sensor(info, contents.frames, frame);
     info.has_poses = !info.T_world_sensor.empty();
     if (info.has_poses) refuse_if_all_lost(info, data);
     const std::size_t digits =

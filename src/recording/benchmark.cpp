@@ -3,25 +3,11 @@
 
 #include <algorithm>
 
-#include "base/input.hpp"
 #include "dynamic_filter/error.hpp"
-#include "formats/clouds/pcd_header.hpp"
+#include "recording/viewpoints.hpp"
 
 namespace dynamic_filter::io {
 namespace {
-
-constexpr std::size_t head_bytes = 4096;  // a header has only a few hundred bytes
-
-/// An unreadable scan is ignored here; it is rejected when it is read.
-bool may_have_viewpoint(const std::filesystem::path& scan) {
-    try {
-        const std::string head = read_head(scan, head_bytes);
-        Lines lines(head, scan);
-        return parse_pcd_header(lines).viewpoint.has_value();
-    } catch (const InputError&) {
-        return false;
-    }
-}
 
 enum class Verdict { truth, no_truth, undecided };
 
@@ -54,7 +40,8 @@ bool all_intensities_are_flags(const Info& info) {
 }  // namespace
 
 bool any_has_viewpoint(const Paths& scans) {
-    return std::any_of(scans.begin(), scans.end(), may_have_viewpoint);
+    return std::any_of(scans.begin(), scans.end(),
+                       [](const auto& scan) { return viewpoint_of(scan).has_value(); });
 }
 
 void require_viewpoints(Info& info) {

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "recording/frame_tree.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
+
+#include "recording/two_authors.hpp"
 
 namespace dynamic_filter::io {
 namespace {
@@ -24,6 +28,16 @@ Pose held_pose(const Trajectory& poses, double stamp) {
 
 }  // namespace
 
+void FrameTree::Link::put_in_order() {
+    io::put_in_order(T_parent_child);
+    way = way_of(T_parent_child.poses);
+}
+
+void FrameTree::Link::add(const PoseMessage& transform) {
+    T_parent_child.stamps.push_back(transform.stamp);
+    T_parent_child.poses.push_back(transform.T_parent_child);
+}
+
 void FrameTree::add(const PoseMessage& transform, bool is_static) {
     const auto [it, fresh] = links_.try_emplace(transform.child);
     Link& link = it->second;
@@ -31,20 +45,50 @@ void FrameTree::add(const PoseMessage& transform, bool is_static) {
         link.parent = transform.parent;
         link.is_static = is_static;
     }
-    if (link.parent != transform.parent || (link.is_static && !fresh)) return;
-    link.T_parent_child.stamps.push_back(transform.stamp);
-    link.T_parent_child.poses.push_back(transform.T_parent_child);
+    if (link.parent == transform.parent) {
+        if (!link.is_static || fresh) link.add(transform);
+        return;
+    }
+    if (is_static) return;
+    auto& others = others_[transform.child];
+    auto other = std::find_if(others.begin(), others.end(),
+                              [&](const Link& l) { return l.parent == transform.parent; });
+    if (other == others.end()) {
+        other = others.emplace(others.end());
+        other->parent = transform.parent;
+    }
+    other->add(transform);
 }
 
 void FrameTree::put_in_order() {
+    for (auto& [child, link] : links_) link.put_in_order();
+    for (auto& [child, others] : others_) {
+        for (Link& link : others) link.put_in_order();
+    }
+}
+
+void FrameTree::fix_constant_links() {
+    const auto is_constant = [](const Link& link) {
+        constexpr double kSame = 1e-6;  // [m], and of the elements of rotations
+        const auto& poses = link.T_parent_child.poses;
+        return std::all_of(poses.begin(), poses.end(), [&](const Pose& pose) {
+            return (pose.matrix() - poses.front().matrix()).cwiseAbs().maxCoeff() < kSame;
+        });
+    };
+    for (auto& [child, others] : others_) std::erase_if(others, is_constant);
     for (auto& [child, link] : links_) {
-        io::put_in_order(link.T_parent_child);
-        link.way = way_of(link.T_parent_child.poses);
+        auto& [stamps, poses] = link.T_parent_child;
+        if (link.is_static || !is_constant(link)) continue;
+        link.is_static = true;
+        link.way = 0.0;
+        stamps.resize(1);
+        poses.resize(1);
     }
 }
 
 void FrameTree::forget_before(double stamp) {
     constexpr std::ptrdiff_t kLeast = 2;
+    others_.clear();  // only whole recordings are read in several ways
     for (auto& [child, link] : links_) {
         auto& [stamps, poses] = link.T_parent_child;
         const auto old = std::lower_bound(stamps.begin(), stamps.end(), stamp) - stamps.begin();
@@ -57,6 +101,7 @@ void FrameTree::forget_before(double stamp) {
 }
 
 void FrameTree::forget_moving() {
+    others_.clear();
     std::erase_if(links_, [](const auto& link) { return !link.second.is_static; });
 }
 
@@ -83,6 +128,54 @@ std::vector<std::string> FrameTree::fixed_below(const std::string& frame) const 
         if (end != chain.begin() && end != chain.end() && fixed) below.push_back(child);
     }
     return below;
+}
+
+std::vector<std::string> FrameTree::moving_below(const std::string& frame) const {
+    std::vector<std::string> below;
+    for (const auto& [child, own] : links_) {
+        const std::vector<std::string> chain = above(child);
+        const auto end = std::find(chain.begin(), chain.end(), frame);
+        const bool moves = std::any_of(chain.begin(), end, [&](const std::string& each) {
+            const auto link = links_.find(each);
+            return link != links_.end() && !link->second.is_static;
+        });
+        if (end != chain.begin() && end != chain.end() && moves) below.push_back(child);
+    }
+    return below;
+}
+
+void FrameTree::add_readings(const std::string& child, const Link& link,
+                             std::vector<FrameReading>& readings) const {
+    const auto add = [&](Link only, const std::string& name) {
+        FrameReading reading{
+            .tree = *this, .link = fmt::format("'{}' in '{}'", child, only.parent), .author = name};
+        reading.tree.others_.erase(child);
+        only.put_in_order();
+        reading.tree.links_[child] = std::move(only);
+        readings.push_back(std::move(reading));
+    };
+    const auto split = link.is_static ? std::nullopt : split_authors(link.T_parent_child);
+    if (!split) return add(link, "");
+    for (std::size_t i = 0; i < split->size(); ++i) {
+        Link only = link;
+        only.T_parent_child = (*split)[i];
+        add(std::move(only), i == 0 ? "by its first author" : "by its second author");
+    }
+}
+
+std::vector<FrameReading> FrameTree::readings(const std::string& frame) const {
+    for (const std::string& child : above(frame)) {
+        const auto link = links_.find(child);
+        if (link == links_.end()) continue;
+        std::vector<FrameReading> readings;
+        add_readings(child, link->second, readings);
+        const auto others = others_.find(child);
+        if (others != others_.end()) {
+            for (const Link& other : others->second) add_readings(child, other, readings);
+        }
+        if (readings.size() > 1) return readings;
+    }
+    return {FrameReading{.tree = *this}};
 }
 
 std::optional<Pose> FrameTree::in_root(const std::string& frame, double stamp,
@@ -139,6 +232,17 @@ const FrameTree::Link* FrameTree::leading_link(const std::string& frame) const {
         }
     }
     return leading;
+}
+
+double FrameTree::reach_above(const std::string& frame) const {
+    const Link* const leading = leading_link(frame);
+    double reach = 0.0;
+    if (leading == nullptr) return reach;
+    const auto& poses = leading->T_parent_child.poses;
+    for (const Pose& pose : poses) {
+        reach = std::max(reach, (pose.translation() - poses.front().translation()).norm());
+    }
+    return reach;
 }
 
 std::vector<double> FrameTree::stamps_above(const std::string& frame) const {

@@ -80,6 +80,7 @@ std::optional<Layout> find_elsewhere(const Place& place) {
     if (has_scans(data)) return std::nullopt;
     refuse_argoverse(data);
     refuse_several_recordings(data);
+    if (auto layout = find_parts(place)) return layout;
     auto folder = find_below(data, scan_extensions());
     if (!folder) return std::nullopt;
     const auto& usual = usual_scan_folders();

@@ -21,7 +21,8 @@ struct Layout {
     Paths scans;  ///< in natural order; never empty
     /// Poses of the scans if the layout defines them; otherwise empty.
     std::vector<Pose> T_world_sensor;
-    bool poses_in_scans = false;        ///< true: each scan file holds its pose
+    /// True: each scan file holds its pose, which T_world_sensor may have as well.
+    bool poses_in_scans = false;
     bool points_in_world = false;       ///< true: points are in the frame of the poses
     bool truth_in_intensity = false;    ///< true: intensity may be ground truth
     std::vector<double> stamps;         ///< [s] stamps of the scans if the layout defines them

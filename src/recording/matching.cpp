@@ -11,6 +11,7 @@
 #include "dynamic_filter/error.hpp"
 #include "recording/layouts/numbers.hpp"
 #include "recording/poses_at_scans.hpp"
+#include "recording/scan_overlay.hpp"
 #include "recording/times_in_names.hpp"
 
 namespace dynamic_filter::io {
@@ -163,6 +164,45 @@ Match match_by_rows(const Layout& layout, const PoseFile& file,
     return match;
 }
 
+/// The first of the rows that belong to the scans, if these are at the begin or the end of more
+/// poses, and do not overlay better in between. Empty if it is not known.
+std::optional<std::size_t> row_by_overlay(const Layout& layout, const std::vector<Pose>& poses) {
+    constexpr std::size_t kTried = 16;
+    constexpr double kLeast = 0.2;  // of the structures
+    const std::size_t scans = layout.scans.size();
+    if (layout.calib || scans < 3 || poses.size() <= scans) return std::nullopt;
+    const ScanOverlay overlay(scans, [&](std::size_t i) { return layout.read(layout.scans[i]); });
+    const auto share_from = [&](std::size_t row) {
+        return overlay.share([&](std::size_t i) { return poses[row + i]; }, layout.points_in_world);
+    };
+    const std::size_t last = poses.size() - scans;
+    std::size_t best = 0;
+    double most = share_from(0);
+    for (std::size_t k = std::min(last, kTried); k > 0; --k) {
+        const std::size_t row = k * last / std::min(last, kTried);
+        const double share = share_from(row);
+        if (!overlays_better(share, most)) continue;
+        most = share;
+        best = row;
+    }
+    return most > kLeast && (best == 0 || best == last) ? std::optional(best) : std::nullopt;
+}
+
+Match match_from_row(const Layout& layout, const PoseFile& file, std::size_t row,
+                     const std::vector<double>& times) {
+    const auto first = static_cast<std::ptrdiff_t>(row), scans = std::ssize(layout.scans);
+    const auto part_of = [&](const auto& all) {
+        return std::vector(all.begin() + first, all.begin() + first + scans);
+    };
+    Match match{.poses = part_of(file.poses), .stamps = times, .note = {}};
+    if (times.empty() && !file.stamps.empty()) match.stamps = part_of(file.stamps);
+    match.note = fmt::format(
+        "{} scans but {} poses, and names without gaps: the {} rows are taken for theirs, because "
+        "scans overlay best there; --poses FILE gives others",
+        scans, file.poses.size(), row == 0 ? "first" : "last");
+    return match;
+}
+
 /// Stamps of poses may be in seconds although those of the scans are not.
 PoseFile in_seconds(PoseFile file, const std::vector<double>& scans, std::optional<double> unit) {
     if (!unit || file.stamps.empty()) return file;
@@ -237,6 +277,9 @@ Match match_poses(const Layout& layout, const PoseFile& given, const std::vector
     }
     if (const auto rows = rows_in_names(layout.scans, file.poses.size()); !rows.empty()) {
         return match_by_rows(layout, file, rows, times);
+    }
+    if (const auto row = row_by_overlay(layout, file.poses)) {
+        return match_from_row(layout, file, *row, times);
     }
     throw InputError(
         *layout.poses, "",

@@ -65,13 +65,12 @@ void from_camera_poses(Info& info, const std::filesystem::path& calib) {
 /// Assigns the poses. Returns the stamps, if the recording has any.
 std::vector<double> assign_poses(Info& info, const Layout& layout, std::optional<double> unit) {
     info.pose_source = layout.poses.value_or(layout.pose_source);
-    const bool has_own = !layout.stamps.empty() || !layout.T_world_sensor.empty();
-    std::vector<double> times = has_own ? layout.stamps : times_of(layout);
+    const bool has_own = !layout.T_world_sensor.empty() && !layout.poses_in_scans;
+    std::vector<double> times =
+        has_own || !layout.stamps.empty() ? layout.stamps : times_of(layout);
     for (double& time : times) time *= unit.value_or(1.0);
-    if (!layout.T_world_sensor.empty()) {
-        info.T_world_sensor = layout.T_world_sensor;
-        return times;
-    }
+    info.T_world_sensor = layout.T_world_sensor;
+    if (has_own) return times;
     if (!layout.poses) return times.empty() ? growing_times_in_names(layout.scans, unit) : times;
     const PoseFile file = read_poses(*layout.poses);
     info.notes.insert(info.notes.end(), file.notes.begin(), file.notes.end());

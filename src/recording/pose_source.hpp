@@ -16,6 +16,7 @@ namespace dynamic_filter::io {
 struct PoseTopic {
     std::string parent, child;
     Trajectory trajectory;
+    MessageKind kind = MessageKind::odometry;
 };
 
 /// Poses of a sensor in its world frame.

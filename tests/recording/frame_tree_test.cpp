@@ -74,6 +74,45 @@ TEST(FrameTree, KeepsTheFirstParent) {
     EXPECT_TRUE(frames.pose("base", "odom", 0.0)->isApprox(along(0)));
 }
 
+TEST(FrameTree, EveryParentThatMovesIsAReading) {
+    FrameTree frames = vehicle();
+    for (int i = 0; i <= 10; ++i) frames.add({double(i), "slam", "base", along(2 * i)}, false);
+    frames.put_in_order();
+    const auto readings = frames.readings("lidar");
+    ASSERT_EQ(readings.size(), 2U);
+    EXPECT_EQ(readings[0].link, "'base' in 'odom'");
+    EXPECT_EQ(readings[1].link, "'base' in 'slam'");
+    EXPECT_NEAR(readings[1].tree.pose("lidar", "slam", 4.0)->translation().x(), 8.0, 1e-9);
+    EXPECT_EQ(vehicle().readings("lidar").size(), 1U);
+}
+
+TEST(FrameTree, TwoAuthorsOfOneLinkAreToldApart) {
+    FrameTree frames;
+    for (int i = 0; i < 100; ++i) {
+        frames.add({0.1 * i, "odom", "base", along(0.02 * i)}, false);
+        frames.add({0.1 * i + 0.03, "odom", "base", along(0.02 * i + 0.5)}, false);
+    }
+    frames.put_in_order();
+    const auto readings = frames.readings("base");
+    ASSERT_EQ(readings.size(), 2U);
+    EXPECT_NEAR(readings[0].tree.pose("base", "odom", 5.0)->translation().x(), 1.0, 0.01);
+    EXPECT_NEAR(readings[1].tree.pose("base", "odom", 5.03)->translation().x(), 1.5, 0.01);
+}
+
+TEST(FrameTree, LinksThatNeverChangeAreStaticIfAsked) {
+    FrameTree frames = vehicle();
+    for (int i = 0; i <= 10; ++i) frames.add({double(i), "lidar", "lens", along(0.1)}, false);
+    frames.add({0.0, "lidar", "once", along(0.1)}, false);
+    frames.put_in_order();
+    EXPECT_TRUE(frames.fixed_below("lidar").empty());
+    frames.fix_constant_links();
+    EXPECT_EQ(frames.fixed_below("lidar"), (std::vector<std::string>{"lens", "once"}));
+    EXPECT_TRUE(frames.moves("lens"));
+    EXPECT_EQ(frames.moving_below("odom"),
+              (std::vector<std::string>{"base", "lens", "lidar", "once"}));
+    EXPECT_NEAR(frames.reach_above("lens"), 10.0, 1e-9);
+}
+
 TEST(FrameTree, CirclesEnd) {
     FrameTree frames;
     frames.add({0.0, "a", "b", along(1)}, true);

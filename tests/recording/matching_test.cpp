@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "recording/matching.hpp"
 
+#include "support/pillars.hpp"
 #include "support/recording.hpp"
 
 namespace dynamic_filter::io {
@@ -241,6 +242,40 @@ TEST_F(MatchingTest, NamesThatAreTheNumbersOfTheRows) {
     EXPECT_EQ(rows_in_names({"5.bin", "6.bin"}, 9), (std::vector<std::size_t>{5, 6}));
     EXPECT_TRUE(rows_in_names({"1.bin", "2.bin"}, 9).empty()) << "numbered anew?";
     EXPECT_TRUE(rows_in_names({"0.bin", "12.bin"}, 9).empty());
+}
+
+/// KITTI's rows of the curve from one scan to another.
+std::string rows_of_curve(int first, int last) {
+    std::string text;
+    for (int scan = first; scan < last; ++scan) {
+        // It bends more and more, so that no two parts of it are alike.
+        const Pose pose = on_a_curve(0.02 * scan * scan);
+        for (int row = 0; row < 3; ++row) {
+            for (int column = 0; column < 4; ++column) {
+                text += std::to_string(pose(row, column)) + (row * column == 6 ? "\n" : " ");
+            }
+        }
+    }
+    return text;
+}
+
+TEST_F(MatchingTest, MorePosesThanScansWithoutGapsAreMatchedByTheScans) {
+    for (int scan = 20; scan < 50; ++scan) {
+        write_pcd(data / (number(static_cast<std::size_t>(scan - 20)) + ".pcd"),
+                  pillars_seen_from(on_a_curve(0.02 * scan * scan)));
+    }
+    data.put("poses.txt", rows_of_curve(20, 70));
+    const Recording first = open();
+    EXPECT_TRUE(has_note(first, "30 scans but 50 poses, and names without gaps: the first rows"));
+    EXPECT_NEAR(first.info().T_world_sensor[3].translation().x(),
+                on_a_curve(0.02 * 23 * 23).translation().x(), 1e-5);
+    data.put("poses.txt", rows_of_curve(0, 50));
+    const Recording last = open();
+    EXPECT_TRUE(has_note(last, "the last rows"));
+    EXPECT_NEAR(last.info().T_world_sensor[3].translation().x(),
+                on_a_curve(0.02 * 23 * 23).translation().x(), 1e-5);
+    data.put("poses.txt", rows_of_curve(10, 60));
+    EXPECT_HAS(open_error(), "30 scans in");
 }
 
 TEST_F(MatchingTest, TimesFile) {

@@ -68,7 +68,8 @@ std::optional<fs::path> find_below(const fs::path& data, const std::set<std::str
     if (found.size() > shown) names += fmt::format(" and {} more", found.size() - shown);
     throw InputError(data, "",
                      "holds no scans itself, but several folders below do: " + names +
-                         "; give one of them, such as " + found.front().folder.string());
+                         "; give one of them, such as " + found.front().folder.string() +
+                         ", or put the scans of one drive into one folder");
 }
 
 }  // namespace dynamic_filter::io

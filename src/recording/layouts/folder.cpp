@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <map>
 #include <string>
 
 #include "base/input.hpp"
+#include "base/natural_order.hpp"
 #include "dynamic_filter/error.hpp"
 #include "formats/clouds/registry.hpp"
 #include "formats/clouds/text_cloud.hpp"
 #include "recording/folders.hpp"
 #include "recording/layouts/beside.hpp"
 #include "recording/layouts/pose_notes.hpp"
+#include "recording/viewpoints.hpp"
 
 namespace dynamic_filter::io {
 namespace {
@@ -63,6 +66,16 @@ Paths folders_of_scans(const fs::path& data) {
     return folders;
 }
 
+void refuse_other_kinds(const Layout& layout) {
+    const std::string kind = extension_of(layout.scans[0]);
+    for (const fs::path& scan : layout.scans) {
+        if (extension_of(scan) == kind) continue;
+        throw InputError(layout.scan_folder, "",
+                         "mixes " + layout.scans[0].filename().string() + " and " +
+                             scan.filename().string() + "; keep scans of one kind in the folder");
+    }
+}
+
 /// Finds the scans of one kind, in the usual subfolder or in the folder itself (which may also
 /// contain maps).
 void find_scans(Layout& layout, const fs::path& data) {
@@ -84,13 +97,7 @@ void find_scans(Layout& layout, const fs::path& data) {
                              ", or *.csv with columns x, y, z, here and in Scans/, scans/, pcds/, "
                              "clouds/");
     }
-    const std::string kind = extension_of(layout.scans[0]);
-    for (const fs::path& scan : layout.scans) {
-        if (extension_of(scan) == kind) continue;
-        throw InputError(layout.scan_folder, "",
-                         "mixes " + layout.scans[0].filename().string() + " and " +
-                             scan.filename().string() + "; keep scans of one kind in the folder");
-    }
+    refuse_other_kinds(layout);
     choose_bin_points(layout);
 }
 
@@ -120,13 +127,65 @@ void find_poses(Layout& layout, const Paths& folders, const OpenOptions& options
                            offer_poses(layout.scans.size(), folders));
 }
 
+/// The folders in `data` that are named by numbers and hold scans but no poses of their own.
+Paths numbered_folders(const fs::path& data) {
+    Paths folders;
+    std::error_code ignored;
+    for (const fs::path& folder : list_folders(data)) {
+        const std::string name = folder.filename().string();
+        const bool is_number = name.find_first_not_of("0123456789") == std::string::npos;
+        const bool holds = !list_files(folder, scan_extensions(), ignored).empty();
+        if (is_number && holds && !find_pose_file(folder)) folders.push_back(folder);
+    }
+    sort_naturally(folders);
+    return folders;
+}
+
+/// Labels are named like their scans, so two scans of one name cannot be in one recording.
+void refuse_names_that_begin_anew(const fs::path& data, const Paths& scans) {
+    std::map<std::string, fs::path> seen;
+    for (const fs::path& scan : scans) {
+        const auto [first, fresh] = seen.try_emplace(scan.stem().string(), scan);
+        if (fresh) continue;
+        throw InputError(data, "",
+                         "the poses are those of the scans of several folders, but " +
+                             first->second.lexically_relative(data).string() + " and " +
+                             scan.lexically_relative(data).string() +
+                             " have the same name; number the scans through, or give each folder "
+                             "its own poses, and it alone");
+    }
+}
+
 }  // namespace
+
+std::optional<Layout> find_parts(const Place& place) {
+    if (!place.options.poses && !find_pose_file(place.data)) return std::nullopt;
+    const Paths folders = numbered_folders(place.data);
+    if (folders.size() < 2) return std::nullopt;
+    Layout layout;
+    layout.name = "folder";
+    layout.scan_folder = place.data;
+    for (const fs::path& folder : folders) {
+        const Paths scans = list_files(folder, scan_extensions());
+        layout.scans.insert(layout.scans.end(), scans.begin(), scans.end());
+    }
+    refuse_names_that_begin_anew(place.data, layout.scans);
+    refuse_other_kinds(layout);
+    choose_bin_points(layout);
+    layout.notes.push_back("the scans of " + std::to_string(folders.size()) + " folders, " +
+                           folders.front().filename().string() + " to " +
+                           folders.back().filename().string() + ", are read as one drive");
+    find_poses(layout, {place.data}, place.options);
+    find_times_and_labels(layout, {place.data});
+    return layout;
+}
 
 std::optional<Layout> find_folder(const Place& place) {
     Layout layout;
     find_scans(layout, place.data);
     const Paths folders = companions(layout, place);
     find_poses(layout, folders, place.options);
+    if (!layout.poses && !place.options.without_poses) use_viewpoints(layout);
     find_times_and_labels(layout, folders);
     return layout;
 }

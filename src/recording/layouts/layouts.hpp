@@ -35,6 +35,10 @@ std::optional<Layout> find_benchmark(const Place& place);
 /// if there are none, because this layout is looked for last.
 std::optional<Layout> find_folder(const Place& place);
 
+/// The scans of a drive in several folders whose names are numbers, with the poses of all of them
+/// beside these folders. Throws InputError if two scans have the same name.
+std::optional<Layout> find_parts(const Place& place);
+
 /// SEC_NSEC.pcd with SEC_NSEC.odom, a 4x4 matrix T_world_sensor each, as interactive_slam saves
 /// them. Throws InputError if one file of a pair is missing.
 std::optional<Layout> find_pairs(const Place& place);
