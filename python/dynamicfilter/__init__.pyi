@@ -76,6 +76,8 @@ class _Reading(TypedDict, total=False):
     pose_fix: str
     points_in_world: bool
     sensor_at: str
+    point_unit: str
+    mask: Optional[_Path]
     time_unit: str
     deskew: _Switch
     first: int

@@ -52,7 +52,8 @@ void Continuity::add(std::size_t scan, ScanGist gist) {
     Step step{.scan = scan, .points = gist.points};
     const Pose way = last_.T_world_sensor.inverse() * gist.T_world_sensor;
     step.way = way.translation().norm();
-    step.is_comparable = !steps_.empty() && scan == steps_.back().scan + 1 && way.matrix().allFinite() &&
+    step.is_comparable = !steps_.empty() && scan == steps_.back().scan + 1 &&
+                         way.matrix().allFinite() &&
                          std::min(last_.upright.size(), gist.upright.size()) > kEnough;
     if (step.is_comparable) step.overlay = overlay_of(last_.upright, gist.upright, way);
     steps_.push_back(step);
@@ -87,9 +88,8 @@ std::vector<Alarm> Continuity::breaks() const {
                  .last = step.scan,
                  .worst = step.scan});
         }
-        const double points = usual(steps_, i, [](const Step& s) {
-            return std::optional(static_cast<double>(s.points));
-        });
+        const double points = usual(
+            steps_, i, [](const Step& s) { return std::optional(static_cast<double>(s.points)); });
         const bool follows = i + 1 < steps_.size();
         const auto is_short = [&](const Step& s) {
             return static_cast<double>(s.points) < kHalf * points;

@@ -17,7 +17,7 @@ struct MotionChoice {
     std::string refine = "auto", deskew = "auto";
     /// True: poses are found or refined scan by scan, while the scans are judged.
     bool online = false;
-    bool quiet = true;  ///< false: shows how far the odometry is
+    bool quiet = true;        ///< false: shows how far the odometry is
     bool finds_body = false;  ///< true: what moves with the sensor is found and left out
 };
 

@@ -19,9 +19,9 @@
 namespace dynamic_filter::io {
 namespace {
 
-constexpr float kBodyCell = 0.2F;                       // [m]
-constexpr float kBodyReach = 10.0F;                     // [m] from the sensor
-constexpr double kNearPair = 2.5, kFarPair = 12.0;      // [m] between the scans of a pair
+constexpr float kBodyCell = 0.2F;                   // [m]
+constexpr float kBodyReach = 10.0F;                 // [m] from the sensor
+constexpr double kNearPair = 2.5, kFarPair = 12.0;  // [m] between the scans of a pair
 constexpr std::size_t kPairs = 12, kFewestPairs = 4;
 
 /// Two scans from which the same surroundings are seen.
@@ -195,7 +195,8 @@ OwnBody find_own_body(const Recording& recording) {
     constexpr std::size_t kSure = 4;    // looks
     tsl::robin_set<VoxelKey, VoxelHash> body;
     for (const auto& [key, cell] : cells) {
-        const bool stays = static_cast<double>(cell.scans) >= kNearlyAll * static_cast<double>(usable);
+        const bool stays =
+            static_cast<double>(cell.scans) >= kNearlyAll * static_cast<double>(usable);
         if (stays && cell.passes >= kSure && cell.passes > 4 * cell.hits) body.insert(key);
     }
     grow(cells, body, usable);

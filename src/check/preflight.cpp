@@ -315,8 +315,8 @@ bool judge_unit(Preflight& result, const Samples& samples) {
         return true;
     }
     if (typical < kTooFar) return false;
-    const std::string far = fmt::format("half of the points lie more than {:.0f} m from the sensor",
-                                        typical);
+    const std::string far =
+        fmt::format("half of the points lie more than {:.0f} m from the sensor", typical);
     // Around a sensor, points lie on all sides; seen from the origin of a world, on one.
     if (middle > 0.5 * typical) {
         result.findings.push_back({far + ", all in one direction: they are in the world's frame",

@@ -14,7 +14,7 @@ namespace {
 /// The reading whose finding this is; nullptr if it is another finding.
 const Reading* reading_of(const Finding& finding) {
     const std::string fix = "--pose-fix ";
-    const std::string name = is_of_points(finding) ? kPointsInFeet
+    const std::string name = is_of_points(finding)             ? kPointsInFeet
                              : finding.advice.starts_with(fix) ? finding.advice.substr(fix.size())
                                                                : "";
     const auto& all = readings();

@@ -75,7 +75,8 @@ std::optional<double> began_of(const Cloud& cloud) {
 Points as_measured(const Recording& recording, const FullScan& scan) {
     const Info& info = recording.info();
     if (info.points_in_world) return scan.points;
-    return seen_from(info.sensor_at.value_or(Eigen::Vector3d::Zero()), in_metres(positions(scan.cloud), info));
+    return seen_from(info.sensor_at.value_or(Eigen::Vector3d::Zero()),
+                     in_metres(positions(scan.cloud), info));
 }
 
 float typical_range(const Points& points) {

@@ -13,8 +13,8 @@
 
 namespace dynamic_filter::io {
 
-/// Points of upright structures within 30 m. The ground is left out, because its rings look the same
-/// from everywhere, as if the sensor had not moved.
+/// Points of upright structures within 30 m. The ground is left out, because its rings look the
+/// same from everywhere, as if the sensor had not moved.
 Points upright(const Points& points);
 
 struct Sample {

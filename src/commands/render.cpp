@@ -35,9 +35,8 @@ int render(const RenderOptions& o) {
     if (extension == ".webp") {
         const Config config = load_config(o.config);
         io::Recording recording = open(o.data);
-        ensure_poses(
-            recording, config,
-            {.deskew = o.data.deskew, .quiet = false, .finds_body = !o.data.mask});
+        ensure_poses(recording, config,
+                     {.deskew = o.data.deskew, .quiet = false, .finds_body = !o.data.mask});
         animate_cleaning(recording, config, o);
     } else if (extension == ".png") {
         const fs::path& in = o.data.data;

@@ -84,8 +84,9 @@ void visit_reading(Options& options, const Visit& visit) {
          .choices = {"m", "cm", "mm", "feet"}},
         options.point_unit);
     row({.name = "mask",
-         .help = "file of boxes around what moves with the sensor, which is left out; `none` leaves "
-                 "nothing out (default: found, if the sensor moves)"},
+         .help =
+             "file of boxes around what moves with the sensor, which is left out; `none` leaves "
+             "nothing out (default: found, if the sensor moves)"},
         options.mask);
     row({.name = "time_unit", .help = "unit of the stamps", .choices = {"s", "ms", "us", "ns"}},
         options.time_unit);

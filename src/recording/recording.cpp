@@ -107,8 +107,9 @@ void place(FullScan& scan, const Info& info, std::size_t i) {
     } else if (info.has_poses) {
         scan.T_world_sensor = info.T_world_sensor[i];
     }
-    scan.points = info.points_in_world ? into_sensor(scan.cloud, info.point_unit, scan.T_world_sensor)
-                                       : seen_from(at, in_metres(positions(scan.cloud), info));
+    scan.points = info.points_in_world
+                      ? into_sensor(scan.cloud, info.point_unit, scan.T_world_sensor)
+                      : seen_from(at, in_metres(positions(scan.cloud), info));
     scan.no_returns = drop_no_returns(scan.points);
     scan.own = take_out(info.own_body, scan.points);
     if (std::none_of(scan.points.begin(), scan.points.end(), is_measured)) {

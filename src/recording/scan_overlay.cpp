@@ -41,7 +41,8 @@ double ScanOverlay::share(const std::function<Pose(std::size_t)>& poses,
     for (const auto& [i, cloud] : clouds_) {
         const Pose pose = poses(i);
         if (!pose.matrix().allFinite()) continue;
-        upright[i] = upright_points(points_in_world ? into_sensor(cloud, 1.0, pose) : positions(cloud));
+        upright[i] =
+            upright_points(points_in_world ? into_sensor(cloud, 1.0, pose) : positions(cloud));
     }
     double sum = 0.0;
     std::size_t count = 0;

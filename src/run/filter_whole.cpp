@@ -57,7 +57,7 @@ struct Whole {
     Maps maps{job.config, limits()};
     io::Continuity continuity{};  ///< of the scans that were accepted
     ScanQueue queue{};            ///< refuses what cannot be judged; scans do not wait in it
-    std::uint64_t stretch = 0;  ///< of the scan before
+    std::uint64_t stretch = 0;    ///< of the scan before
     /// With --online: takes the scans, and judges them in a thread of its own.
     std::optional<ScanWorker> worker{};
 
@@ -193,7 +193,8 @@ void filter_scans(Whole& whole) {
         return !(whole.summary.interrupted = interrupted());
     };
     const auto prepare = [&](std::size_t i, MaybeScan& maybe) {
-        if (maybe.scan->has_pose) gists[i] = io::gist_of(maybe.scan->points, maybe.scan->T_world_sensor);
+        if (maybe.scan->has_pose)
+            gists[i] = io::gist_of(maybe.scan->points, maybe.scan->T_world_sensor);
     };
     for_each_scan(whole.recording, all_scans(whole.recording), prepare, use);
     finish(whole);

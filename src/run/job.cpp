@@ -115,13 +115,12 @@ void choose_job_motion(Job& job, const RunOptions& o) {
     io::Recording& recording = job.drives.front().recording;
     with_threads(o.threads, [&] {
         const io::Recording opened = recording;
-        ChosenMotion chosen = choose_motion(
-            recording, job.config,
-            {.refine = o.refine,
-             .deskew = o.data.deskew,
-             .online = o.online,
-             .quiet = o.quiet,
-             .finds_body = !o.data.mask});
+        ChosenMotion chosen = choose_motion(recording, job.config,
+                                            {.refine = o.refine,
+                                             .deskew = o.data.deskew,
+                                             .online = o.online,
+                                             .quiet = o.quiet,
+                                             .finds_body = !o.data.mask});
         recording = io::with_notes(recording, chosen.notes);
         job.tracked = std::move(chosen.tracked);
         job.has_given_poses = opened.info().has_poses;

@@ -63,8 +63,7 @@ TEST_F(OwnBodyOf, AStreetThereIsNone) {
 }
 
 TEST_F(OwnBodyOf, ASensorAtRestNothingIsSaid) {
-    EXPECT_TRUE(
-        found({Point(-2.4F, -0.7F, -0.9F), Point(-0.9F, 0.7F, 0.3F)}, false).boxes.empty());
+    EXPECT_TRUE(found({Point(-2.4F, -0.7F, -0.9F), Point(-0.9F, 0.7F, 0.3F)}, false).boxes.empty());
 }
 
 }  // namespace own_body_test

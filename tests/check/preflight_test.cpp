@@ -195,16 +195,30 @@ TEST_F(Check, NamesPointsInTheWorldAndMergedSensors) {
     expect_only(check_recording(open_recording(merged->path()), Depth::thorough), "merged", "one");
 }
 
-TEST_F(Check, NamesPointsInMillimetres) {
+TEST_F(Check, NamesTheUnitOfPoints) {
+    for (const auto& [scale, name, advice] :
+         {std::tuple{1000.0F, "are in millimetres", "--point-unit mm"},
+          {100.0F, "are in centimetres", "--point-unit cm"},
+          {3.28084F, "the points are in feet", "--point-unit feet"}}) {
+        const auto copy = write_copy([scale = scale](const FullScan& full) {
+            Points points = full.points;
+            for (Point& p : points) p *= scale;
+            return points;
+        });
+        expect_only(check_recording(open_recording(copy->path()), Depth::quick), name, advice);
+    }
+}
+
+TEST_F(Check, PointsFarFromTheOriginInOneDirectionAreInTheWorld) {
     const auto copy = write_copy([](const FullScan& full) {
         Points points = full.points;
-        for (Point& p : points) p *= 1000.0F;
+        for (Point& p : points) p = (full.T_world_sensor * p.cast<double>()).cast<float>();
+        for (Point& p : points) p += Point(4e5F, 5e6F, 100.0F);
         return points;
     });
-    for (const Depth depth : {Depth::quick, Depth::thorough}) {
-        expect_only(check_recording(open_recording(copy->path()), depth), "in millimetres",
-                    "in metres");
-    }
+    std::filesystem::remove(copy->path() / "poses.txt");
+    expect_only(check_recording(open_recording(copy->path()), Depth::quick),
+                "all in one direction: they are in the world's frame", "--points-in-world");
 }
 
 TEST_F(Check, NamesPosesOfAnotherRecordingWhateverTheirReading) {

@@ -29,10 +29,9 @@ Pose with_axes(const Pose& pose, const Eigen::Vector3d& signs) {
 
 const std::vector<PoseFix>& pose_fixes() {
     static const std::vector<PoseFix> all = {
-        PoseFix::inverse, PoseFix::camera,      PoseFix::lidar,       PoseFix::wxyz,
-        PoseFix::xyzw,    PoseFix::millimetres, PoseFix::centimetres, PoseFix::feet,
-        PoseFix::transpose,
-        PoseFix::mirror,  PoseFix::ned};
+        PoseFix::inverse,   PoseFix::camera,      PoseFix::lidar,       PoseFix::wxyz,
+        PoseFix::xyzw,      PoseFix::millimetres, PoseFix::centimetres, PoseFix::feet,
+        PoseFix::transpose, PoseFix::mirror,      PoseFix::ned};
     return all;
 }
 
