@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -154,7 +155,11 @@ Boxes boxes_of(const tsl::robin_set<VoxelKey, VoxelHash>& body) {
         const Point low = kBodyCell * cells[i].cast<float>();
         const Point high = low + Point::Constant(kBodyCell);
         const bool goes_on = i > 0 && cells[i] == cells[i - 1] + Cell(1, 0, 0);
-        goes_on ? (void)boxes.back().extend(high) : (void)boxes.emplace_back(low, high);
+        if (goes_on) {
+            boxes.back().extend(high);
+        } else {
+            boxes.emplace_back(low, high);
+        }
     }
     return boxes;
 }
@@ -199,10 +204,18 @@ OwnBody find_own_body(const Recording& recording) {
             static_cast<double>(cell.scans) >= kNearlyAll * static_cast<double>(usable);
         if (stays && cell.passes >= kSure && cell.passes > 4 * cell.hits) body.insert(key);
     }
+    // With wrong poses, scans look through everything.
+    std::size_t passes = 0, hits = 0;
+    for (const auto& [key, cell] : cells) {
+        if (body.contains(key)) continue;
+        passes += cell.passes;
+        hits += cell.hits;
+    }
+    if (hits < 2 * passes) return {};
     grow(cells, body, usable);
     std::size_t points = 0;
     for (const VoxelKey key : body) points += cells.at(key).points;
-    OwnBody found{.boxes = {}, .share = 0.0};
+    OwnBody found;
     found.share = measured == 0 ? 0.0 : static_cast<double>(points) / static_cast<double>(measured);
     constexpr double kLeastShare = 0.001;
     if (found.share < kLeastShare) return {};

@@ -214,7 +214,8 @@ void judge_poses(Preflight& result, const Recording& recording, const Samples& s
         return;
     }
     const bool files_in_world = recording.info().layout == "benchmark";
-    if (!files_in_world && lie_in_world(samples)) {
+    const bool may_be_in_world = share_of(overlays, kInWorld) > given;
+    if (!files_in_world && may_be_in_world && lie_in_world(samples)) {
         result.findings.push_back(
             {"the points are in the world's frame already: " + fits_better(overlays, kInWorld),
              "--points-in-world"});

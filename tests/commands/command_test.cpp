@@ -444,7 +444,9 @@ TEST_F(Command, InputThatIsNotThereOrContradictsItselfExitsWithThree) {
     spill(data / "poses.txt", poses.substr(0, poses.size() / 2));
     EXPECT_EQ(run("run data -o out"), 3);
     expect_said("poses");
-    spill(data / "poses.txt", poses + poses);
+    std::string others;  // of another drive, twice as long
+    for (int i = 0; i < 48; ++i) others += "1 0 0 " + std::to_string(90 * i) + " 0 1 0 0 0 0 1 0\n";
+    spill(data / "poses.txt", others);
     EXPECT_EQ(run("run data -o out"), 3);
     expect_said("24");
     expect_said("48");

@@ -19,7 +19,7 @@ TEST(DataOptions, EachRowHasANameOfItsOwnAndHelp) {
                       EXPECT_NE(std::string(option.help), "");
                       if (option.selects) selecting.insert(option.name);
                   });
-    EXPECT_EQ(names.size(), 12U);
+    EXPECT_EQ(names.size(), 14U);
     EXPECT_EQ(selecting, (std::set<std::string>{"first", "last", "stride"}));
 }
 

@@ -19,6 +19,8 @@ DataOptions unusual() {
     options.points_in_world = true;
     options.deskew = "off";
     options.sensor_at = "1,0,2";
+    options.point_unit = "cm";
+    options.mask = "mask.txt";
     options.first = 5;
     options.last = 90;
     options.stride = 3;

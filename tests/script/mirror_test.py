@@ -23,7 +23,7 @@ COVERED = {  # test -> the units that it covers
     "online/online_filter_test.cpp": "online/scan_worker",
     "page/page_test.cpp": "page/viewer_page",
     "recording/bag_scans_test.cpp": "recording/bag_contents recording/pose_source",
-    "recording/layout_test.cpp": "recording/layouts/beside recording/layouts/folder recording/layouts/kitti",
+    "recording/layout_test.cpp": "recording/layouts/beside recording/layouts/kitti",
     "recording/benchmark_test.cpp": "recording/layouts/benchmark",
     "run/city_test.sh": "commands/merge commands/plan run/filter_tile run/filter_tiles run/job run/merge "
         "run/write_tiles",
