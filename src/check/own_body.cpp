@@ -23,7 +23,7 @@ namespace {
 constexpr float kBodyCell = 0.2F;                   // [m]
 constexpr float kBodyReach = 10.0F;                 // [m] from the sensor
 constexpr double kNearPair = 2.5, kFarPair = 12.0;  // [m] between the scans of a pair
-constexpr std::size_t kPairs = 12, kFewestPairs = 4;
+constexpr std::size_t kPairs = 12, kFewestPairs = 6;
 
 /// Two scans from which the same surroundings are seen.
 using BodyPair = std::pair<std::size_t, std::size_t>;
@@ -212,13 +212,16 @@ OwnBody find_own_body(const Recording& recording) {
         hits += cell.hits;
     }
     if (hits < 2 * passes) return {};
+    const auto share_of_body = [&] {
+        std::size_t points = 0;
+        for (const VoxelKey key : body) points += cells.at(key).points;
+        return static_cast<double>(points) / static_cast<double>(measured);
+    };
+    constexpr double kLeastShare = 0.003;
+    if (measured == 0 || share_of_body() < kLeastShare) return {};
     grow(cells, body, usable);
-    std::size_t points = 0;
-    for (const VoxelKey key : body) points += cells.at(key).points;
     OwnBody found;
-    found.share = measured == 0 ? 0.0 : static_cast<double>(points) / static_cast<double>(measured);
-    constexpr double kLeastShare = 0.001;
-    if (found.share < kLeastShare) return {};
+    found.share = share_of_body();
     found.boxes = boxes_of(body);
     return found;
 }

@@ -11,7 +11,6 @@
 #include "base/crc.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
-#include "recording/mask.hpp"
 #include "recording/recording_parts.hpp"
 #include "run/data_json.hpp"
 #include "run/run_state.hpp"
@@ -96,8 +95,7 @@ Placed placed_of(const io::Recording& recording, const DataOptions& how,
                   .has_times = parts.with_times,
                   .deskewed = info.deskewed,
                   .sweep = info.sweep,
-                  .sensor_at = info.sensor_at,
-                  .own_body = info.own_body};
+                  .sensor_at = info.sensor_at};
     if (!info.tracked) return placed;
     for (std::size_t i = 0; i < recording.size(); ++i) {
         const Pose& pose = info.T_world_sensor[i];
@@ -120,10 +118,6 @@ void write_placed(const fs::path& folder, const Placed& placed) {
     if (placed.sensor_at) {
         const Eigen::Vector3d& at = *placed.sensor_at;
         json["sensor_at"] = {at.x(), at.y(), at.z()};
-    }
-    for (const Eigen::AlignedBox3f& box : placed.own_body) {
-        const Point low = box.min(), high = box.max();
-        json["own_body"].push_back({low.x(), low.y(), low.z(), high.x(), high.y(), high.z()});
     }
     std::string text = json.dump(2);
     if (!placed.tracked.empty()) {
@@ -150,12 +144,6 @@ std::optional<Placed> read_placed(const fs::path& folder) {
             const auto at = json["sensor_at"].get<std::array<double, 3>>();
             placed.sensor_at = Eigen::Vector3d(at[0], at[1], at[2]);
         }
-        if (json.contains("own_body")) {
-            for (const Json& corners : json["own_body"]) {
-                const auto at = corners.get<std::array<float, 6>>();
-                placed.own_body.emplace_back(Point(&at[0]), Point(&at[3]));
-            }
-        }
         if (!json.contains("poses_and_velocities")) return placed;
         for (const Json& scan : json["poses_and_velocities"]) {
             placed.tracked.push_back(tracked_of(scan));
@@ -171,7 +159,6 @@ std::optional<Placed> read_placed(const fs::path& folder) {
 
 io::Recording placed_again(io::Recording recording, const Placed& placed) {
     if (placed.sensor_at) recording = io::with_sensor_at(recording, *placed.sensor_at);
-    recording = io::with_own_body(recording, placed.own_body);
     // A recording that was opened with --deskew on is deskewed, but without the shift of the run.
     if (placed.deskewed && (!recording.info().deskewed || placed.sweep)) {
         recording = io::deskewed(recording, placed.sweep);

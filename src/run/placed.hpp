@@ -22,7 +22,6 @@ struct Placed {
     bool deskewed = false;    ///< true: see io::deskewed()
     std::optional<Sweep> sweep{};
     std::optional<Eigen::Vector3d> sensor_at{};  ///< [m] see io::Info
-    io::Boxes own_body{};                        ///< see io::Info
     /// Poses that were found or refined, and velocities; empty: those of the recording stayed.
     std::vector<std::optional<Tracked>> tracked{};
 

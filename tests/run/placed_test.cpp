@@ -6,7 +6,6 @@
 #include <random>
 
 #include "dynamic_filter/error.hpp"
-#include "recording/mask.hpp"
 #include "recording/scans.hpp"
 #include "support/recording.hpp"
 #include "support/temporary_folder.hpp"
@@ -44,13 +43,8 @@ protected:
 TEST_F(PlacedTest, GivesBackEveryBit) {
     auto motions = random_motions(4);
     motions[2].reset();
-    const io::Boxes body = {
-        Eigen::AlignedBox3f(Point(-1.1F, 0.1F, -1.0F), Point(0.3F, 0.7F, 2.2F))};
-    const io::Recording recording = io::with_own_body(
-        io::with_poses(
-            io::with_times(opened(), Sweep{.clockwise = true, .seam = 0.1, .duration = 0.3}),
-            motions),
-        body);
+    const io::Recording recording = io::with_poses(
+        io::with_times(opened(), Sweep{.clockwise = true, .seam = 0.1, .duration = 0.3}), motions);
     write_placed(result_.path(), placed_of(recording, {.data = {}, .first = 2}, "these"));
     const auto placed = read_placed(result_.path());
     ASSERT_TRUE(placed);
@@ -62,9 +56,6 @@ TEST_F(PlacedTest, GivesBackEveryBit) {
     EXPECT_EQ(placed->sweep->clockwise, true);
     EXPECT_EQ(placed->sweep->seam, 0.1);
     EXPECT_EQ(placed->sweep->duration, 0.3);
-    ASSERT_EQ(placed->own_body.size(), 1U);
-    EXPECT_EQ(placed->own_body[0].min(), body[0].min());
-    EXPECT_EQ(placed->own_body[0].max(), body[0].max());
     ASSERT_EQ(placed->tracked.size(), 4U);
     for (std::size_t i = 0; i < 4; ++i) {
         ASSERT_EQ(placed->tracked[i].has_value(), motions[i].has_value());
