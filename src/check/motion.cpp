@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "base/progress.hpp"
 #include "check/choose_poses.hpp"
@@ -190,9 +191,30 @@ void use_found_poses(io::Recording& recording, const Config& config, const Motio
     chosen.tracked = std::move(found.tracked);
 }
 
+/// Of several sensors, the first one shows what holds for all. Their poses stay, because odometry
+/// follows one sensor.
+ChosenMotion choose_for_several(io::Recording& recording, io::Recording first, Config& config,
+                                MotionChoice choice) {
+    const std::string refine = std::exchange(choice.refine, "off");
+    const std::string doubt =
+        refine == "off" ? "" : io::doubt_about_poses(io::with_times(first), config.odometry);
+    ChosenMotion chosen = choose_motion(first, config, choice);
+    if (first.info().deskewed) {
+        recording = io::deskewed(as_measured(recording), first.info().sweep);
+    }
+    if (!doubt.empty()) {
+        recording = io::with_losses(
+            recording, {doubt + "; the poses of several sensors are not refined: choose the clouds "
+                                "of one with --topic TOPIC@FRAME"});
+    }
+    return chosen;
+}
+
 }  // namespace
 
 ChosenMotion choose_motion(io::Recording& recording, Config& config, const MotionChoice& choice) {
+    const std::vector<io::Recording> sensors = io::by_sensor(recording);
+    if (sensors.size() > 1) return choose_for_several(recording, sensors.front(), config, choice);
     ChosenMotion chosen;
     add(chosen.notes, choose_sensor_place(recording));
     for (std::string& note : notes_on_points(recording)) add(chosen.notes, std::move(note));

@@ -17,6 +17,7 @@
 #include "check/scan_times.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/poses.hpp"
+#include "recording/recording_parts.hpp"
 
 namespace dynamic_filter::io {
 namespace {
@@ -467,9 +468,24 @@ std::map<std::size_t, std::string> find_unusable(const Recording& recording) {
     return unusable;
 }
 
-}  // namespace
+/// Adds what is not there yet.
+void merge(Preflight& result, Preflight of_another) {
+    for (Finding& finding : of_another.findings) {
+        const bool is_known =
+            std::any_of(result.findings.begin(), result.findings.end(),
+                        [&](const Finding& known) { return known.advice == finding.advice; });
+        if (!is_known) result.findings.push_back(std::move(finding));
+    }
+    for (std::string& note : of_another.notes) {
+        const bool is_known =
+            std::find(result.notes.begin(), result.notes.end(), note) != result.notes.end();
+        if (!is_known) result.notes.push_back(std::move(note));
+    }
+    for (std::string& line : of_another.unusable) result.unusable.push_back(std::move(line));
+    result.scans += of_another.scans;
+}
 
-Preflight check_recording(const Recording& recording, Depth depth) {
+Preflight check_sensor(const Recording& recording, Depth depth) {
     const std::size_t places = depth == Depth::thorough ? 12 : 3;
     const std::vector<Pair> chosen = choose_pairs(recording.size(), places);
     Preflight result;
@@ -508,6 +524,15 @@ Preflight check_recording(const Recording& recording, Depth depth) {
         return result;
     }
     judge_motion(result, recording);
+    return result;
+}
+
+}  // namespace
+
+Preflight check_recording(const Recording& recording, Depth depth) {
+    const std::vector<Recording> sensors = by_sensor(recording);
+    Preflight result = check_sensor(sensors.front(), depth);
+    for (std::size_t k = 1; k < sensors.size(); ++k) merge(result, check_sensor(sensors[k], depth));
     return result;
 }
 

@@ -81,7 +81,8 @@ std::vector<Eigen::Vector3d> find_sensor_places(const Recording& recording) {
 namespace dynamic_filter::app {
 
 std::string choose_sensor_place(io::Recording& recording) {
-    if (recording.info().sensor_at) return "";
+    // Each of several sensors is at the origin of its own frame.
+    if (recording.info().sensor_at || !recording.parts().sensors.empty()) return "";
     const auto places = io::find_sensor_places(recording);
     const Eigen::Vector3d at = places.size() == 1 ? places.front() : Eigen::Vector3d::Zero();
     recording = io::with_sensor_at(recording, at);

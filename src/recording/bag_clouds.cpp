@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -126,11 +127,14 @@ void drop_copies(BagClouds& clouds, const Bag& bag) {
         copies));
 }
 
-/// See repeats_among() for files.
+/// See repeats_among() for files. Several sensors take turns.
 std::vector<std::uint8_t> repeats_in(const std::vector<FoundScan>& scans, const Bag& bag) {
     std::vector<std::uint8_t> repeats(scans.size(), 0);
-    for (std::size_t i = 1; i < scans.size(); ++i) {
-        repeats[i] = are_alike(bag, scans[i - 1], scans[i]) ? 1 : 0;
+    std::map<std::string, std::size_t> last;
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+        const auto [before, fresh] = last.try_emplace(scans[i].frame, i);
+        repeats[i] = !fresh && are_alike(bag, scans[before->second], scans[i]) ? 1 : 0;
+        before->second = i;
     }
     const auto count = std::accumulate(repeats.begin(), repeats.end(), std::size_t{0});
     if (count == 0 || 2 * count > scans.size()) return {};
@@ -156,31 +160,36 @@ Frames frames_of(const std::vector<FoundScan>& scans) {
     return frames;
 }
 
-/// Keeps the clouds of one frame: the one that is wanted, else the one with most.
-void keep_frame(BagClouds& clouds, const std::string& wanted) {
-    const Frames frames = frames_of(clouds.scans);
-    clouds.frame = wanted.empty() ? frames.front().first : wanted;
-    if (frames.size() < 2 && wanted.empty()) return;
-    const std::string& topic = clouds.topic.name;
-    std::string names, others;
+/// "'front' (60 clouds), 'rear' (60 clouds)"
+std::string text_of(const Frames& frames) {
+    std::string text;
     for (const auto& [frame, count] : frames) {
-        names += fmt::format("{}'{}' ({} clouds)", names.empty() ? "" : ", ", frame, count);
-        if (frame == clouds.frame) continue;
-        others += fmt::format("{}--topic {}@{}", others.empty() ? "" : " or ", topic, frame);
+        text += fmt::format("{}'{}' ({} clouds)", text.empty() ? "" : ", ", frame, count);
     }
-    std::erase_if(clouds.scans, [&](const FoundScan& s) { return s.frame != clouds.frame; });
+    return text;
+}
+
+void keep_frame(BagClouds& clouds, const std::string& frame) {
+    std::vector<FoundScan> kept;
+    std::vector<std::uint8_t> repeats;
+    for (std::size_t i = 0; i < clouds.scans.size(); ++i) {
+        if (clouds.scans[i].frame != frame) continue;
+        kept.push_back(std::move(clouds.scans[i]));
+        if (!clouds.repeats.empty()) repeats.push_back(clouds.repeats[i]);
+    }
+    clouds.scans = std::move(kept);
+    clouds.repeats = std::move(repeats);
+    clouds.frames = {frame};
+}
+
+void keep_wanted(BagClouds& clouds, const Frames& frames, const std::string& wanted) {
+    keep_frame(clouds, wanted);
     if (clouds.scans.empty()) {
-        throw ConfigError(fmt::format(
-            "no point clouds in the frame '{}' on topic {}; there are: {}", wanted, topic, names));
+        throw ConfigError(
+            fmt::format("no point clouds in the frame '{}' on topic {}; there are: {}", wanted,
+                        clouds.topic.name, text_of(frames)));
     }
-    if (!wanted.empty()) {
-        clouds.notes.push_back(fmt::format("only clouds in the frame '{}' are read", wanted));
-        return;
-    }
-    clouds.losses.push_back(fmt::format(
-        "the topic {} carries clouds of {} frames, those of several sensors: {}; only those in "
-        "'{}' are read; {} reads the others",
-        topic, frames.size(), names, clouds.frame, others));
+    clouds.notes.push_back(fmt::format("only clouds in the frame '{}' are read", wanted));
 }
 
 }  // namespace
@@ -192,10 +201,28 @@ BagClouds choose_clouds(const Bag& bag, const BagContents& contents,
     BagClouds clouds{.topic = topic.topic, .scans = topic.scans};
     clouds.notes.push_back("scans from " + topic.topic.name);
     put_in_order(clouds);
-    keep_frame(clouds, at == std::string::npos ? "" : wanted.substr(at + 1));
+    const Frames frames = frames_of(clouds.scans);
+    for (const auto& [frame, count] : frames) clouds.frames.push_back(frame);
+    if (at != std::string::npos) keep_wanted(clouds, frames, wanted.substr(at + 1));
     drop_copies(clouds, bag);
     clouds.repeats = repeats_in(clouds.scans, bag);
     return clouds;
+}
+
+void keep_first_frame(BagClouds& clouds) {
+    if (clouds.frames.size() < 2) return;
+    const Frames frames = frames_of(clouds.scans);
+    const std::string first = clouds.frames.front(), topic = clouds.topic.name;
+    std::string others;
+    for (const auto& [frame, count] : frames) {
+        if (frame == first) continue;
+        others += fmt::format("{}--topic {}@{}", others.empty() ? "" : " or ", topic, frame);
+    }
+    keep_frame(clouds, first);
+    clouds.losses.push_back(fmt::format(
+        "the topic {} carries clouds of {} frames, those of several sensors: {}; only those in "
+        "'{}' are read; {} reads the others",
+        topic, frames.size(), text_of(frames), first, others));
 }
 
 }  // namespace dynamic_filter::io

@@ -65,6 +65,7 @@ BagPoses poses_of(Candidate candidate, std::vector<std::string> notes) {
     BagPoses poses;
     poses.trajectory = trajectory_of(candidate.source);
     poses.points_in_world = candidate.source.points_in_world;
+    poses.is_linked = candidate.source.is_linked;
     notes.insert(notes.begin(), candidate.source.note);
     poses.notes = std::move(notes);
     poses.T_world_sensor = [kept = std::move(candidate)](double stamp) {

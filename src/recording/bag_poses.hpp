@@ -19,6 +19,7 @@ struct BagPoses {
     std::function<std::optional<Pose>(double stamp)> T_world_sensor;
     Trajectory trajectory;         ///< all poses that were published
     bool points_in_world = false;  ///< the points are in the frame of the poses
+    bool is_linked = false;        ///< the poses are known to be those of the sensor's own frame
     std::vector<std::string> notes{};
 };
 

@@ -53,11 +53,15 @@ PoseSource from_topic(const std::string& name, const PoseTopic& topic, const Fra
                             sensor)};
     }
     const bool same = topic.child.empty() || sensor == topic.child;
-    return {body_pose, trajectory.stamps, false, topic.parent,
+    return {body_pose,
+            trajectory.stamps,
+            false,
+            topic.parent,
             same ? fmt::format("poses from {}", name)
                  : fmt::format("poses from {}; no transform links its frame '{}' to the frame '{}' "
                                "of the scans, so both are assumed to be the same",
-                               name, topic.child, sensor)};
+                               name, topic.child, sensor),
+            sensor == topic.child};
 }
 
 }  // namespace dynamic_filter::io

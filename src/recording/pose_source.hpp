@@ -26,6 +26,7 @@ struct PoseSource {
     bool points_in_world = false;  ///< the frame of the points is the world frame
     std::string world;             ///< name of the world frame
     std::string note;              ///< one sentence for the user
+    bool is_linked = true;         ///< false: assumed to be those of the sensor, without a link
 };
 
 /// All poses that were published.

@@ -120,7 +120,9 @@ void place(FullScan& scan, const Info& info, std::size_t i) {
 void treat_motion(FullScan& scan, const RecordingParts& parts, std::size_t i) {
     const Info& info = parts.info;
     if (info.deskewed) {
-        undo_motion(scan.points, times_of(info, scan), scan.stamp, info.trajectory);
+        const Trajectory& trajectory =
+            parts.sensors.empty() ? info.trajectory : parts.trajectories[parts.sensors[i]];
+        undo_motion(scan.points, times_of(info, scan), scan.stamp, trajectory);
     }
     if (parts.with_times) scan.times = times_of(info, scan);
     if (parts.velocities.empty() || scan.times.empty()) return;

@@ -22,7 +22,15 @@ struct RecordingParts {
     /// Of the sensor, parallel to the scans, or empty: the motion within scans that have times is
     /// undone with them.
     std::vector<Twist> velocities{};
+    /// Parallel to the scans: which of several sensors made it, 0 for the first one; or empty. Each
+    /// sensor has its own poses, and the motion within its scans is undone with those of
+    /// `trajectories`, by sensor.
+    std::vector<std::size_t> sensors{};
+    std::vector<Trajectory> trajectories{};
 };
+
+/// The scans of each sensor, as recordings of their own; the recording itself if it has one.
+std::vector<Recording> by_sensor(const Recording& recording);
 
 /// Throws ConfigError if the selection can have no scan, whatever the recording.
 void check_selection(std::size_t first, std::optional<std::size_t> last, std::size_t stride);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/recording.hpp"
@@ -39,6 +40,7 @@ void keep_scans(RecordingParts& parts, const std::vector<std::size_t>& chosen) {
     keep(info.pose_stamps, chosen);
     keep(info.repeats, chosen);
     keep(parts.velocities, chosen);
+    keep(parts.sensors, chosen);
     info.sparse_poses &= std::any_of(info.T_world_sensor.begin(), info.T_world_sensor.end(),
                                      [](const Pose& pose) { return !pose.matrix().allFinite(); });
     parts.read_cloud = [read = std::move(parts.read_cloud), chosen](std::size_t i) {
@@ -83,6 +85,16 @@ Recording chosen_scans(const Recording& recording, const std::vector<std::size_t
     RecordingParts parts = recording.parts();
     keep_scans(parts, indices);
     return Recording(std::move(parts));
+}
+
+std::vector<Recording> by_sensor(const Recording& recording) {
+    const std::vector<std::size_t>& sensors = recording.parts().sensors;
+    std::map<std::size_t, std::vector<std::size_t>> scans;
+    for (std::size_t i = 0; i < sensors.size(); ++i) scans[sensors[i]].push_back(i);
+    if (scans.size() < 2) return {recording};
+    std::vector<Recording> each;
+    for (const auto& [sensor, indices] : scans) each.push_back(chosen_scans(recording, indices));
+    return each;
 }
 
 Recording slice(const Recording& recording, std::size_t first, std::optional<std::size_t> last,
