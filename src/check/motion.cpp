@@ -192,10 +192,11 @@ void use_found_poses(io::Recording& recording, const Config& config, const Motio
 }
 
 /// Of several sensors, the first one shows what holds for all. Their poses stay, because odometry
-/// follows one sensor.
+/// follows one sensor, and no own body is looked for, because each sees it elsewhere.
 ChosenMotion choose_for_several(io::Recording& recording, io::Recording first, Config& config,
                                 MotionChoice choice) {
     const std::string refine = std::exchange(choice.refine, "off");
+    choice.finds_body = false;
     const std::string doubt =
         refine == "off" ? "" : io::doubt_about_poses(io::with_times(first), config.odometry);
     ChosenMotion chosen = choose_motion(first, config, choice);
