@@ -37,6 +37,7 @@ enum class PoseFix {
     transpose,  ///< rotations are R_sensor_world, and turn in the wrong sense; positions are right
     mirror,     ///< y points to the right, and yaw turns clockwise, as in left-handed simulators
     ned,        ///< world and vehicle have x ahead, y to the right, z down
+    relative,   ///< each is the motion since the row before it; see chained()
 };
 
 /// All corrections except `none`, in the order in which --pose-fix lists them.
@@ -44,8 +45,13 @@ const std::vector<PoseFix>& pose_fixes();
 /// Name of a correction, as --pose-fix takes it.
 std::string to_string(PoseFix fix);
 
-/// Corrects a pose that was read without the correction; returns T_world_sensor.
+/// Corrects a pose that was read without the correction; returns T_world_sensor. `relative` needs
+/// all poses, so it changes nothing here.
 Pose fixed(PoseFix fix, const Pose& pose);
+
+/// The poses that follow from motions, each of which is T_last_sensor and the first one
+/// T_world_sensor. What is not finite counts as no motion, and stays as it is.
+std::vector<Pose> chained(std::vector<Pose> motions);
 
 /// Contents of a pose file.
 struct PoseFile {

@@ -131,8 +131,8 @@ format: layout of the files; by default it is recognised. One of {}.
 poses: pose file with T_world_sensor [m]; by default the usual place of the layout. With "none", the
 poses of the recording are not read, and DynamicFilter estimates them.
 topic, pose_topic: topics of the scans and of the poses of a bag.
-pose_fix: none, inverse, camera, lidar, wxyz, xyzw, mm, cm, feet, transpose, mirror or ned, as
-`dynamicfilter check` advises.
+pose_fix: none, inverse, camera, lidar, wxyz, xyzw, mm, cm, feet, transpose, mirror, ned or
+relative, as `dynamicfilter check` advises.
 points_in_world: True if points are in the frame of the poses.
 sensor_at: "X,Y,Z" [m], place of the sensor in the frame of the points, if that is the vehicle's; points
 and poses are then those of the sensor.

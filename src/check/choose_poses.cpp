@@ -94,14 +94,15 @@ std::string outliers_text(const Recording& recording) {
                        names_of(recording, outliers));
 }
 
-std::string doubt_about_poses(const Recording& recording, const OdometryConfig& config) {
+std::string doubt_about_poses(MotionLook& look) {
+    const Recording& recording = look.recording();
     const std::size_t missing = count_missing(recording);
     if (missing > 0) {
         return fmt::format("{} of {} scans have no pose of their own", missing, recording.size());
     }
     const std::string apart = outliers_text(recording);
     if (!apart.empty()) return apart;
-    const MotionQuality quality = measure_motion(recording, config);
+    const MotionQuality& quality = look.quality();
     return quality.has_bad_poses() ? blur_text(quality) : "";
 }
 

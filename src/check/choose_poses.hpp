@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "check/motion_look.hpp"
 #include "check/track_scans.hpp"
 
 namespace dynamic_filter::io {
@@ -22,7 +23,7 @@ std::string outliers_text(const Recording& recording);
 /// Tells why poses of the recording may be wrong, in a sentence; "" if they fit its scans as well
 /// as poses that odometry finds, at each of several places. Scans without a pose, and poses apart
 /// from those of their neighbours, are told as well.
-std::string doubt_about_poses(const Recording& recording, const OdometryConfig& config);
+std::string doubt_about_poses(MotionLook& look);
 
 /// Tracks all scans, and compares how they overlay at the given, the refined and the found poses.
 /// `asked`: the given ones are not kept, whatever the scans show. `after`: see follow().

@@ -10,6 +10,7 @@
 
 #include "base/progress.hpp"
 #include "check/choose_poses.hpp"
+#include "check/motion_look.hpp"
 #include "check/own_body.hpp"
 #include "check/scan_times.hpp"
 #include "check/sensor_place.hpp"
@@ -43,13 +44,6 @@ std::string source_of(const Sweep& sweep, bool timed) {
     return fmt::format("the azimuths of its points (the sensor turns {} and begins at {:.0f} deg)",
                        sweep.clockwise ? "clockwise" : "counterclockwise",
                        sweep.seam * 180.0 / std::numbers::pi);
-}
-
-/// The recording without motion compensation.
-io::Recording as_measured(const io::Recording& recording) {
-    io::RecordingParts parts = recording.parts();
-    parts.info.deskewed = false;
-    return io::Recording(std::move(parts));
 }
 
 /// What is lost if the motion was asked to be undone, and cannot be.
@@ -159,7 +153,7 @@ std::vector<std::string> notes_on_points(const io::Recording& recording) {
 
 /// What moves with the sensor is left out of the recording afterwards. Returns a note, or "".
 std::string leave_out_body(io::Recording& recording) {
-    const io::OwnBody body = io::find_own_body(as_measured(recording));
+    const io::OwnBody body = io::find_own_body(io::as_measured(recording));
     if (body.boxes.empty()) return "";
     recording = io::with_own_body(recording, body.boxes);
     Eigen::AlignedBox3f around;
@@ -197,11 +191,11 @@ ChosenMotion choose_for_several(io::Recording& recording, io::Recording first, C
                                 MotionChoice choice) {
     const std::string refine = std::exchange(choice.refine, "off");
     choice.finds_body = false;
-    const std::string doubt =
-        refine == "off" ? "" : io::doubt_about_poses(io::with_times(first), config.odometry);
+    io::MotionLook look(first, config.odometry, "auto");
+    const std::string doubt = refine == "off" ? "" : io::doubt_about_poses(look);
     ChosenMotion chosen = choose_motion(first, config, choice);
     if (first.info().deskewed) {
-        recording = io::deskewed(as_measured(recording), first.info().sweep);
+        recording = io::deskewed(io::as_measured(recording), first.info().sweep);
     }
     if (!doubt.empty()) {
         recording = io::with_losses(
@@ -220,17 +214,13 @@ ChosenMotion choose_motion(io::Recording& recording, Config& config, const Motio
     add(chosen.notes, choose_sensor_place(recording));
     for (std::string& note : notes_on_points(recording)) add(chosen.notes, std::move(note));
     const bool has_poses = recording.info().has_poses;
-    const bool judges_times = has_poses && !recording.info().sparse_poses && choice.deskew != "off";
-    const io::Recording measured = as_measured(recording);
-    const io::TimesChoice times =
-        judges_times ? io::choose_times(measured, config.odometry, choice.deskew == "on")
-                     : io::TimesChoice{};
-    const io::Recording looked_at =
-        choice.deskew == "off" ? recording : io::with_times(recording, times.sweep);
+    io::MotionLook own_look(recording, config.odometry, choice.deskew);
+    io::MotionLook& look = choice.look == nullptr ? own_look : *choice.look;
+    const io::TimesChoice& times = look.times();
     const bool timed = choice.deskew != "off" && has_times(io::with_times(recording));
     bool refines = has_poses && (choice.refine == "on" || config.odometry.refine);
     if (has_poses && choice.refine == "auto" && !refines) {
-        const std::string doubt = io::doubt_about_poses(looked_at, config.odometry);
+        const std::string doubt = io::doubt_about_poses(look);
         refines = !doubt.empty();
         if (refines) {
             chosen.notes.push_back(doubt + ", so the poses are refined; --refine off keeps them");
@@ -240,8 +230,7 @@ ChosenMotion choose_motion(io::Recording& recording, Config& config, const Motio
     config.odometry.refine = refines && choice.online;
     if (!has_poses || refines) {
         const bool is_distorted =
-            timed && choice.deskew == "auto" &&
-            io::measure_motion(looked_at, config.odometry).found.is_distorted();
+            timed && choice.deskew == "auto" && look.quality().found.is_distorted();
         add(chosen.notes, choose_deskew(recording, config.odometry, choice, timed, is_distorted));
         if (!choice.online) {
             use_found_poses(recording, config, choice, chosen);
@@ -250,7 +239,7 @@ ChosenMotion choose_motion(io::Recording& recording, Config& config, const Motio
         return chosen;
     }
     if (times.sweep) {
-        recording = io::deskewed(measured, times.sweep);
+        recording = io::deskewed(io::as_measured(recording), times.sweep);
         chosen.notes.push_back(fmt::format(
             "scans blur by {} as they are and by {} with the motion during each scan undone by "
             "{}{}, so it is undone; --deskew off leaves it",

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "check/motion_look.hpp"
 #include "dynamic_filter/recording.hpp"
 #include "dynamic_filter/settings.hpp"
 
@@ -19,6 +20,7 @@ struct MotionChoice {
     bool online = false;
     bool quiet = true;        ///< false: shows how far the odometry is
     bool finds_body = false;  ///< true: what moves with the sensor is found and left out
+    io::MotionLook* look = nullptr;  ///< of the same recording and deskew, to measure nothing twice
 };
 
 /// What was decided about the motion of a recording.

@@ -42,7 +42,8 @@ double share_inside(const Points& points, const Pose& T_to_from, const Voxels& v
 std::vector<Reading> all_readings() {
     std::vector<Reading> all = {{kAsGiven, [](const Pose& pose) { return pose; }}};
     for (const PoseFix fix : pose_fixes()) {
-        all.push_back({to_string(fix), [fix](const Pose& pose) { return fixed(fix, pose); }});
+        all.push_back({to_string(fix), [fix](const Pose& pose) { return fixed(fix, pose); },
+                       fix == PoseFix::relative});
     }
     all.push_back({kPointsInFeet, [](const Pose& pose) {
                        Pose longer = pose;
@@ -61,6 +62,10 @@ const std::vector<Reading>& readings() {
     return all;
 }
 
+Pose pose_of(const Sample& sample, const Reading& reading) {
+    return reading.pose(reading.is_chained ? sample.T_world_chained : sample.T_world_sensor);
+}
+
 std::vector<Overlay> compare(const Samples& samples, const std::vector<Pair>& pairs) {
     const std::vector<Reading>& all = readings();
     std::vector<Overlay> overlays;
@@ -74,8 +79,8 @@ std::vector<Overlay> compare(const Samples& samples, const std::vector<Pair>& pa
         of = pair.from;
         const Points points = thinned(b->second.upright);
         for (std::size_t r = 0; r < all.size(); ++r) {
-            const Pose T_a_b = all[r].pose(a->second.T_world_sensor).inverse() *
-                               all[r].pose(b->second.T_world_sensor);
+            const Pose T_a_b =
+                pose_of(a->second, all[r]).inverse() * pose_of(b->second, all[r]);
             overlays[r].share += share_inside(points, T_a_b, voxels);
         }
         ++compared;

@@ -15,10 +15,12 @@ namespace dynamic_filter::io {
 struct Reading {
     std::string name;
     std::function<Pose(const Pose&)> pose;
+    bool is_chained = false;  ///< true: of chained() poses
 };
 inline constexpr const char *kAsGiven = "as given", *kInWorld = "points in world",
                             *kInSensor = "points in sensor", *kPointsInFeet = "points in feet";
 const std::vector<Reading>& readings();  ///< "as given" is first
+Pose pose_of(const Sample& sample, const Reading& reading);
 
 /// Mean share of each interpretation, in the order of readings(); empty if no pair could be read.
 std::vector<Overlay> compare(const Samples& samples, const std::vector<Pair>& pairs);

@@ -23,25 +23,32 @@ namespace {
 constexpr float kBodyCell = 0.2F;                   // [m]
 constexpr float kBodyReach = 10.0F;                 // [m] from the sensor
 constexpr double kNearPair = 2.5, kFarPair = 12.0;  // [m] between the scans of a pair
-constexpr std::size_t kPairs = 12, kFewestPairs = 6;
+constexpr std::size_t kPairs = 12, kFewestPairs = 4;
 
 /// Two scans from which the same surroundings are seen.
 using BodyPair = std::pair<std::size_t, std::size_t>;
 
-/// Pairs of scans some metres apart, from all over the recording.
+/// Pairs of scans some metres apart, from all over the recording. None if the way is too short.
 std::vector<BodyPair> pairs_apart(const Recording& recording) {
     const auto& poses = recording.info().T_world_sensor;
-    std::vector<BodyPair> pairs;
-    std::size_t from = 0;
+    std::vector<std::size_t> known;
     for (std::size_t i = 0; i < poses.size(); ++i) {
-        if (!poses[i].matrix().allFinite()) continue;
-        if (!poses[from].matrix().allFinite()) from = i;
-        const double way = (poses[i].translation() - poses[from].translation()).norm();
-        if (way < kNearPair) continue;
-        if (way < kFarPair) pairs.emplace_back(from, i);
-        from = i;
+        if (poses[i].matrix().allFinite()) known.push_back(i);
     }
-    if (pairs.size() < kFewestPairs) return {};
+    std::vector<BodyPair> pairs;
+    std::size_t one_after_another = 0, after = 0;
+    std::size_t j = 0;
+    for (const std::size_t i : known) {
+        const auto way = [&] { return (poses[known[j]].translation() - poses[i].translation()).norm(); };
+        while (j < known.size() && (known[j] <= i || way() < kNearPair)) ++j;
+        if (j == known.size()) break;
+        if (way() >= kFarPair) continue;
+        pairs.emplace_back(i, known[j]);
+        if (i < after) continue;
+        ++one_after_another;
+        after = known[j];
+    }
+    if (one_after_another < kFewestPairs) return {};
     std::vector<BodyPair> chosen;
     const std::size_t count = std::min(pairs.size(), kPairs);
     for (std::size_t k = 0; k < count; ++k) chosen.push_back(pairs[k * pairs.size() / count]);
@@ -117,43 +124,72 @@ void look_from(const BodyScan& other, const BodyScan& scan, BodyCells& cells) {
     }
 }
 
-/// Adds cells beside the body that only some of the scans have points in.
-void grow(const BodyCells& cells, tsl::robin_set<VoxelKey, VoxelHash>& body, std::size_t scans) {
-    constexpr double kSome = 0.25;  // of the scans
-    std::vector<VoxelKey> front(body.begin(), body.end());
+using Body = tsl::robin_set<VoxelKey, VoxelHash>;
+
+/// The cells beside one that `takes` accepts, and those beside these.
+template <class Takes>
+void spread(std::vector<VoxelKey> front, const Takes& takes) {
     while (!front.empty()) {
         const Cell from = unpack(front.back());
         front.pop_back();
-        for (int dx = -1; dx <= 1; ++dx) {
-            for (int dy = -1; dy <= 1; ++dy) {
-                for (int dz = -1; dz <= 1; ++dz) {
-                    const VoxelKey key = pack(Cell(from + Cell(dx, dy, dz)));
-                    const auto it = cells.find(key);
-                    if (it == cells.end() || body.contains(key)) continue;
-                    const BodyCell& cell = it->second;
-                    if (static_cast<double>(cell.scans) < kSome * static_cast<double>(scans) ||
-                        cell.passes <= 2 * cell.hits) {
-                        continue;
-                    }
-                    body.insert(key);
-                    front.push_back(key);
-                }
-            }
+        for (int k = 0; k < 27; ++k) {
+            const VoxelKey key = pack(Cell(from + Cell(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1)));
+            if (takes(key)) front.push_back(key);
         }
     }
 }
 
-/// Cells in a row along x become one box.
-Boxes boxes_of(const tsl::robin_set<VoxelKey, VoxelHash>& body) {
+std::size_t points_of(const BodyCells& cells, const Body& body) {
+    std::size_t points = 0;
+    for (const VoxelKey key : body) points += cells.at(key).points;
+    return points;
+}
+
+/// Leaves out single cells apart from the body, such as those of a wall along the way.
+Body main_parts(const BodyCells& cells, Body body) {
+    constexpr double kLeastPart = 0.02;  // of the points
+    const auto all = static_cast<double>(points_of(cells, body));
+    Body kept;
+    while (!body.empty()) {
+        Body part = {*body.begin()};
+        body.erase(body.begin());
+        spread({*part.begin()}, [&](VoxelKey key) {
+            if (body.erase(key) == 0) return false;
+            part.insert(key);
+            return true;
+        });
+        if (static_cast<double>(points_of(cells, part)) < kLeastPart * all) continue;
+        kept.insert(part.begin(), part.end());
+    }
+    return kept;
+}
+
+/// Adds cells beside the body that only some of the scans have points in.
+void grow(const BodyCells& cells, Body& body, std::size_t scans) {
+    constexpr double kSome = 0.25;  // of the scans
+    spread({body.begin(), body.end()}, [&](VoxelKey key) {
+        const auto it = cells.find(key);
+        if (it == cells.end() || body.contains(key)) return false;
+        const BodyCell& cell = it->second;
+        const bool stays = static_cast<double>(cell.scans) >= kSome * static_cast<double>(scans);
+        if (!stays || cell.passes <= 2 * cell.hits) return false;
+        body.insert(key);
+        return true;
+    });
+}
+
+/// Cells in a row along x become one box, with a margin for the noise of points at the edge.
+Boxes boxes_of(const Body& body) {
     std::vector<Cell> cells;
     for (const VoxelKey key : body) cells.push_back(unpack(key));
     std::sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) {
         return std::make_tuple(a.z(), a.y(), a.x()) < std::make_tuple(b.z(), b.y(), b.x());
     });
+    constexpr float kMargin = 0.1F;  // [m]
     Boxes boxes;
     for (std::size_t i = 0; i < cells.size(); ++i) {
-        const Point low = kBodyCell * cells[i].cast<float>();
-        const Point high = low + Point::Constant(kBodyCell);
+        const Point low = kBodyCell * cells[i].cast<float>() - Point::Constant(kMargin);
+        const Point high = low + Point::Constant(kBodyCell + 2.0F * kMargin);
         const bool goes_on = i > 0 && cells[i] == cells[i - 1] + Cell(1, 0, 0);
         if (goes_on) {
             boxes.back().extend(high);
@@ -198,7 +234,7 @@ OwnBody find_own_body(const Recording& recording) {
     }
     constexpr double kNearlyAll = 0.8;  // of the scans
     constexpr std::size_t kSure = 4;    // looks
-    tsl::robin_set<VoxelKey, VoxelHash> body;
+    Body body;
     for (const auto& [key, cell] : cells) {
         const bool stays =
             static_cast<double>(cell.scans) >= kNearlyAll * static_cast<double>(usable);
@@ -213,11 +249,10 @@ OwnBody find_own_body(const Recording& recording) {
     }
     if (hits < 2 * passes) return {};
     const auto share_of_body = [&] {
-        std::size_t points = 0;
-        for (const VoxelKey key : body) points += cells.at(key).points;
-        return static_cast<double>(points) / static_cast<double>(measured);
+        return static_cast<double>(points_of(cells, body)) / static_cast<double>(measured);
     };
     constexpr double kLeastShare = 0.003;
+    body = main_parts(cells, std::move(body));
     if (measured == 0 || share_of_body() < kLeastShare) return {};
     grow(cells, body, usable);
     OwnBody found;

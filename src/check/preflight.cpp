@@ -14,6 +14,7 @@
 #include "check/overlay.hpp"
 #include "check/rotation_parts.hpp"
 #include "check/samples.hpp"
+#include "check/motion_look.hpp"
 #include "check/scan_times.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/poses.hpp"
@@ -104,7 +105,7 @@ bool have_structure(const Samples& samples) {
 /// True if the sensor would be upside down; sensors of ground robots are upright.
 bool hang_upside_down(const Samples& samples, const Reading& reading) {
     return std::all_of(samples.begin(), samples.end(), [&](const auto& sample) {
-        return reading.pose(sample.second.T_world_sensor)(2, 2) < -0.5;
+        return pose_of(sample.second, reading)(2, 2) < -0.5;
     });
 }
 
@@ -123,6 +124,7 @@ std::string meaning_of(const std::string& reading) {
          "the rotations turn in the wrong sense (R_sensor_world); positions are right"},
         {"mirror", "the poses are left-handed: y points to the right, and yaw turns clockwise"},
         {"ned", "the poses have z down and y to the right (north, east, down)"},
+        {"relative", "each pose is the motion since the scan before, and no place in the world"},
     };
     return meanings.at(reading);
 }
@@ -425,12 +427,11 @@ void judge_order(Preflight& result, const Recording& recording, const Samples& s
 }
 
 /// Findings about poses that are nearly right, and about motion during scans.
-void judge_motion(Preflight& result, const Recording& given) {
-    const Info& info = given.info();
-    const Recording recording = info.deskewed ? given : with_times(given);
-    const OdometryConfig config;
+void judge_motion(Preflight& result, MotionLook& look) {
+    const Recording& recording = look.recording();
+    const Info& info = recording.info();
     std::string mistake = info.tracked ? "" : outliers_text(recording);
-    if (mistake.empty() && !info.tracked) mistake = find_pose_mistake(recording, config);
+    if (mistake.empty() && !info.tracked) mistake = find_pose_mistake(look);
     if (!mistake.empty()) {
         result.findings.push_back({mistake,
                                    "`run` refines such poses of a single recording without being "
@@ -438,11 +439,12 @@ void judge_motion(Preflight& result, const Recording& given) {
                                    "accurate poses give better results"});
     }
     if (info.deskewed || info.tracked) return;
-    const std::optional<Sweep> sweep = info.has_poses && !info.sparse_poses
-                                           ? choose_times(given, config, false).sweep
-                                           : std::nullopt;
-    const Blur blur = sweep ? Blur{} : measure_motion(recording, config).found;
-    if (!sweep && !blur.is_distorted() && (blur.undone > 0.0 || !find_sweep(recording, config))) {
+    const std::optional<Sweep>& sweep = look.times().sweep;
+    const Blur blur = sweep ? Blur{} : look.quality().found;
+    // At good poses, a run looks for no other times than look.times() did.
+    const bool may_find = !mistake.empty() && !(blur.undone > 0.0);
+    if (!sweep && !blur.is_distorted() &&
+        !(may_find && find_sweep(recording, look.config()))) {
         return;
     }
     const bool is_shifted = sweep && !sweep->in_order && sweep->shift != 0.0;
@@ -457,15 +459,39 @@ void judge_motion(Preflight& result, const Recording& given) {
 
 /// Faults of all scans that show without reading the points.
 std::map<std::size_t, std::string> find_unusable(const Recording& recording) {
+    const Info& info = recording.info();
     std::map<std::size_t, std::string> unusable;
     for (std::size_t i = 0; i < recording.size(); ++i) {
         try {
-            recording.check(i);
+            const bool has_pose =
+                info.T_world_sensor.empty() || info.T_world_sensor[i].matrix().allFinite();
+            // Where odometry found no pose, the points tell why.
+            if (has_pose || !info.tracked) {
+                recording.check(i);
+            } else {
+                static_cast<void>(recording.read(i));
+            }
         } catch (const InputError& error) {
             unusable[i] = error.what();
         }
     }
     return unusable;
+}
+
+/// A run finds the poses that single scans lack, so these are not unusable.
+void note_missing_poses(Preflight& result, const Recording& recording,
+                        std::map<std::size_t, std::string>& unusable) {
+    const Info& info = recording.info();
+    if (info.tracked || info.points_in_world) return;
+    std::vector<std::size_t> missing;
+    for (std::size_t i = 0; i < info.T_world_sensor.size(); ++i) {
+        if (!info.T_world_sensor[i].matrix().allFinite()) missing.push_back(i);
+    }
+    if (missing.empty() || missing.size() == info.T_world_sensor.size()) return;
+    for (const std::size_t i : missing) unusable.erase(i);
+    result.notes.push_back(fmt::format(
+        "{} of {} scans have no pose of their own, the first is {}; `run` finds them by odometry",
+        missing.size(), recording.size(), stem(recording, missing.front())));
 }
 
 /// Adds what is not there yet.
@@ -482,16 +508,18 @@ void merge(Preflight& result, Preflight of_another) {
         if (!is_known) result.notes.push_back(std::move(note));
     }
     for (std::string& line : of_another.unusable) result.unusable.push_back(std::move(line));
+    if (result.overlays.empty()) result.overlays = std::move(of_another.overlays);
     result.scans += of_another.scans;
 }
 
-Preflight check_sensor(const Recording& recording, Depth depth) {
+Preflight check_sensor(const Recording& recording, Depth depth, MotionLook& look) {
     const std::size_t places = depth == Depth::thorough ? 12 : 3;
     const std::vector<Pair> chosen = choose_pairs(recording.size(), places);
     Preflight result;
     std::map<std::size_t, std::string> unusable = find_unusable(recording);
     const Samples samples = read_samples(recording, chosen, unusable);
     const std::vector<Pair> pairs = comparable(samples, chosen);
+    if (depth == Depth::thorough) note_missing_poses(result, recording, unusable);
     for (const auto& [i, why] : unusable)
         result.unusable.push_back(stem(recording, i) + ": " + why);
     result.scans = samples.size();
@@ -507,14 +535,10 @@ Preflight check_sensor(const Recording& recording, Depth depth) {
     if (!judge_sensors(result, recording)) judge_points(result, samples);
     // Poses that odometry found fit the scans, as far as these show it.
     if (result.overlays.empty() || recording.info().tracked) return result;
-    std::optional<bool> known;  // evaluated once, because it reads scans
     const auto nearly_right = [&] {
         if (depth == Depth::quick) return false;
-        if (!known) {
-            const MotionQuality quality = measure_motion(recording, OdometryConfig{});
-            known = quality.nearly_right || !quality.shows_motion();
-        }
-        return *known;
+        const MotionQuality& quality = look.quality();
+        return quality.nearly_right || !quality.shows_motion();
     };
     judge_poses(result, recording, samples, pairs, nearly_right);
     if (!result.findings.empty() || depth == Depth::quick) return result;
@@ -523,16 +547,25 @@ Preflight check_sensor(const Recording& recording, Depth depth) {
         result.findings.push_back(std::move(*finding));
         return result;
     }
-    judge_motion(result, recording);
+    judge_motion(result, look);
     return result;
 }
 
 }  // namespace
 
 Preflight check_recording(const Recording& recording, Depth depth) {
+    MotionLook look(recording, {}, recording.info().deskewed ? "off" : "auto");
+    return check_recording(recording, depth, look);
+}
+
+Preflight check_recording(const Recording& recording, Depth depth, MotionLook& look) {
     const std::vector<Recording> sensors = by_sensor(recording);
-    Preflight result = check_sensor(sensors.front(), depth);
-    for (std::size_t k = 1; k < sensors.size(); ++k) merge(result, check_sensor(sensors[k], depth));
+    if (sensors.size() == 1) return check_sensor(recording, depth, look);
+    Preflight result;
+    for (const Recording& sensor : sensors) {
+        MotionLook own_look(sensor, look.config(), look.deskew());
+        merge(result, check_sensor(sensor, depth, own_look));
+    }
     return result;
 }
 

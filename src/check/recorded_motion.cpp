@@ -9,6 +9,7 @@
 
 #include "base/numbers.hpp"
 #include "check/choose_poses.hpp"
+#include "check/motion_look.hpp"
 #include "check/pieces.hpp"
 #include "check/pose_fit.hpp"
 #include "check/pose_mistakes.hpp"
@@ -83,7 +84,10 @@ double share_of_weak(const std::vector<Tracked>& tracked) {
     return static_cast<double>(count) / static_cast<double>(tracked.size());
 }
 
-Compared compare(Piece piece, const OdometryConfig& config) {
+/// What is compared: where the sensor went, and also how well the scans overlay.
+enum class Compare { ways, all };
+
+Compared compare(Piece piece, const OdometryConfig& config, Compare what = Compare::all) {
     Compared compared;
     const bool has_times = std::all_of(piece.begin(), piece.end(),
                                        [](const Scan& scan) { return !scan.times.empty(); });
@@ -93,6 +97,12 @@ Compared compare(Piece piece, const OdometryConfig& config) {
         compared.given.push_back(scan.T_world_sensor);
     }
     const std::optional<Twist> velocity = velocity_at_first(piece, config);
+    if (what == Compare::ways && !has_times) {
+        const std::vector<Tracked> tracked = track(thinned_piece(piece, config), config, velocity);
+        compared.shown = poses_of(tracked);
+        compared.weak = share_of_weak(tracked);
+        return compared;
+    }
     const std::vector<Points> upright = upright_of(piece);
     piece = thinned_piece(piece, config);
     const auto look = [&](double Blur::*which) {
@@ -156,12 +166,13 @@ bool nearly_right(const std::vector<Compared>& pieces) {
 }
 
 std::vector<Compared> compare_places(const Recording& recording, std::size_t places,
-                                     std::size_t in_a_row, const OdometryConfig& config) {
+                                     std::size_t in_a_row, const OdometryConfig& config,
+                                     Compare what) {
     std::vector<Piece> pieces = read_pieces(recording, places, in_a_row);
     std::vector<Compared> compared(pieces.size());
     parallel_for(pieces.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
-            compared[k] = compare(std::move(pieces[k]), config);
+            compared[k] = compare(std::move(pieces[k]), config, what);
         }
     });
     return compared;
@@ -241,9 +252,9 @@ Sweep sharpest_of(const std::vector<Sweep>& sweeps, const Piece& piece, const Fo
 }
 
 /// True if a run would replace the poses, because other ones make the scans overlay better.
-bool would_be_replaced(const Recording& recording, const OdometryConfig& config) {
-    if (doubt_about_poses(recording, config).empty()) return false;
-    return !choose_poses(recording, config, false, {}).tracked.empty();
+bool would_be_replaced(MotionLook& look) {
+    if (!look.quality().has_bad_poses()) return false;
+    return !choose_poses(look.recording(), look.config(), false, {}).tracked.empty();
 }
 
 /// True if scans overlay more sharply at the other poses than at their own; all are parallel.
@@ -324,7 +335,7 @@ bool MotionQuality::shows_motion() const {
 }
 
 MotionQuality measure_motion(const Recording& recording, const OdometryConfig& config) {
-    return quality_of(compare_places(recording, kPlaces, kInARow, config),
+    return quality_of(compare_places(recording, kPlaces, kInARow, config, Compare::all),
                       recording.info().has_poses);
 }
 
@@ -338,16 +349,23 @@ MotionQuality measure_motion_at(const Recording& recording, std::size_t scan,
 }
 
 std::string find_pose_mistake(const Recording& recording, const OdometryConfig& config) {
+    MotionLook look(recording, config, "off");
+    return find_pose_mistake(look);
+}
+
+std::string find_pose_mistake(MotionLook& look) {
+    const Recording& recording = look.recording();
+    const OdometryConfig& config = look.config();
     // Number of consecutive scans; long enough that the motion varies.
     constexpr std::size_t kLong = 60;
-    std::vector<Compared> compared = compare_places(recording, 3, kLong, config);
+    std::vector<Compared> compared = compare_places(recording, 3, kLong, config, Compare::ways);
     if (compared.empty() || !recording.info().has_poses) return "";
     if (!quality_of(compared, true).shows_motion()) return "";
     std::vector<TwoTracks> tracks;
     for (Compared& piece : compared) {
         tracks.push_back({std::move(piece.stamps), std::move(piece.given), std::move(piece.shown)});
     }
-    if (would_be_replaced(recording, config)) return name_mistake(tracks);
+    if (would_be_replaced(look)) return name_mistake(tracks);
     // The odometry may be wrong as well: the scans decide.
     const ConstantMistake mistake = find_constant_mistake(tracks);
     const bool is_shown =

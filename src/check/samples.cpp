@@ -11,6 +11,7 @@
 
 #include "base/numbers.hpp"
 #include "dynamic_filter/error.hpp"
+#include "dynamic_filter/poses.hpp"
 #include "formats/clouds/time_field.hpp"
 #include "geometry/voxel.hpp"
 #include "recording/recording_parts.hpp"
@@ -101,6 +102,7 @@ Sample sample_of(const Recording& recording, const FullScan& scan) {
     const Point said = scan.T_world_sensor.translation().cast<float>();
     return {upright(scan.points),
             scan.T_world_sensor,
+            scan.T_world_sensor,
             share_of_doubles(as_measured(recording, scan)),
             count_near(scan.points, Point::Zero()),
             count_near(scan.points, said),
@@ -153,6 +155,7 @@ Samples read_samples(const Recording& recording, const std::vector<Pair>& pairs,
                      std::map<std::size_t, std::string>& unusable) {
     std::set<std::size_t> chosen = {0};
     for (const Pair& pair : pairs) chosen.insert({pair.from, pair.from + pair.apart});
+    const std::vector<Pose> poses = chained(recording.info().T_world_sensor);
     Samples samples;
     std::vector<Field> fields;
     for (const std::size_t i : chosen) {
@@ -160,7 +163,8 @@ Samples read_samples(const Recording& recording, const std::vector<Pair>& pairs,
             const FullScan scan = recording.read(i);
             if (fields.empty()) fields = scan.cloud.fields;
             if (scan.cloud.fields != fields) unusable[i] = kOtherFields;
-            samples.emplace(i, sample_of(recording, scan));
+            Sample& sample = samples.emplace(i, sample_of(recording, scan)).first->second;
+            if (!poses.empty()) sample.T_world_chained = poses[i];
         } catch (const InputError& error) {
             unusable[i] = error.what();
         }

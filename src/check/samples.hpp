@@ -20,6 +20,7 @@ Points upright(const Points& points);
 struct Sample {
     Points upright;  ///< sensor frame; upright structures within 30 m
     Pose T_world_sensor = Pose::Identity();
+    Pose T_world_chained = Pose::Identity();  ///< if poses are motions from scan to scan
     /// Share of pairs of points in nearly the same direction that have different ranges; 0 if there
     /// are few such pairs.
     double doubled = 0.0;

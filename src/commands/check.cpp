@@ -5,6 +5,7 @@
 #include "check/advice.hpp"
 #include "check/continuity.hpp"
 #include "check/motion.hpp"
+#include "check/motion_look.hpp"
 #include "commands/all.hpp"
 #include "commands/shared_options.hpp"
 #include "dynamic_filter/check.hpp"
@@ -42,10 +43,10 @@ void print_finding(const io::Finding& finding, const DataOptions& options) {
 }
 
 /// Filters a part of the recording as a run would. True if the watch finds nothing in the result.
-bool try_one(io::Recording recording, const DataOptions& options) {
+bool try_one(io::Recording recording, const DataOptions& options, io::MotionLook& look) {
     Config config = preset("default");
     if (recording.info().has_poses) {
-        choose_motion(recording, config, {.deskew = options.deskew});
+        choose_motion(recording, config, {.deskew = options.deskew, .look = &look});
     }
     const std::vector<io::Alarm> alarms = try_run(recording, config);
     for (const io::Alarm& alarm : alarms) {
@@ -61,7 +62,8 @@ bool check_one(io::Recording recording, const DataOptions& options) {
     ensure_poses(recording, preset("default"),
                  {.deskew = options.deskew, .finds_body = !options.mask});
     for (const std::string& note : recording.info().notes) fmt::print("note      {}\n", note);
-    const io::Preflight preflight = io::check_recording(recording, io::Depth::thorough);
+    io::MotionLook look(recording, preset("default").odometry, options.deskew);
+    const io::Preflight preflight = io::check_recording(recording, io::Depth::thorough, look);
     fmt::print("scans     {}, of which {} were read\n", recording.size(), preflight.scans);
     print_overlays(preflight);
     for (const std::string& note : preflight.notes) fmt::print("note      {}\n", note);
@@ -79,7 +81,7 @@ bool check_one(io::Recording recording, const DataOptions& options) {
     for (const io::Alarm& alarm : breaks) {
         print_finding({io::to_text(alarm, recording), alarm.advice}, options);
     }
-    return try_one(recording, options) && fine && breaks.empty();
+    return try_one(recording, options, look) && fine && breaks.empty();
 }
 
 std::string match_text(const io::DriveOffset& offset) {

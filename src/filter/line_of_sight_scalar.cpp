@@ -45,7 +45,8 @@ public:
         const float column = grid_.azimuth_step * cos_elevation_;
         const float apart = std::max(margins.apart / place.range, beside_);
         reach_right_ = std::max(column, apart);
-        reach_up_ = std::max(grid_.elevation_step, apart);
+        const float all_rows = static_cast<float>(grid_.rows) * grid_.elevation_step;
+        reach_up_ = std::min(std::max(grid_.elevation_step, apart), all_rows);
         own_right_ = std::max(margins.own_pixels * column, beside_);
         own_up_ = std::max(margins.own_pixels * grid_.elevation_step, beside_);
         touch_ = margins.touch + margins.per_metre * place.range;

@@ -65,7 +65,8 @@ DF_INLINE Places places_at(const SightArgs& args, const float* azimuths, const f
     p.beside_rows = beside / args.elevation_step;
     const float around = 0.49F * static_cast<float>(args.columns - 1);
     p.reach_columns = smaller(larger(one, apart / p.column_width), zero + around);
-    p.reach_rows = larger(one, apart / args.elevation_step);
+    const Floats all_rows = zero + static_cast<float>(args.rows);
+    p.reach_rows = smaller(larger(one, apart / args.elevation_step), all_rows);
     p.own_columns = larger(args.own_pixels * one, beside_columns);
     p.own_rows = larger(args.own_pixels * one, p.beside_rows);
     p.per_reach_column = 1.0F / p.reach_columns;

@@ -77,8 +77,10 @@ float thinning_of(std::span<const Point> points) {
         spacing_within(all, ranges[ranges.size() / 2], std::numeric_limits<float>::infinity());
     // The noise of ranges alone sets neighbors apart by some centimetres.
     constexpr float kLeast = 0.14F, kWider = 1.4F, kAlike = 0.47F;
+    // A filter of larger voxels would leave nothing to work with: the points are no metres.
+    constexpr float kMost = 3.0F;
     const bool alike = near.distance > kAlike * far.distance;
-    if (near.distance < kLeast || !alike || near.angle < kWider * far.angle) return 0.0F;
+    if (near.distance < kLeast || near.distance > kMost || !alike || near.angle < kWider * far.angle) return 0.0F;
     return near.distance;
 }
 

@@ -72,6 +72,14 @@ io::DiagnosticStatus filter_row(const Figures& now, const Figures& before) {
     return row;
 }
 
+io::DiagnosticStatus result_row(const Figures& now) {
+    io::DiagnosticStatus row{kGood, "result", "the ground stays", now.cloud, {}};
+    if (now.alarm.empty()) return row;
+    row.level = kError;
+    row.message = now.alarm;
+    return row;
+}
+
 io::DiagnosticStatus output_row(const Figures& now, const Figures& before) {
     io::DiagnosticStatus row{kGood, "output", "published", now.cloud, {}};
     if (now.not_taken > before.not_taken || now.unpublished > before.unpublished) {
@@ -89,7 +97,8 @@ io::DiagnosticStatus output_row(const Figures& now, const Figures& before) {
 std::vector<io::DiagnosticStatus> diagnose(const Figures& now, const Figures& before,
                                            const std::string& name, double silent_after) {
     std::vector<io::DiagnosticStatus> rows{input_row(now, before, silent_after),
-                                           filter_row(now, before), output_row(now, before)};
+                                           filter_row(now, before), result_row(now),
+                                           output_row(now, before)};
     for (io::DiagnosticStatus& row : rows) row.name = name + ": " + row.name;
     return rows;
 }

@@ -16,6 +16,7 @@ struct Figures {
     Counters filter;
     Latencies latencies;
     OdometryState odometry;
+    std::string alarm;  ///< see Session::alarm()
     PoseOrigin origin = PoseOrigin::undecided;
     std::string cloud, poses;                      ///< topic of the scans; see Intake::poses_text()
     std::optional<double> silence;                 ///< [s] see Intake::silence()
@@ -23,7 +24,7 @@ struct Figures {
     std::uint64_t lost = 0, not_taken = 0;         ///< messages: on the way here; by receivers
 };
 
-/// Three rows: input, filter, output. `before`: the figures of the last time, so that a row warns
+/// Four rows: input, filter, result, output. `before`: the figures of the last time, so that a row warns
 /// of what happens now, not of what once did. `silent_after`: [s] without input that is an error.
 std::vector<io::DiagnosticStatus> diagnose(const Figures& now, const Figures& before,
                                            const std::string& name, double silent_after);

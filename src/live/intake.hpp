@@ -39,7 +39,8 @@ struct LiveScan {
     /// Without a pose: the root of /tf above the sensor, and the sensor's pose in it, if known.
     std::string root;
     std::optional<Pose> T_root_sensor;
-    SteadyTime arrived;  ///< when the bus delivered the cloud
+    std::vector<std::uint8_t> own;  ///< see FullScan::own
+    SteadyTime arrived;             ///< when the bus delivered the cloud
 };
 
 /// Numbers of clouds; received = taken + malformed + without_pose + overrun + those that wait.

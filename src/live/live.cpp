@@ -70,6 +70,7 @@ public:
         watch_input(figures);
         watch_poses(figures);
         watch_speed(figures);
+        watch_result(figures);
         outputs_.diagnostics(
             diagnose(figures, before_, config_.output.prefix.substr(1), config_.input.silence),
             seconds_since_epoch());
@@ -81,6 +82,7 @@ public:
                 .filter = session_.counters(),
                 .latencies = session_.latencies(),
                 .odometry = session_.odometry(),
+                .alarm = session_.alarm(),
                 .origin = intake_.origin(),
                 .cloud = subscriptions_.cloud(),
                 .poses = intake_.poses_text(),
@@ -152,6 +154,15 @@ private:
                          scans(dropped)));
     }
 
+    void watch_result(const Figures& now) {
+        constexpr auto kPause = std::chrono::seconds(10);
+        if (now.alarm.empty() || Clock::now() < next_alarm_) return;
+        next_alarm_ = Clock::now() + kPause;
+        warn(fmt::format("of the newest scans, {}; wrong poses, other clocks or several sensors in "
+                         "one cloud do so: record with --record, and see `dynamicfilter check`",
+                         now.alarm));
+    }
+
     Bus& bus_;
     LiveConfig& config_;
     Intake& intake_;
@@ -164,7 +175,7 @@ private:
     bool silent_ = false;
     std::uint64_t told_missing_ = 0, told_dropped_ = 0;
     Clock::time_point start_ = Clock::now(), next_ = start_, next_missing_ = start_,
-                      next_dropped_ = start_;
+                      next_dropped_ = start_, next_alarm_ = start_;
 };
 
 /// Runs `run` on each recorded bag. After SIGTERM it only names the bags, because a supervisor is

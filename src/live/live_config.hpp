@@ -23,6 +23,7 @@ struct LiveConfig {
         double wait = 0.2, silence = 2.0, decide = 5.0;
         int queue = 2;
         bool deskew = false;
+        std::string mask;
     } input;
     struct Output {
         std::string prefix = "/dynamicfilter", qos = "reliable", map_frame = "map";
@@ -79,6 +80,10 @@ void visit_live(C& c, F&& f) {
               "whether the motion of the sensor during each scan is undone; scans must hold the "
               "times of their points"},
       c.input.deskew);
+    f(Setting{"input.mask", "", "",
+              "file of boxes in the sensor frame that hold the own body, as --mask of run; empty: "
+              "none"},
+      c.input.mask);
     f(Setting{"output.prefix", "", "", "what the names of the published topics begin with"},
       c.output.prefix);
     f(Setting{"output.qos", "", "", "how scans are published", 0, 0, kAllMethods,

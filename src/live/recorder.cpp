@@ -99,6 +99,7 @@ int finish_recording(const std::filesystem::path& bag, const std::filesystem::pa
     run.refine = config.filter.odometry.refine ? "on" : "off";
     run.data.deskew = config.input.deskew ? "on" : "off";
     if (without_poses) run.data.poses = "none";
+    if (!config.input.mask.empty()) run.data.mask = config.input.mask;
     visit(config.filter, [&](const Setting& setting, const auto&) {
         if (!in_force(config.filter, setting)) return;
         const std::string key(setting.key);

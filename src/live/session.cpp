@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "dynamic_filter/error.hpp"
+#include "recording/mask.hpp"
 
 namespace dynamic_filter::live {
 
@@ -12,6 +13,7 @@ namespace {
 constexpr std::size_t kMostWork = 16;      // that waits to be published
 constexpr std::size_t kMostPending = 200;  // preset paper: verdicts come window by window
 constexpr std::size_t kMostLatencies = 1000;
+constexpr std::size_t kWatched = 50;  // scans
 
 OnlineOptions options_of(const LiveConfig& config) {
     return {.queue = static_cast<std::size_t>(config.input.queue),
@@ -37,6 +39,7 @@ Scan scan_of(const LiveScan& scan, const Verdict& verdict) {
 
 Session::Session(const LiveConfig& config, Outputs& outputs, Recorder* recorder)
     : config_(config),
+      own_body_(config.input.mask.empty() ? io::Boxes{} : io::read_boxes(config.input.mask)),
       outputs_(outputs),
       recorder_(recorder),
       map_rate_(config.output.map_rate),
@@ -81,6 +84,7 @@ OnlineCallbacks Session::callbacks() {
 }
 
 void Session::push(LiveScan scan) {
+    scan.own = io::take_out(own_body_, scan.points);
     Scan core{scan.points,   scan.T_world_sensor, scan.stamp,
               next_index_++, scan.has_pose,       scan.times};
     {
@@ -157,17 +161,22 @@ void Session::publish_work() {
 }
 
 void Session::publish(Work& work) {
+    io::label_own_body(work.scan->own, work.verdict.labels);
+    watch(*work.scan, work.verdict);
     JudgedScan judged = outputs_.judged(*work.scan, work.verdict);
     note_latency(*work.scan);
     ++published_;
     record(*work.scan);
     if (config_.output.settle_after == 0 || !filter_->judges_each_scan()) return;
-    unsettled_.push_back({std::move(judged), scan_of(*work.scan, work.verdict)});
+    unsettled_.push_back(
+        {std::move(judged), scan_of(*work.scan, work.verdict), std::move(work.scan->own)});
     if (unsettled_.size() <= static_cast<std::size_t>(config_.output.settle_after)) return;
     const Unsettled due = std::move(unsettled_.front());
     unsettled_.pop_front();
     if (outputs_.wants_corrections()) {
-        outputs_.settled(due.judged, filter_->settled(due.scan));
+        Verdict verdict = filter_->settled(due.scan);
+        io::label_own_body(due.own, verdict.labels);
+        outputs_.settled(due.judged, verdict);
     }
 }
 
@@ -227,6 +236,29 @@ Latencies Session::latencies() const {
         return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
     };
     return {at(0.5), at(0.99), sorted.back(), sorted.size()};
+}
+
+/// The places that a scan sees first are unknown for a moment, so these points are not counted.
+void Session::watch(const LiveScan& scan, const Verdict& verdict) {
+    const Pose& T_world_sensor =
+        verdict.tracked ? verdict.tracked->T_world_sensor : scan.T_world_sensor;
+    io::ScanWatch seen =
+        io::watch_scan(verdict.index, scan.points, T_world_sensor, verdict.labels);
+    seen.unknown = 0;
+    const std::lock_guard hold(lock_);
+    watch_.push_back(seen);
+    if (watch_.size() > kWatched) watch_.pop_front();
+}
+
+std::string Session::alarm() const {
+    std::vector<io::ScanWatch> newest;
+    {
+        const std::lock_guard hold(lock_);
+        if (watch_.size() < kWatched) return "";
+        newest.assign(watch_.begin(), watch_.end());
+    }
+    const std::vector<io::Alarm> alarms = io::alarms_of(newest);
+    return alarms.empty() ? "" : alarms.front().what;
 }
 
 OdometryState Session::odometry() const {

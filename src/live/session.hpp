@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "check/watch.hpp"
 #include "dynamic_filter/online.hpp"
 #include "live/outputs.hpp"
 #include "live/recorder.hpp"
@@ -51,6 +52,8 @@ public:
     [[nodiscard]] Counters counters() const { return filter_->counters(); }
     [[nodiscard]] Latencies latencies() const;
     [[nodiscard]] OdometryState odometry() const;
+    /// What is wrong with the results of the newest scans, in a sentence; "" if nothing is.
+    [[nodiscard]] std::string alarm() const;
     [[nodiscard]] std::uint64_t published() const { return published_; }
     /// Judged scans that were neither published nor recorded, because publishing is too slow.
     [[nodiscard]] std::uint64_t unpublished() const { return unpublished_; }
@@ -64,6 +67,7 @@ private:
     struct Unsettled {
         JudgedScan judged;
         Scan scan;
+        std::vector<std::uint8_t> own;  // see LiveScan::own
     };
     OnlineCallbacks callbacks();
     void add_instant(const Verdict& verdict);
@@ -73,10 +77,12 @@ private:
     void publish(Work& work);
     void publish_maps();
     void record(const LiveScan& scan);
+    void watch(const LiveScan& scan, const Verdict& verdict);
     void note_latency(const LiveScan& scan);
     void fail(std::exception_ptr error);
 
     const LiveConfig& config_;
+    io::Boxes own_body_;
     Outputs& outputs_;
     Recorder* recorder_;  // of the publishing thread; may be null
 
@@ -86,6 +92,7 @@ private:
     std::deque<Work> work_;
     std::deque<float> latencies_;  // [ms]
     OdometryState odometry_;
+    std::deque<io::ScanWatch> watch_;  // of the newest scans
     std::vector<std::string> notices_;
     struct Place {
         Pose T_world_sensor = Pose::Identity();

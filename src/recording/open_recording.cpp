@@ -72,7 +72,8 @@ std::vector<double> assign_poses(Info& info, const Layout& layout, std::optional
     info.T_world_sensor = layout.T_world_sensor;
     if (has_own) return times;
     if (!layout.poses) return times.empty() ? growing_times_in_names(layout.scans, unit) : times;
-    const PoseFile file = read_poses(*layout.poses);
+    PoseFile file = read_poses(*layout.poses);
+    if (info.pose_fix == PoseFix::relative) file.poses = chained(std::move(file.poses));
     info.notes.insert(info.notes.end(), file.notes.begin(), file.notes.end());
     Match match = match_poses(layout, file, times, unit);
     info.T_world_sensor = std::move(match.poses);
@@ -154,6 +155,13 @@ RecordingParts open_selected_bag(const std::filesystem::path& data, const OpenOp
 }
 
 void apply_fix(Info& info) {
+    std::error_code is_none;
+    if (info.pose_fix == PoseFix::relative &&
+        !std::filesystem::is_regular_file(info.pose_source, is_none)) {
+        throw ConfigError(
+            "--pose-fix relative joins the motions of a pose file with one row for each scan, and "
+            "the poses of this recording are not from such a file");
+    }
     for (auto* poses : {&info.T_world_sensor, &info.trajectory.poses}) {
         for (Pose& pose : *poses) pose = fixed(info.pose_fix, pose);
     }

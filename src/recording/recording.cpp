@@ -217,11 +217,11 @@ FullScan Recording::read(std::size_t i) const {
             info().root, "",
             "has " + std::to_string(size()) + " scans; there is no scan " + std::to_string(i));
     }
-    check_pose(info(), i);
     refuse_repeat(info(), i);
     FullScan scan;
     scan.cloud = parts_->read_cloud(i);
     if (scan.cloud.size() == 0) throw InputError(info().scan_files[i], "", "has no points");
+    check_pose(info(), i);  // a scan that cannot be read has no pose by odometry either
     scan.stamp = info().stamps[i];
     place(scan, info(), i);
     treat_motion(scan, *parts_, i);

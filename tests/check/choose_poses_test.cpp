@@ -10,7 +10,13 @@
 namespace dynamic_filter::io {
 namespace choose_poses_test {
 
-using ChoosePoses = StreetRecording;
+class ChoosePoses : public StreetRecording {
+protected:
+    [[nodiscard]] std::string doubt() const {
+        MotionLook look(open(), {}, "off");
+        return doubt_about_poses(look);
+    }
+};
 
 /// [m] of the motion from the first scan to the last one.
 double error_of_ends(const TrackedScans& tracked) {
@@ -22,7 +28,7 @@ double error_of_ends(const TrackedScans& tracked) {
 
 TEST_F(ChoosePoses, ExactOnesAreKept) {
     put(street(false), street(false).truth);
-    EXPECT_EQ(doubt_about_poses(open(), {}), "");
+    EXPECT_EQ(doubt(), "");
     const PosesChoice choice = choose_poses(open(), {}, false, {});
     EXPECT_TRUE(choice.tracked.empty());
     ASSERT_EQ(choice.notes.size(), 1U);
@@ -36,7 +42,7 @@ TEST_F(ChoosePoses, ThoseThatDriftAreReplaced) {
         poses[i].translation().z() += 0.05 * static_cast<double>(i);
     }
     put(street(false), poses);
-    EXPECT_NE(doubt_about_poses(open(), {}), "");
+    EXPECT_NE(doubt(), "");
     const PosesChoice choice = choose_poses(open(), {}, false, {});
     ASSERT_FALSE(choice.tracked.empty());
     EXPECT_LT(error_of_ends(choice.tracked), 0.3);  // the given ones are off by 1.45 m
@@ -46,7 +52,7 @@ TEST_F(ChoosePoses, OneThatLiesApartIsReplaced) {
     auto poses = street(false).truth;
     poses[11].translation().y() += 4.0;
     put(street(false), poses);
-    EXPECT_HAS(doubt_about_poses(open(), {}), number(11));
+    EXPECT_HAS(doubt(), number(11));
     const PosesChoice choice = choose_poses(open(), {}, false, {});
     ASSERT_FALSE(choice.tracked.empty());
     const Eigen::Vector3d there = choice.tracked[11]->T_world_sensor.translation();

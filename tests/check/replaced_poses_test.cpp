@@ -33,6 +33,14 @@ TEST_F(ReplacedPoses, AUnitIsNamedIfTheFoundPosesConfirmIt) {
     }
 }
 
+TEST_F(ReplacedPoses, MotionsFromScanToScanAreNamed) {
+    std::vector<Pose> poses = street(false).truth;
+    for (std::size_t i = poses.size() - 1; i > 0; --i) poses[i] = poses[i - 1].inverse() * poses[i];
+    const auto found = mistakes(poses);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].advice, "--pose-fix relative");
+}
+
 TEST_F(ReplacedPoses, OfNoisyOnesNothingIsSaid) {
     std::vector<Pose> poses = street(false).truth;
     test::Random random(1);

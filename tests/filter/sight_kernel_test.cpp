@@ -133,6 +133,18 @@ TEST(SightKernel, EveryLevelAgreesWithTheScalarFormAndBitByBitWithTheOthers) {
     }
 }
 
+TEST(SightKernel, AWindowThatCoversEverythingStaysWithinTheImage) {
+    test::Random random(7);
+    const BeamImage image = scan(1.0, 360.0, random);
+    SightMargins margins = kMargins;
+    margins.apart = 2e7F;
+    const Directions asked = places(2001, random);
+    for (const auto& level : DYNAMIC_FILTER_LEVELS_OF(check_lines_of_sight)) {
+        EXPECT_EQ(check_with(level, image, asked, margins).size(), 2001U) << level.name;
+    }
+    EXPECT_NO_FATAL_FAILURE(line_of_sight(image, {0.1F, 0.0F, 5.0F}, margins));
+}
+
 TEST(SightKernel, WhatIsNotANumberIsNotSeen) {
     test::Random random(6);
     const BeamImage image = scan(1.0, 360.0, random);

@@ -73,6 +73,12 @@ TEST(Thinning, IsNoneInScansAsMeasuredOrWithFewerBeams) {
     }
 }
 
+TEST(Thinning, IsNotJudgedOfPointsThatAreNoMetres) {
+    Points points = filtered(scan(16, -15.0, 15.0), 0.5F);
+    for (Point& p : points) p *= 1000.0F;
+    EXPECT_EQ(thinning_of(points), 0.0F);
+}
+
 TEST(Thinning, IsNotJudgedByFewPointsOrPointsWithoutMeasurement) {
     Points points(1000, Point::Constant(std::numeric_limits<float>::quiet_NaN()));
     EXPECT_EQ(thinning_of(points), 0.0F);

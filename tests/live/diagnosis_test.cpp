@@ -24,8 +24,8 @@ std::vector<int> levels(const Figures& now, const Figures& before) {
 }
 
 TEST(Diagnosis, WhatOnceWasIsNoWarningNow) {
-    EXPECT_EQ(levels(healthy(), healthy()), (std::vector<int>{0, 0, 0}));
-    EXPECT_EQ(levels(healthy(), {}), (std::vector<int>{2, 1, 0}));
+    EXPECT_EQ(levels(healthy(), healthy()), (std::vector<int>{0, 0, 0, 0}));
+    EXPECT_EQ(levels(healthy(), {}), (std::vector<int>{2, 1, 0, 0}));
 }
 
 TEST(Diagnosis, SilenceIsStale) {
@@ -42,15 +42,22 @@ TEST(Diagnosis, SilenceIsStale) {
 TEST(Diagnosis, ALostOdometryIsAnError) {
     Figures now = healthy();
     now.odometry = {.good = 10, .weak = 0, .lost = 1, .last = TrackStatus::lost};
-    EXPECT_EQ(levels(now, now), (std::vector<int>{0, 2, 0}));
+    EXPECT_EQ(levels(now, now), (std::vector<int>{0, 2, 0, 0}));
     now.odometry.last = TrackStatus::weak;
-    EXPECT_EQ(levels(now, now), (std::vector<int>{0, 1, 0}));
+    EXPECT_EQ(levels(now, now), (std::vector<int>{0, 1, 0, 0}));
+}
+
+TEST(Diagnosis, AnAlarmOfTheResultIsAnError) {
+    Figures now = healthy();
+    now.alarm = "31 of 50 scans lose more than 15 % of their ground, up to 63 %";
+    EXPECT_EQ(levels(now, now), (std::vector<int>{0, 0, 2, 0}));
+    EXPECT_EQ(diagnose(now, now, "filter", 2.0)[2].message, now.alarm);
 }
 
 TEST(Diagnosis, SlowReceiversAreAWarning) {
     Figures now = healthy();
     now.not_taken = 3;
-    EXPECT_EQ(levels(now, healthy()), (std::vector<int>{0, 0, 1}));
+    EXPECT_EQ(levels(now, healthy()), (std::vector<int>{0, 0, 0, 1}));
 }
 
 TEST(Diagnosis, TheClosingTableAddsUp) {

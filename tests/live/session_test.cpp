@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <thread>
 
 #include "dynamic_filter/error.hpp"
@@ -92,6 +93,42 @@ TEST(Session, CorrectionsComeAfterTheGivenNumberOfScans) {
     running.push_all(12);
     running.session->stop();
     EXPECT_EQ(running.count("/dynamicfilter/corrections"), 7U);
+}
+
+TEST(Session, GroundThatIsLostRaisesAnAlarm) {
+    for (const double wrong : {0.0, 0.8}) {  // [m] by which every second pose is too high
+        Running running;
+        Session& session = running.start();
+        for (auto& s : dynamic_filter::test::drive(60, true)) {
+            if (s.scan.index % 2 == 1) s.scan.T_world_sensor.translation().z() += wrong;
+            eventually([&] { return !session.is_busy(); });
+            session.push(live(s.scan));
+        }
+        session.stop();
+        EXPECT_EQ(session.alarm().empty(), wrong == 0.0) << session.alarm();
+    }
+}
+
+TEST(Session, TheOwnBodyComesOutAsDynamic) {
+    const TemporaryFolder folder;
+    std::ofstream(folder / "mask.txt") << "-100 -100 -100  0 100 100\n";
+    Running running;
+    running.config.input.mask = (folder / "mask.txt").string();
+    running.start();
+    running.push_all(12);
+    running.session->stop();
+    const auto cloud = io::read_cloud_message(
+        *running.bus.published("/dynamicfilter/labels").front(),
+        {"", "sensor_msgs/PointCloud2", running.bus.used});
+    const std::vector<double> labels = io::values(cloud.cloud, *cloud.cloud.find("label"));
+    const Points points = io::positions(cloud.cloud);
+    std::size_t behind = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (points[i].x() >= 0.0F) continue;
+        ++behind;
+        EXPECT_EQ(labels[i], static_cast<double>(Label::dynamic));
+    }
+    EXPECT_GT(behind, 100U);
 }
 
 TEST(Session, TheLocalMapIsPublishedAtItsRate) {

@@ -59,7 +59,7 @@ export class CloudView {
     if (!settings) return;
     this.settings = settings;
     const sensor = this.sensorAt(this.row);
-    this.overlay.setVisible("path", settings.path);
+    for (const line of ["path", "alarms"]) this.overlay.setVisible(line, settings.path);
     this.overlay.setVisible("sensor", settings.scan && sensor !== null);
     const { scan } = this.clouds;
     if (scan) scan.object.visible = this.scanIsShown;

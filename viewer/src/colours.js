@@ -5,12 +5,12 @@ const KINDS = {
   dark: {
     background: "#0e1116", unknown: "#cc79a7", static: "#a7b0ba", dynamic: "#e8590c", corrected: "#56b4e9",
     rightStatic: "#6b747e", rightDynamic: "#4a86b0", falseRemoved: "#ff6a13", missed: "#fff04d", none: "#59616b",
-    path: "#3fd0b0", sensor: "#ffffff", mark: "#ffffff",
+    path: "#3fd0b0", alarm: "#ff5470", sensor: "#ffffff", mark: "#ffffff",
   },
   light: {
     background: "#f3f5f8", unknown: "#a83d7c", static: "#7d8792", dynamic: "#d55e00", corrected: "#0072b2",
     rightStatic: "#aab2bb", rightDynamic: "#6fa8cf", falseRemoved: "#e05a00", missed: "#16213e", none: "#b4bcc5",
-    path: "#00795c", sensor: "#10151c", mark: "#10151c",
+    path: "#00795c", alarm: "#c1121f", sensor: "#10151c", mark: "#10151c",
   },
 };
 

@@ -35,6 +35,7 @@ export class Overlay {
   constructor(view) {
     this.view = view;
     this.path = new Line2(new LineGeometry(), material(2, 0.85));
+    this.alarms = new LineSegments2(new LineSegmentsGeometry(), material(5));
     this.sight = new Line2(new LineGeometry(), material(2.5));
     this.box = new LineSegments2(new LineSegmentsGeometry().setPositions(boxEdges), material(2));
     this.sensor = disc();
@@ -46,11 +47,12 @@ export class Overlay {
   }
 
   get #objects() {
-    return [this.path, this.box, this.sight, this.sensor];
+    return [this.path, this.alarms, this.box, this.sight, this.sensor];
   }
 
   setTheme(theme) {
     this.path.material.color.set(kindColour(theme, "path"));
+    this.alarms.material.color.set(kindColour(theme, "alarm"));
     this.sight.material.color.set(kindColour(theme, "corrected"));
     this.box.material.color.set(kindColour(theme, "mark"));
   }
@@ -60,6 +62,19 @@ export class Overlay {
     if (positions.length < 6) return;
     this.path.geometry.dispose();
     this.path.geometry = new LineGeometry().setPositions(positions);
+    this.view.redraw();
+  }
+
+  /** Marks the parts of the path from row `first` to row `last` of each alarm. */
+  setAlarms(positions, alarms) {
+    const at = (row) => positions.subarray(3 * row, 3 * row + 3);
+    const ends = [];
+    for (const { first, last } of alarms) {
+      for (let row = first; row < last; ++row) ends.push(...at(row), ...at(row + 1));
+    }
+    if (ends.length === 0) return;
+    this.alarms.geometry.dispose();
+    this.alarms.geometry = new LineSegmentsGeometry().setPositions(ends);
     this.view.redraw();
   }
 

@@ -27,6 +27,7 @@ export class RunView extends CloudView {
     const path = run.arrays["path-position"];
     if (!path?.length) return;
     this.overlay.setPath(path);
+    this.overlay.setAlarms(path, this.run.meta.alarms ?? []);
     const { low, step } = run.meta;
     this.field = pathField(path, low, low.map((l) => l + 65535 * step));
     this.clouds.map.setPathField(this.field);

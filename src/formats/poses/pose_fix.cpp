@@ -31,7 +31,7 @@ const std::vector<PoseFix>& pose_fixes() {
     static const std::vector<PoseFix> all = {
         PoseFix::inverse,   PoseFix::camera,      PoseFix::lidar,       PoseFix::wxyz,
         PoseFix::xyzw,      PoseFix::millimetres, PoseFix::centimetres, PoseFix::feet,
-        PoseFix::transpose, PoseFix::mirror,      PoseFix::ned};
+        PoseFix::transpose, PoseFix::mirror,      PoseFix::ned,         PoseFix::relative};
     return all;
 }
 
@@ -61,6 +61,8 @@ std::string to_string(PoseFix fix) {
             return "mirror";
         case PoseFix::ned:
             return "ned";
+        case PoseFix::relative:
+            return "relative";
     }
     return "none";
 }
@@ -71,6 +73,7 @@ Pose fixed(PoseFix fix, const Pose& pose) {
     Pose result = pose;
     switch (fix) {
         case PoseFix::none:
+        case PoseFix::relative:
             break;
         case PoseFix::inverse:
             return pose.inverse();
@@ -99,6 +102,16 @@ Pose fixed(PoseFix fix, const Pose& pose) {
             return with_axes(pose, {1.0, -1.0, -1.0});
     }
     return pose;
+}
+
+std::vector<Pose> chained(std::vector<Pose> motions) {
+    Pose T_world_last = Pose::Identity();
+    for (Pose& pose : motions) {
+        if (!pose.matrix().allFinite()) continue;
+        T_world_last = T_world_last * pose;
+        pose = T_world_last;
+    }
+    return motions;
 }
 
 }  // namespace dynamic_filter::io

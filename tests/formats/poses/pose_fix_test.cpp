@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
+#include <vector>
 
 namespace dynamic_filter::io {
 namespace pose_fix_test {
@@ -12,7 +14,7 @@ TEST(PoseFix, EachHasAName) {
     std::set<std::string> names{to_string(PoseFix::none)};
     for (const PoseFix fix : pose_fixes()) names.insert(to_string(fix));
     EXPECT_EQ(names, (std::set<std::string>{"none", "inverse", "camera", "lidar", "wxyz", "xyzw",
-                                            "mm", "cm", "feet", "transpose", "mirror", "ned"}));
+                                            "mm", "cm", "feet", "transpose", "mirror", "ned", "relative"}));
 }
 
 TEST(PoseFix, EachUndoesItsMistake) {
@@ -31,6 +33,20 @@ TEST(PoseFix, EachUndoesItsMistake) {
     EXPECT_TRUE(fixed(PoseFix::camera, fixed(PoseFix::lidar, pose)).isApprox(pose, 1e-12));
     EXPECT_TRUE(fixed(PoseFix::wxyz, fixed(PoseFix::xyzw, pose)).isApprox(pose, 1e-12));
     EXPECT_TRUE(fixed(PoseFix::none, pose).isApprox(pose, 0.0));
+}
+
+TEST(PoseFix, MotionsAreChained) {
+    const Pose step = Pose(Eigen::Translation3d(1, 0, 0)) *
+                      Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitZ());
+    Pose lost = Pose::Identity();
+    lost.translation().setConstant(std::nan(""));
+    const std::vector<Pose> poses = chained({step, step, lost, step});
+    EXPECT_TRUE(poses[0].isApprox(step));
+    EXPECT_TRUE(poses[1].isApprox(step * step));
+    EXPECT_FALSE(poses[2].matrix().allFinite());
+    EXPECT_TRUE(poses[3].isApprox(step * step * step));
+    EXPECT_TRUE(chained({}).empty());
+    EXPECT_TRUE(fixed(PoseFix::relative, step).isApprox(step));
 }
 
 /// A turn to the left, after which the sensor moves ahead: in a left-handed frame y is to the
