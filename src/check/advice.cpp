@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <utility>
 
 namespace dynamic_filter::app {
 namespace {
@@ -40,6 +41,20 @@ std::string typed(const std::string& name, bool value) { return value ? name : "
 template <class T>
 std::string typed(const std::string&, const T&) {
     return "";
+}
+
+bool set(std::string& member, const std::string& value) {
+    member = value;
+    return true;
+}
+bool set(std::optional<std::filesystem::path>& member, const std::string& value) {
+    member = value;
+    return true;
+}
+bool set(bool& member, const std::string&) { return member = true; }
+template <class T>
+bool set(T&, const std::string&) {
+    return false;
 }
 
 /// Each option, and what was typed for it.
@@ -83,6 +98,17 @@ std::string next_command(const std::vector<std::filesystem::path>& recordings,
         if (word != usual[i].second && !option.starts_with(name)) line += " " + word;
     }
     return option.empty() ? line : line + " " + option;
+}
+
+std::optional<DataOptions> with_option(DataOptions given, const std::string& option) {
+    const std::size_t blank = option.find(' ');
+    const std::string name = option.substr(0, blank);
+    const std::string value = blank == std::string::npos ? "" : option.substr(blank + 1);
+    bool is_set = false;
+    visit_reading(given, [&](const ReadingOption& row, auto& member) {
+        if (as_option(row) == name) is_set = set(member, value);
+    });
+    return is_set ? std::optional(std::move(given)) : std::nullopt;
 }
 
 }  // namespace dynamic_filter::app

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,5 +26,8 @@ std::string next_command(const DataOptions& given, const std::string& option);
 /// The same with several recordings, all of which are read with the given options.
 std::string next_command(const std::vector<std::filesystem::path>& recordings,
                          const DataOptions& given, const std::string& option);
+
+/// The options with one more, as it is typed: "--pose-fix cm". Empty if it is none of reading.
+std::optional<DataOptions> with_option(DataOptions given, const std::string& option);
 
 }  // namespace dynamic_filter::app

@@ -324,8 +324,8 @@ bool judge_unit(Preflight& result, const Samples& samples) {
     // Around a sensor, points lie on all sides; seen from the origin of a world, on one.
     if (middle > 0.5 * typical) {
         result.findings.push_back({far + ", all in one direction: they are in the world's frame",
-                                   "--points-in-world with --poses FILE, or write the scans in the "
-                                   "sensor's frame"});
+                                   "give the trajectory with --poses FILE and --points-in-world, "
+                                   "or the scans in the sensor's frame"});
         return true;
     }
     // Half of the points of a scan lie within some tens of metres.
@@ -334,6 +334,19 @@ bool judge_unit(Preflight& result, const Samples& samples) {
         {fmt::format("the points are in {}: {}", is_mm ? "millimetres" : "centimetres", far),
          std::string("--point-unit ") + (is_mm ? "mm" : "cm")});
     return true;
+}
+
+/// Far from the origin, numbers of type float32 are too far apart for what the filter looks for.
+void judge_precision(Preflight& result, const Samples& samples, double unit) {
+    constexpr double kCoarse = 0.03;  // [m]
+    double step = 0.0;
+    for (const auto& [i, sample] : samples) step = std::max(step, unit * sample.step);
+    if (step < kCoarse) return;
+    result.findings.push_back(
+        {fmt::format("coordinates of type float32 are {:.2g} m apart so far from their origin, so "
+                     "points are rounded by as much, and thin or slow things are lost",
+                     step),
+         "write the points as float64, or those and the poses relative to an origin close by"});
 }
 
 /// Scans and poses were matched by order, but both have stamps, which may contradict each other.
@@ -528,6 +541,7 @@ Preflight check_sensor(const Recording& recording, Depth depth, MotionLook& look
     judge_stamps(result, recording);
     judge_order(result, recording, samples);
     if (judge_unit(result, samples) || judge_frame(result, recording, samples)) return result;
+    judge_precision(result, samples, recording.info().point_unit);
     if (auto parts = find_rotation_parts(recording)) {
         result.findings.push_back(std::move(*parts));
         return result;

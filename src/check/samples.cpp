@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -98,6 +99,23 @@ Eigen::Vector2f middle_of(const Points& points) {
     return {median(std::move(x)), median(std::move(y))};
 }
 
+double step_of(const Cloud& cloud) {
+    double step = 0.0;
+    for (const char* axis : {"x", "y"}) {
+        const Field* const field = cloud.find(axis);
+        if (field == nullptr || field->type != FieldType::f32) continue;
+        std::vector<double> sizes;
+        for (const double value : values(cloud, *field)) {
+            if (std::isfinite(value)) sizes.push_back(std::abs(value));
+        }
+        if (sizes.empty()) continue;
+        const auto typical = static_cast<float>(median(std::move(sizes)));
+        const float next = std::nextafter(typical, std::numeric_limits<float>::infinity());
+        step = std::max(step, static_cast<double>(next) - static_cast<double>(typical));
+    }
+    return step;
+}
+
 Sample sample_of(const Recording& recording, const FullScan& scan) {
     const Point said = scan.T_world_sensor.translation().cast<float>();
     return {upright(scan.points),
@@ -108,6 +126,7 @@ Sample sample_of(const Recording& recording, const FullScan& scan) {
             count_near(scan.points, said),
             middle_of(scan.points),
             typical_range(scan.points),
+            step_of(scan.cloud),
             began_of(scan.cloud)};
 }
 

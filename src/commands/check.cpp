@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/exit_code.hpp"
 #include "check/advice.hpp"
 #include "check/continuity.hpp"
@@ -23,6 +25,47 @@ struct CheckOptions {
     DataOptions how;  ///< how to read each of them; its `data` is not used
 };
 
+/// What a check of one recording finds.
+struct Checked {
+    io::Recording recording;  ///< with poses that were found, if it had none
+    io::Preflight preflight;
+    std::vector<io::Finding> findings;  ///< of the preflight, or else of what was tried
+
+    [[nodiscard]] bool is_fine() const {
+        return findings.empty() && preflight.unusable.empty() && recording.info().losses.empty();
+    }
+};
+
+/// Filters a part of the recording as a run would, and watches the result.
+std::vector<io::Alarm> alarms_of_part(io::Recording recording, const DataOptions& options,
+                                      io::MotionLook& look) {
+    Config config = preset("default");
+    if (recording.info().has_poses) {
+        choose_motion(recording, config, {.deskew = options.deskew, .look = &look});
+    }
+    return try_run(recording, config);
+}
+
+Checked look_at(io::Recording recording, const DataOptions& options) {
+    ensure_poses(recording, preset("default"),
+                 {.deskew = options.deskew, .finds_body = !options.mask});
+    io::MotionLook look(recording, preset("default").odometry, options.deskew);
+    Checked checked{recording, io::check_recording(recording, io::Depth::thorough, look), {}};
+    for (const io::Finding& finding : checked.preflight.findings) {
+        checked.findings.push_back(blame_needless_fix(finding, options));
+    }
+    // Where the cause is known already, its effect is no news.
+    if (!checked.findings.empty()) return checked;
+    const auto add = [&](const std::vector<io::Alarm>& alarms, const char* of) {
+        for (const io::Alarm& alarm : alarms) {
+            checked.findings.push_back({of + io::to_text(alarm, recording), alarm.advice});
+        }
+    };
+    if (recording.info().has_poses) add(io::breaks_in(recording), "");
+    add(alarms_of_part(recording, options, look), "of a part that was filtered, ");
+    return checked;
+}
+
 void print_overlays(const io::Preflight& preflight) {
     if (preflight.overlays.empty()) return;
     fmt::print(
@@ -33,55 +76,51 @@ void print_overlays(const io::Preflight& preflight) {
     }
 }
 
+bool is_option(const std::string& advice) { return advice.starts_with("--"); }
+
 void print_finding(const io::Finding& finding, const DataOptions& options) {
     fmt::print("FOUND     {}\n", finding.what);
-    if (finding.advice.starts_with("--")) {
+    if (is_option(finding.advice)) {
         fmt::print("try       {}\n", next_command(options, finding.advice));
     } else {
         fmt::print("advice    {}\n", finding.advice);
     }
 }
 
-/// Filters a part of the recording as a run would. True if the watch finds nothing in the result.
-bool try_one(io::Recording recording, const DataOptions& options, io::MotionLook& look) {
-    Config config = preset("default");
-    if (recording.info().has_poses) {
-        choose_motion(recording, config, {.deskew = options.deskew, .look = &look});
-    }
-    const std::vector<io::Alarm> alarms = try_run(recording, config);
-    for (const io::Alarm& alarm : alarms) {
-        print_finding(
-            {"of a part that was filtered, " + io::to_text(alarm, recording), alarm.advice},
-            options);
-    }
-    return alarms.empty();
+void print(const Checked& checked, const DataOptions& options) {
+    const io::Info& info = checked.recording.info();
+    for (const std::string& note : info.notes) fmt::print("note      {}\n", note);
+    fmt::print("scans     {}, of which {} were read\n", checked.recording.size(),
+               checked.preflight.scans);
+    print_overlays(checked.preflight);
+    for (const std::string& note : checked.preflight.notes) fmt::print("note      {}\n", note);
+    for (const std::string& line : info.losses) fmt::print("LOST      {}\n", line);
+    for (const std::string& line : checked.preflight.unusable) fmt::print("UNUSABLE  {}\n", line);
+    for (const io::Finding& finding : checked.findings) print_finding(finding, options);
 }
 
-/// True if nothing was found.
-bool check_one(io::Recording recording, const DataOptions& options) {
-    ensure_poses(recording, preset("default"),
-                 {.deskew = options.deskew, .finds_body = !options.mask});
-    for (const std::string& note : recording.info().notes) fmt::print("note      {}\n", note);
-    io::MotionLook look(recording, preset("default").odometry, options.deskew);
-    const io::Preflight preflight = io::check_recording(recording, io::Depth::thorough, look);
-    fmt::print("scans     {}, of which {} were read\n", recording.size(), preflight.scans);
-    print_overlays(preflight);
-    for (const std::string& note : preflight.notes) fmt::print("note      {}\n", note);
-    for (const std::string& line : recording.info().losses) fmt::print("LOST      {}\n", line);
-    for (const std::string& line : preflight.unusable) fmt::print("UNUSABLE  {}\n", line);
-    for (const io::Finding& finding : preflight.findings) {
-        print_finding(blame_needless_fix(finding, options), options);
+/// Checks the recording again with the options that were advised, one after the other, and says
+/// what is left with them.
+void try_advice(Checked checked, DataOptions options) {
+    constexpr int kMost = 3;
+    std::string given;
+    for (int round = 0; round < kMost; ++round) {
+        const auto advised = std::find_if(
+            checked.findings.begin(), checked.findings.end(), [&](const io::Finding& finding) {
+                return is_option(finding.advice) && with_option(options, finding.advice);
+            });
+        if (advised == checked.findings.end()) break;
+        given += (given.empty() ? "" : " ") + advised->advice;
+        options = *with_option(options, advised->advice);
+        checked = look_at(open(options), options);
     }
-    const bool fine =
-        preflight.findings.empty() && preflight.unusable.empty() && recording.info().losses.empty();
-    // Where the cause is known already, its effect is no news.
-    if (!preflight.findings.empty()) return false;
-    const std::vector<io::Alarm> breaks =
-        recording.info().has_poses ? io::breaks_in(recording) : std::vector<io::Alarm>{};
-    for (const io::Alarm& alarm : breaks) {
-        print_finding({io::to_text(alarm, recording), alarm.advice}, options);
+    if (given.empty()) return;
+    if (checked.findings.empty()) {
+        fmt::print("tried     with {}, nothing suspicious is left\nnext      {}\n", given,
+                   next_command(options, ""));
+    } else {
+        fmt::print("tried     with {}, this is left: {}\n", given, checked.findings.front().what);
     }
-    return try_one(recording, options, look) && fine && breaks.empty();
 }
 
 std::string match_text(const io::DriveOffset& offset) {
@@ -140,7 +179,10 @@ int check(const CheckOptions& options) {
     bool fine = true;
     for (std::size_t i = 0; i < opened.size(); ++i) {
         if (several) fmt::print("recording {}\n", each[i].data.string());
-        fine = check_one(opened[i], each[i]) && fine;
+        const Checked checked = look_at(opened[i], each[i]);
+        print(checked, each[i]);
+        try_advice(checked, each[i]);
+        fine = checked.is_fine() && fine;
         if (several) fmt::print("\n");
     }
     if (several) fine = check_together(opened, each) && fine;

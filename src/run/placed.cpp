@@ -9,6 +9,7 @@
 #include <span>
 
 #include "base/crc.hpp"
+#include "base/numbers.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
 #include "recording/recording_parts.hpp"
@@ -30,6 +31,18 @@ void append_rows(const Pose& pose, std::vector<double>& numbers) {
         numbers.push_back(
             pose.matrix()(static_cast<Eigen::Index>(i / 4), static_cast<Eigen::Index>(i % 4)));
     }
+}
+
+/// Median distance of points of the first scan, so that a copy with another unit is another one.
+std::string reach_text(const io::Recording& recording) {
+    std::vector<float> ranges;
+    try {
+        for (const Point& p : recording.read(0).points) {
+            if (is_measured(p)) ranges.push_back(p.norm());
+        }
+    } catch (const InputError&) {  // is rejected later, with the reason
+    }
+    return ranges.empty() ? "" : fmt::format(", points at {:.2g} m", median(std::move(ranges)));
 }
 
 Json json_of(const std::optional<Tracked>& tracked) {
@@ -82,8 +95,8 @@ std::string lines_of(const std::vector<std::optional<Tracked>>& tracked) {
 std::string fingerprint_of(const io::Recording& recording) {
     std::vector<double> numbers = recording.info().stamps;
     for (const Pose& pose : recording.info().T_world_sensor) append_rows(pose, numbers);
-    return fmt::format("{}, poses and stamps {:08x}", scans_text(recording),
-                       crc_of(std::as_bytes(std::span(numbers))));
+    return fmt::format("{}, poses and stamps {:08x}{}", scans_text(recording),
+                       crc_of(std::as_bytes(std::span(numbers))), reach_text(recording));
 }
 
 Placed placed_of(const io::Recording& recording, const DataOptions& how,

@@ -29,7 +29,8 @@ struct Placed {
     [[nodiscard]] bool undoes_motion() const { return deskewed || has_times; }
 };
 
-/// By this a recording is known again wherever it lies: its scans, its poses and stamps.
+/// By this a recording is known again wherever it lies: its scans, poses and stamps, and how far
+/// the points of its first scan reach.
 std::string fingerprint_of(const io::Recording& recording);
 
 /// `recording`: as it was filtered; the other two as in Placed.

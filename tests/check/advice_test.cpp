@@ -37,6 +37,16 @@ TEST(Advice, TheNextCommandRepeatsWhatWasTyped) {
               "dynamicfilter run drive --topic /points --pose-topic /odom --pose-fix mm");
 }
 
+TEST(Advice, AnOptionIsAppliedAsItIsTyped) {
+    const auto fixed = with_option(with_fix("none"), "--pose-fix cm");
+    ASSERT_TRUE(fixed);
+    EXPECT_EQ(fixed->pose_fix, "cm");
+    EXPECT_EQ(with_option(with_fix("none"), "--poses none")->poses, std::filesystem::path("none"));
+    EXPECT_TRUE(with_option(with_fix("none"), "--points-in-world")->points_in_world);
+    EXPECT_FALSE(with_option(with_fix("none"), "--refine on"));  // of a run, not of reading
+    EXPECT_FALSE(with_option(with_fix("none"), "give other poses"));
+}
+
 TEST(Advice, TheNextCommandNamesAllRecordings) {
     EXPECT_EQ(next_command({"monday", "my drive"}, with_fix("mm"), ""),
               "dynamicfilter run monday 'my drive' --pose-fix mm");

@@ -209,6 +209,31 @@ TEST_F(Check, NamesTheUnitOfPoints) {
     }
 }
 
+TEST_F(Check, NamesCoordinatesTooFarFromTheirOriginForFloat32) {
+    // As sums of the place in the world and of the poses.
+    for (const double far : {1e4, 5e6}) {
+        const auto copy = write_copy([far](const FullScan& full) {
+            Points points = full.points;
+            const Eigen::Vector3d origin(far, far, 0.0);
+            for (Point& p : points) {
+                p = (full.T_world_sensor * p.cast<double>() + origin).cast<float>();
+            }
+            return points;
+        });
+        OpenOptions how;
+        how.points_in_world = true;
+        std::vector<Pose> poses = open_recording(copy->path(), how).info().T_world_sensor;
+        for (Pose& pose : poses) pose.translation() += Eigen::Vector3d(far, far, 0.0);
+        write_poses_kitti(copy->path() / "poses.txt", poses);
+        const Preflight found = check_recording(open_recording(copy->path(), how), Depth::quick);
+        if (far < 1e5) {
+            EXPECT_TRUE(found.findings.empty()) << found.findings.front().what;
+        } else {
+            expect_only(found, "coordinates of type float32 are 0.5 m apart", "float64");
+        }
+    }
+}
+
 TEST_F(Check, PointsFarFromTheOriginInOneDirectionAreInTheWorld) {
     const auto copy = write_copy([](const FullScan& full) {
         Points points = full.points;

@@ -881,6 +881,7 @@ TEST_F(Command, CheckSaysWhatToTypeAndThatWorks) {
     EXPECT_EQ(run("check " + data + " --poses inverse.txt"), 4);
     const std::string fixed = data + " --poses inverse.txt --pose-fix inverse";
     expect_said("try       dynamicfilter run " + fixed + "\n");
+    expect_said("next      dynamicfilter run " + fixed + "\n");
     EXPECT_EQ(run("check " + fixed), 0) << said();
     expect_said("next      dynamicfilter run " + fixed + "\n");
     EXPECT_EQ(run("check " + data + " --pose-fix inverse"), 4);

@@ -86,6 +86,8 @@ TEST_F(PlacedTest, ARecordingIsKnownByItsScansPosesAndStamps) {
     EXPECT_NE(fingerprint_of(opened()), before);
     data.put("poses.txt", kitti_rows(4));
     EXPECT_EQ(fingerprint_of(opened()), before);
+    // As a copy in metres looks if it is read in the unit of the run.
+    EXPECT_NE(fingerprint_of(app::open({.data = data.path(), .point_unit = "mm"})), before);
     data.put("times.txt", "0\n0.1\n0.2\n0.3\n");
     EXPECT_NE(fingerprint_of(opened()), before);
 }

@@ -71,7 +71,7 @@ const array = (type, columns, data) => ({ type, columns, rows: data.length / col
  * One run as {meta, arrays, known}. `known`: points of the map that tests look for, {place, voxel, row, passes}.
  * `wrong`: share of further errors, so that runs differ.
  */
-export function makeRun({ name = "street", points = 120_000, framePoints = 2500, seed = 1, evidence = true, truth = true, origin = [1000, 2000, 50], wrong = 0 } = {}) {
+export function makeRun({ name = "street", points = 120_000, framePoints = 2500, seed = 1, evidence = true, truth = true, origin = [1000, 2000, 50], wrong = 0, alarms = [] } = {}) {
   const r = random(seed + 7);
   const voxels = new Voxels(seed + 3);
   const position = new Uint16Array(3 * points), verdict = new Uint8Array(points), intensity = new Uint8Array(points);
@@ -109,7 +109,7 @@ export function makeRun({ name = "street", points = 120_000, framePoints = 2500,
   };
   const meta = {
     name, command: "run", version: "0.0.0-test", input: "recordings/street", format: "kitti", preset: evidence ? "default" : "paper", created: "2026-01-02T03:04:05Z",
-    origin, low: LOW, step: STEP, voxel_size: VOXEL, occupancy_threshold: 0.5, scans: SCANS, has_truth: truth, has_instant: true, has_evidence: evidence,
+    origin, low: LOW, step: STEP, voxel_size: VOXEL, occupancy_threshold: 0.5, scans: SCANS, has_truth: truth, has_instant: true, has_evidence: evidence, alarms,
     points_total: Math.round(9.4 * points), points_shown: points, spacing: 0.12,
     frame_points_total: SCANS * framePoints, frame_points_shown: (SCANS / 2) * framePoints, frames_shown: SCANS / 2, counts,
     keyframes: KEY_FRAMES, keyframes_total: KEY_FRAMES.length + FORGOTTEN,

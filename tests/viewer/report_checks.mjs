@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { after, before, describe, test } from "node:test";
 import { makeCloud, makeRun } from "./fixture.mjs";
-import { differs, isGrey, isOrange, open, openRuns, picture, fileOf, settled, setValues, shot, state, stats, until } from "./support.mjs";
+import { differs, isAlarm, isGrey, isOrange, open, openRuns, picture, fileOf, settled, setValues, shot, state, stats, until } from "./support.mjs";
 
 describe("the report of a run", () => {
   let page, complaints;
@@ -116,6 +116,20 @@ test("nonsense in the address does no harm", async () => {
   const { page, complaints } = await open(`${fileOf([makeRun({ points: 5000 })])}#colour=red&row=-7&size=1e9&camera=1,2&height=x`);
   await page.evaluate(() => window.viewer.ready);
   assert.equal((await state(page)).colour, "verdict");
+  assert.deepEqual(complaints, []);
+  await page.close();
+});
+
+test("alarms of the watch are listed, and marked on the trajectory", async () => {
+  const alarms = [{ text: "scans 000012 to 000030: the ground is lost", first: 2, last: 20 }];
+  const { page, complaints } = await openRuns([makeRun({ points: 20_000, alarms })]);
+  const marked = (await picture(page)).count(isAlarm);
+  await page.getByLabel("Trajectory").uncheck();
+  await settled(page);
+  assert.ok(marked > (await picture(page)).count(isAlarm) + 30, `${marked} points of the picture`);
+  await page.getByRole("tab", { name: "Run" }).click();
+  assert.match(await page.locator("#panel-run").innerText(), /the ground is lost/);
+  await shot(page, "alarms");
   assert.deepEqual(complaints, []);
   await page.close();
 });

@@ -102,6 +102,7 @@ export async function picture(page, n = 0) {
 
 export const isOrange = (r, g, b) => r > 90 && r > 1.8 * g && g > b;
 export const isGrey = (r, g, b) => r > 60 && Math.abs(r - b) < 40 && Math.abs(r - g) < 25;
+export const isAlarm = (r, g, b) => r > 120 && r > 2 * g && b > 1.2 * g;
 export const isBlue = (r, g, b) => b > 140 && b > 1.8 * r;
 
 export function differs(a, b) {
