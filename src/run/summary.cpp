@@ -70,6 +70,7 @@ Json metrics_of(const RunSummary& s, const std::vector<std::string>& losses) {
     json["rejected"] = s.rejected;
     json["dropped"] = s.dropped;
     json["lost"] = losses;
+    json["warnings"] = s.warnings;
     json["alarms"] = Json::array();
     for (const io::Alarm& alarm : s.alarms) {
         json["alarms"].push_back({{"what", alarm.what},

@@ -1,1 +1,2 @@
-df_room(check LIBRARIES dynamic_filter_app SHARED Check CompareDrives RecordedMotion Stamps)  # on simulated recordings
+df_room(check LIBRARIES dynamic_filter_app
+  SHARED Check ChoosePoses CompareDrives ExplainAlarm MotionLooks RecordedMotion ReplacedPoses ScanTimes Stamps TrackScans)  # on simulated recordings

@@ -13,8 +13,10 @@
 #include "dynamic_filter/recording.hpp"
 #include "formats/bags/bag_file.hpp"
 #include "formats/byte_reader.hpp"
+#include "formats/clouds/bin_layout.hpp"
 #include "formats/messages/messages.hpp"
 #include "recording/frame_tree.hpp"
+#include "recording/mask.hpp"
 #include "settings/config_file.hpp"
 
 namespace dynamic_filter::fuzz {
@@ -102,6 +104,15 @@ void read_cloud_file(std::span<const std::uint8_t> bytes) {
     expect_result_or_error(bytes, [](const auto& file) { use_cloud(read(file)); });
 }
 
+void read_bin_as_it_looks(std::span<const std::uint8_t> bytes) {
+    const auto data = std::as_bytes(bytes);
+    const io::BinSample sample{{data.begin(), data.end()}, data.size()};
+    const io::BinChoice choice = io::choose_bin_layout({&sample, 1});
+    expect_result_or_error(bytes, [&](const auto& file) {
+        use_cloud(choice.layout ? io::read_bin(file, *choice.layout) : io::read_bin(file));
+    });
+}
+
 /// The first byte chooses the type and the encoding, the rest is the message.
 void read_message(std::span<const std::uint8_t> bytes) {
     constexpr const char* kTypes[] = {"sensor_msgs/PointCloud2", "livox_ros_driver2/CustomMsg",
@@ -122,7 +133,11 @@ const std::map<std::string, Target>& targets() {
     static const std::map<std::string, Target> all = {
         {"pcd", read_cloud_file<io::read_pcd>},
         {"ply", read_cloud_file<io::read_ply>},
-        {"bin", read_cloud_file<io::read_bin>},
+        {"bin", read_bin_as_it_looks},
+        {"mask",
+         [](std::span<const std::uint8_t> bytes) {
+             expect_result_or_error(bytes, [](const auto& file) { (void)io::read_boxes(file); });
+         }},
         {"las", read_cloud_file<io::read_las>},
         {"npy", read_cloud_file<io::read_npy>},
         {"text", read_cloud_file<io::read_text_cloud>},

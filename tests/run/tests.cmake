@@ -1,4 +1,4 @@
-df_room(run LIBRARIES dynamic_filter_app EXCEPT mpi/ SHARED Plugin)  # of one file beside the program
+df_room(run LIBRARIES dynamic_filter_app EXCEPT mpi/ SHARED Plugin TrialRun)  # of one file beside the program; on a simulated recording
 add_test(NAME run/city COMMAND ${CMAKE_CURRENT_LIST_DIR}/city_test.sh $<TARGET_FILE:dynamicfilter>)
 add_test(NAME run/kill COMMAND ${CMAKE_CURRENT_LIST_DIR}/kill_test.sh $<TARGET_FILE:dynamicfilter> 4)
 set(slurm ${PROJECT_SOURCE_DIR}/packaging/slurm/dynamicfilter-slurm)
