@@ -74,11 +74,11 @@ void add_place(const Recording& recording, std::size_t first, Parts& parts) {
 }  // namespace
 
 std::optional<Finding> find_rotation_parts(const Recording& recording) {
-    constexpr std::size_t kPlaces = 3, kLeast = 6;
+    constexpr std::size_t kLooks = 3, kLeast = 6;
     constexpr double kHalf = 200.0, kNarrow = 8.0, kTolerance = 10.0;  // [deg]
     Parts parts;
-    for (std::size_t k = 0; k < kPlaces; ++k) {
-        add_place(recording, k * recording.size() / kPlaces, parts);
+    for (std::size_t k = 0; k < kLooks; ++k) {
+        add_place(recording, k * recording.size() / kLooks, parts);
         // Most sensors see all around or always the same part, which the first place shows.
         if (parts.widths.empty() || median(parts.widths) > kHalf) return std::nullopt;
     }

@@ -25,7 +25,7 @@ struct Raster {
         const auto y = static_cast<std::size_t>((p.y() + reach) / cell);
         return y * static_cast<std::size_t>(side) + x;
     }
-    [[nodiscard]] std::size_t cells() const { return static_cast<std::size_t>(side) * side; }
+    [[nodiscard]] std::size_t cells() const { return static_cast<std::size_t>(side * side); }
     /// Calls use(cell) for a cell and for the cells around it.
     template <class Use>
     void each_around(std::size_t center, const Use& use) const {

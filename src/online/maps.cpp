@@ -23,6 +23,8 @@ template <class... Functions>
 struct Either : Functions... {
     using Functions::operator()...;
 };
+template <class... Functions>
+Either(Functions...) -> Either<Functions...>;  // which Clang 14 does not deduce by itself
 
 }  // namespace
 

@@ -19,7 +19,7 @@ ScanOverlay::ScanOverlay(std::size_t scans, const std::function<Cloud(std::size_
     };
     for (std::size_t k = 0; k < kPlaces; ++k) {
         const std::size_t from = k * scans / kPlaces;
-        for (const std::size_t apart : {2, 8, 20}) {
+        for (const std::size_t apart : {2U, 8U, 20U}) {
             const std::size_t to = from + apart;
             if (to >= scans) continue;
             pairs_.push_back({from, to});

@@ -59,7 +59,7 @@ Eigen::Matrix3d upright_rotation(const Points& points) {
 
 Points upright_points(const Points& points) {
     constexpr float kNearest = 2.0F, kFarthest = 30.0F;  // [m]
-    constexpr float kColumn = 0.6F, kTall = 0.5F;        // [m]
+    constexpr float kColumn = 0.6F, kUpright = 0.5F;     // [m]
     struct Extent {
         float low, high;
     };
@@ -79,7 +79,7 @@ Points upright_points(const Points& points) {
         const auto key = column(p);
         if (!key) continue;
         const Extent& e = columns.at(*key);
-        if (e.high - e.low > kTall && p.z() > e.low + 0.5F * kTall) kept.push_back(p);
+        if (e.high - e.low > kUpright && p.z() > e.low + 0.5F * kUpright) kept.push_back(p);
     }
     return kept;
 }

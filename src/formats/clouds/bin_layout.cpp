@@ -189,8 +189,8 @@ const std::vector<BinLayout>& bin_layouts() {
                 layout.names.push_back(k == 3 ? "intensity" : fmt::format("c{}", k));
             all.push_back(std::move(layout));
         };
-        for (const std::size_t values : {3, 5, 6, 8}) add(FieldType::f32, values);
-        for (const std::size_t values : {4, 3, 5, 6}) add(FieldType::f64, values);
+        for (const std::size_t values : {3U, 5U, 6U, 8U}) add(FieldType::f32, values);
+        for (const std::size_t values : {4U, 3U, 5U, 6U}) add(FieldType::f64, values);
         return all;
     }();
     return layouts;

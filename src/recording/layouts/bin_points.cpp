@@ -43,7 +43,7 @@ std::vector<BinSample> samples_of(const Paths& scans) {
         files.push_back(&scan);
         if (samples.size() == most) break;
     }
-    for (const std::size_t part : {0, 1, 2}) {
+    for (const std::size_t part : {0U, 1U, 2U}) {
         if (samples.empty()) break;
         const std::size_t i = part * (samples.size() - 1) / 2;
         if (!samples[i].head.empty()) continue;
