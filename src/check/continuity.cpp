@@ -8,7 +8,6 @@
 #include <optional>
 #include <utility>
 
-#include "base/numbers.hpp"
 #include "check/overlay.hpp"
 #include "check/samples.hpp"
 #include "dynamic_filter/error.hpp"
@@ -19,16 +18,21 @@ namespace {
 
 constexpr std::size_t kAround = 10;  // scans before and after one, with which it is compared
 
-/// Median of a value over the steps around one, without the nearest ones.
+/// What is usual for a value of the steps around one, without the nearest ones; 0 if not known.
+struct Usual {
+    double median = 0.0, quarter = 0.0;  ///< a quarter of the values are less than `quarter`
+};
 template <class Steps, class Value>
-double usual(const Steps& steps, std::size_t at, const Value& value) {
+Usual usual(const Steps& steps, std::size_t at, const Value& value) {
     std::vector<double> values;
     const std::size_t begin = at > kAround ? at - kAround : 0;
     for (std::size_t i = begin; i < std::min(at + kAround + 1, steps.size()); ++i) {
         if (i + 1 >= at && i <= at + 1) continue;
         if (const std::optional<double> v = value(steps[i])) values.push_back(*v);
     }
-    return values.size() < kAround / 2 ? 0.0 : median(std::move(values));
+    if (values.size() < kAround / 2) return {};
+    std::sort(values.begin(), values.end());
+    return {values[values.size() / 2], values[values.size() / 4]};
 }
 
 }  // namespace
@@ -61,7 +65,8 @@ void Continuity::add(std::size_t scan, ScanGist gist) {
 }
 
 std::vector<Alarm> Continuity::breaks() const {
-    constexpr double kClear = 0.3, kHalf = 0.5, kFarther = 2.0, kStride = 1.0;
+    constexpr double kClear = 0.4, kHalf = 0.5, kFarther = 2.0, kStride = 1.0;
+    constexpr double kBelowMost = 0.6;  // of what a quarter of the neighbors fall below
     constexpr std::size_t kMost = 5;  // more do not tell more
     std::vector<Alarm> breaks;
     for (std::size_t i = 1; i < steps_.size() && breaks.size() < kMost; ++i) {
@@ -71,10 +76,12 @@ std::vector<Alarm> Continuity::breaks() const {
                 return s.is_comparable ? std::optional(s.*value) : std::nullopt;
             };
         };
-        const double overlay = usual(steps_, i, with(&Step::overlay));
-        const double way = usual(steps_, i, with(&Step::way));
-        const bool is_break = step.is_comparable && overlay > kClear &&
-                              step.overlay < kHalf * overlay && step.way < kFarther * way + kStride;
+        const auto [overlay, low_overlay] = usual(steps_, i, with(&Step::overlay));
+        const double way = usual(steps_, i, with(&Step::way)).median;
+        const bool is_low =
+            step.overlay < kHalf * overlay && step.overlay < kBelowMost * low_overlay;
+        const bool is_break = step.is_comparable && overlay > kClear && is_low &&
+                              step.way < kFarther * way + kStride;
         if (is_break) {
             breaks.push_back(
                 {.what = fmt::format("by their poses the sensor went {:.1f} m from the first to "
@@ -88,8 +95,10 @@ std::vector<Alarm> Continuity::breaks() const {
                  .last = step.scan,
                  .worst = step.scan});
         }
-        const double points = usual(
-            steps_, i, [](const Step& s) { return std::optional(static_cast<double>(s.points)); });
+        const double points =
+            usual(steps_, i, [](const Step& s) {
+                return std::optional(static_cast<double>(s.points));
+            }).median;
         const bool follows = i + 1 < steps_.size();
         const auto is_short = [&](const Step& s) {
             return static_cast<double>(s.points) < kHalf * points;

@@ -251,8 +251,9 @@ void judge_poses(Preflight& result, const Recording& recording, const Samples& s
     if (as_if_still || best->reading == kInSensor) {
         if (much && !nearly_right()) {
             result.findings.push_back(
-                {"the poses do not fit the scans: " + fits_better(overlays, kInWorld) +
-                     "; the first value assumes that the sensor does not move",
+                {"the poses do not fit the scans: " + fits_better(overlays, best->reading) +
+                     (as_if_still ? "; the first value assumes that the sensor does not move"
+                                  : "; the first value assumes that it goes twice as far"),
                  kOtherPoses});
         }
         return;
@@ -550,7 +551,6 @@ Preflight check_sensor(const Recording& recording, Depth depth, MotionLook& look
     // Poses that odometry found fit the scans, as far as these show it.
     if (result.overlays.empty() || recording.info().tracked) return result;
     const auto nearly_right = [&] {
-        if (depth == Depth::quick) return false;
         const MotionQuality& quality = look.quality();
         return quality.nearly_right || !quality.shows_motion();
     };
