@@ -27,7 +27,7 @@ namespace {
 using namespace dynamic_filter;
 
 constexpr float kNearest = 1.0F, kFarthest = 60.0F;  // [m]
-constexpr std::size_t kSeen = 20;                     // points
+constexpr std::size_t kSeen = 20;                    // points
 
 enum class State { moves, rests_after, rests_before, still };
 constexpr std::array kNames{"moves", "rests, was seen to move", "rests, not yet moved", "static"};
@@ -96,7 +96,7 @@ std::vector<std::map<std::uint16_t, State>> states_of(const Simulated& all) {
             const bool moves =
                 from != extents[a].end() && to != extents[b].end() &&
                 goes_on(from->second, to->second, all.scans[b].stamp - all.scans[a].stamp);
-            states[i][thing] = moves              ? State::moves
+            states[i][thing] = moves             ? State::moves
                                : was_seen[thing] ? State::rests_after
                                                  : State::rests_before;
             if (moves && extent.points >= kSeen) was_seen[thing] = true;
@@ -145,9 +145,8 @@ void measure(const Simulated& all, std::size_t things) {
     fmt::print("| share called dynamic | points | instant | final |\n|---|---|---|---|\n");
     for (std::size_t s = 0; s < counts.size(); ++s) print(kNames[s], counts[s]);
     std::vector<std::pair<std::uint16_t, Count>> worst(of_things.begin(), of_things.end());
-    std::sort(worst.begin(), worst.end(), [](const auto& a, const auto& b) {
-        return a.second.missed() > b.second.missed();
-    });
+    std::sort(worst.begin(), worst.end(),
+              [](const auto& a, const auto& b) { return a.second.missed() > b.second.missed(); });
     for (std::size_t k = 0; k < std::min(things, worst.size()); ++k) {
         print(fmt::format("thing {}", worst[k].first), worst[k].second);
     }

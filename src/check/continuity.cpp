@@ -67,7 +67,7 @@ void Continuity::add(std::size_t scan, ScanGist gist) {
 std::vector<Alarm> Continuity::breaks() const {
     constexpr double kClear = 0.4, kHalf = 0.5, kFarther = 2.0, kStride = 1.0;
     constexpr double kBelowMost = 0.6;  // of what a quarter of the neighbors fall below
-    constexpr std::size_t kMost = 5;  // more do not tell more
+    constexpr std::size_t kMost = 5;    // more do not tell more
     std::vector<Alarm> breaks;
     for (std::size_t i = 1; i < steps_.size() && breaks.size() < kMost; ++i) {
         const Step& step = steps_[i];
@@ -80,8 +80,8 @@ std::vector<Alarm> Continuity::breaks() const {
         const double way = usual(steps_, i, with(&Step::way)).median;
         const bool is_low =
             step.overlay < kHalf * overlay && step.overlay < kBelowMost * low_overlay;
-        const bool is_break = step.is_comparable && overlay > kClear && is_low &&
-                              step.way < kFarther * way + kStride;
+        const bool is_break =
+            step.is_comparable && overlay > kClear && is_low && step.way < kFarther * way + kStride;
         if (is_break) {
             breaks.push_back(
                 {.what = fmt::format("by their poses the sensor went {:.1f} m from the first to "
@@ -95,10 +95,9 @@ std::vector<Alarm> Continuity::breaks() const {
                  .last = step.scan,
                  .worst = step.scan});
         }
-        const double points =
-            usual(steps_, i, [](const Step& s) {
-                return std::optional(static_cast<double>(s.points));
-            }).median;
+        const double points = usual(steps_, i, [](const Step& s) {
+                                  return std::optional(static_cast<double>(s.points));
+                              }).median;
         const bool follows = i + 1 < steps_.size();
         const auto is_short = [&](const Step& s) {
             return static_cast<double>(s.points) < kHalf * points;

@@ -18,8 +18,8 @@ struct MotionChoice {
     std::string refine = "auto", deskew = "auto";
     /// True: poses are found or refined scan by scan, while the scans are judged.
     bool online = false;
-    bool quiet = true;        ///< false: shows how far the odometry is
-    bool finds_body = false;  ///< true: what moves with the sensor is found and left out
+    bool quiet = true;               ///< false: shows how far the odometry is
+    bool finds_body = false;         ///< true: what moves with the sensor is found and left out
     io::MotionLook* look = nullptr;  ///< of the same recording and deskew, to measure nothing twice
 };
 

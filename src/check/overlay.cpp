@@ -79,8 +79,7 @@ std::vector<Overlay> compare(const Samples& samples, const std::vector<Pair>& pa
         of = pair.from;
         const Points points = thinned(b->second.upright);
         for (std::size_t r = 0; r < all.size(); ++r) {
-            const Pose T_a_b =
-                pose_of(a->second, all[r]).inverse() * pose_of(b->second, all[r]);
+            const Pose T_a_b = pose_of(a->second, all[r]).inverse() * pose_of(b->second, all[r]);
             overlays[r].share += share_inside(points, T_a_b, voxels);
         }
         ++compared;

@@ -39,7 +39,9 @@ std::vector<BodyPair> pairs_apart(const Recording& recording) {
     std::size_t one_after_another = 0, after = 0;
     std::size_t j = 0;
     for (const std::size_t i : known) {
-        const auto way = [&] { return (poses[known[j]].translation() - poses[i].translation()).norm(); };
+        const auto way = [&] {
+            return (poses[known[j]].translation() - poses[i].translation()).norm();
+        };
         while (j < known.size() && (known[j] <= i || way() < kNearPair)) ++j;
         if (j == known.size()) break;
         if (way() >= kFarPair) continue;

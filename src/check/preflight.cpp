@@ -11,10 +11,10 @@
 
 #include "base/numbers.hpp"
 #include "check/choose_poses.hpp"
+#include "check/motion_look.hpp"
 #include "check/overlay.hpp"
 #include "check/rotation_parts.hpp"
 #include "check/samples.hpp"
-#include "check/motion_look.hpp"
 #include "check/scan_times.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/poses.hpp"
@@ -457,8 +457,7 @@ void judge_motion(Preflight& result, MotionLook& look) {
     const Blur blur = sweep ? Blur{} : look.quality().found;
     // At good poses, a run looks for no other times than look.times() did.
     const bool may_find = !mistake.empty() && !(blur.undone > 0.0);
-    if (!sweep && !blur.is_distorted() &&
-        !(may_find && find_sweep(recording, look.config()))) {
+    if (!sweep && !blur.is_distorted() && !(may_find && find_sweep(recording, look.config()))) {
         return;
     }
     const bool is_shifted = sweep && !sweep->in_order && sweep->shift != 0.0;

@@ -32,8 +32,7 @@ double disagreement(const Info& given, const Info& used, const Reading& reading)
         reading.is_chained ? chained(given.T_world_sensor) : given.T_world_sensor;
     std::vector<double> differences;
     for (std::size_t i = kScansApart; i < used.T_world_sensor.size(); ++i) {
-        const Pose went =
-            used.T_world_sensor[i - kScansApart].inverse() * used.T_world_sensor[i];
+        const Pose went = used.T_world_sensor[i - kScansApart].inverse() * used.T_world_sensor[i];
         const Pose said = reading.pose(poses[i - kScansApart]).inverse() * reading.pose(poses[i]);
         if (!went.matrix().allFinite() || !said.matrix().allFinite()) continue;
         const Pose off = went.inverse() * said;

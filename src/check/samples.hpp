@@ -27,7 +27,7 @@ struct Sample {
     /// Numbers of points within a few metres of the origin, and of the position in the pose.
     std::size_t near_origin = 0, near_pose = 0;
     Eigen::Vector2f middle = Eigen::Vector2f::Zero();  ///< [m] median of x and y of the points
-    float typical_range = 0.0F;   ///< [m] median distance of the points from the sensor
+    float typical_range = 0.0F;  ///< [m] median distance of the points from the sensor
     /// [m] Distance from one number of the type of the coordinates to the next, where they lie.
     double step = 0.0;
     std::optional<double> began;  ///< [s] time of the earliest point, if points have absolute times

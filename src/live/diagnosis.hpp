@@ -24,8 +24,9 @@ struct Figures {
     std::uint64_t lost = 0, not_taken = 0;         ///< messages: on the way here; by receivers
 };
 
-/// Four rows: input, filter, result, output. `before`: the figures of the last time, so that a row warns
-/// of what happens now, not of what once did. `silent_after`: [s] without input that is an error.
+/// Four rows: input, filter, result, output. `before`: the figures of the last time, so that a row
+/// warns of what happens now, not of what once did. `silent_after`: [s] without input that is an
+/// error.
 std::vector<io::DiagnosticStatus> diagnose(const Figures& now, const Figures& before,
                                            const std::string& name, double silent_after);
 

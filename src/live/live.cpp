@@ -158,9 +158,10 @@ private:
         constexpr auto kPause = std::chrono::seconds(10);
         if (now.alarm.empty() || Clock::now() < next_alarm_) return;
         next_alarm_ = Clock::now() + kPause;
-        warn(fmt::format("of the newest scans, {}; wrong poses, other clocks or several sensors in "
-                         "one cloud do so: record with --record, and see `dynamicfilter check`",
-                         now.alarm));
+        warn(
+            fmt::format("of the newest scans, {}; wrong poses, other clocks or several sensors in "
+                        "one cloud do so: record with --record, and see `dynamicfilter check`",
+                        now.alarm));
     }
 
     Bus& bus_;

@@ -242,8 +242,7 @@ Latencies Session::latencies() const {
 void Session::watch(const LiveScan& scan, const Verdict& verdict) {
     const Pose& T_world_sensor =
         verdict.tracked ? verdict.tracked->T_world_sensor : scan.T_world_sensor;
-    io::ScanWatch seen =
-        io::watch_scan(verdict.index, scan.points, T_world_sensor, verdict.labels);
+    io::ScanWatch seen = io::watch_scan(verdict.index, scan.points, T_world_sensor, verdict.labels);
     seen.unknown = 0;
     const std::lock_guard hold(lock_);
     watch_.push_back(seen);

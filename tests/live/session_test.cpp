@@ -117,9 +117,9 @@ TEST(Session, TheOwnBodyComesOutAsDynamic) {
     running.start();
     running.push_all(12);
     running.session->stop();
-    const auto cloud = io::read_cloud_message(
-        *running.bus.published("/dynamicfilter/labels").front(),
-        {"", "sensor_msgs/PointCloud2", running.bus.used});
+    const auto cloud =
+        io::read_cloud_message(*running.bus.published("/dynamicfilter/labels").front(),
+                               {"", "sensor_msgs/PointCloud2", running.bus.used});
     const std::vector<double> labels = io::values(cloud.cloud, *cloud.cloud.find("label"));
     const Points points = io::positions(cloud.cloud);
     std::size_t behind = 0;

@@ -13,8 +13,9 @@ namespace pose_fix_test {
 TEST(PoseFix, EachHasAName) {
     std::set<std::string> names{to_string(PoseFix::none)};
     for (const PoseFix fix : pose_fixes()) names.insert(to_string(fix));
-    EXPECT_EQ(names, (std::set<std::string>{"none", "inverse", "camera", "lidar", "wxyz", "xyzw",
-                                            "mm", "cm", "feet", "transpose", "mirror", "ned", "relative"}));
+    EXPECT_EQ(names,
+              (std::set<std::string>{"none", "inverse", "camera", "lidar", "wxyz", "xyzw", "mm",
+                                     "cm", "feet", "transpose", "mirror", "ned", "relative"}));
 }
 
 TEST(PoseFix, EachUndoesItsMistake) {
@@ -36,8 +37,8 @@ TEST(PoseFix, EachUndoesItsMistake) {
 }
 
 TEST(PoseFix, MotionsAreChained) {
-    const Pose step = Pose(Eigen::Translation3d(1, 0, 0)) *
-                      Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitZ());
+    const Pose step =
+        Pose(Eigen::Translation3d(1, 0, 0)) * Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitZ());
     Pose lost = Pose::Identity();
     lost.translation().setConstant(std::nan(""));
     const std::vector<Pose> poses = chained({step, step, lost, step});
