@@ -40,7 +40,7 @@ ROOMS = {
     "export": "base geometry formats draw recording",
     "page": "base geometry formats score recording dynamic_filter/filter.hpp",
     "run": "base geometry settings filter tracking online paper formats recording check score page",
-    "live": "base geometry settings filter tracking online formats recording page run",
+    "live": "base geometry settings filter tracking online formats recording check/watch.hpp page run",
     "commands": "*",
 }
 OUTSIDE = ("bench", "examples", "python/src", "ros1", "tests")  # may include every room
