@@ -85,6 +85,16 @@ const Tried& best_of(const std::vector<Tried>& all) {
     return mean_of(best.blurs) < kSharperThanFirst * mean_of(first.blurs) ? best : first;
 }
 
+/// Times of fields as they are, unless a shift is sharper everywhere, and also much sharper than
+/// with the motion left in: among things that drive beside the sensor, little tells of shifts.
+const Tried& best_shift_of(const std::vector<Tried>& all, const Blurs& as_measured) {
+    constexpr double kMuch = 0.98;
+    const Tried& best = best_of(all);
+    const bool is_sure = is_clearly_sharper(best.blurs, all.front().blurs) &&
+                         mean_of(best.blurs) < kMuch * mean_of(as_measured);
+    return is_sure ? best : all.front();
+}
+
 /// Times of the fields of the first scan [s], or none.
 std::vector<float> times_in_fields(const Recording& recording) {
     try {
@@ -197,7 +207,7 @@ TimesChoice choose_times(const Recording& recording, const OdometryConfig& confi
     const std::vector<Tried> all = times.empty()
                                        ? try_sweeps(recording, config, sweeps, as_measured)
                                        : try_fields(recording, config, times);
-    const Tried& best = best_of(all);
+    const Tried& best = times.empty() ? best_of(all) : best_shift_of(all, as_measured);
     choice.blur = {mean_of(as_measured), mean_of(best.blurs)};
     const bool is_sharper =
         times.empty() ? is_clearly_sharper(best.blurs, as_measured) : choice.blur.is_distorted();

@@ -81,7 +81,7 @@ void visit_live(C& c, F&& f) {
               "times of their points"},
       c.input.deskew);
     f(Setting{"input.mask", "", "",
-              "file of boxes in the sensor frame that hold the own body, as --mask of run; empty: "
+              "file of boxes in the sensor frame that hold the own body, or its mesh (.stl); empty: "
               "none"},
       c.input.mask);
     f(Setting{"output.prefix", "", "", "what the names of the published topics begin with"},

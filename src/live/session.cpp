@@ -39,7 +39,7 @@ Scan scan_of(const LiveScan& scan, const Verdict& verdict) {
 
 Session::Session(const LiveConfig& config, Outputs& outputs, Recorder* recorder)
     : config_(config),
-      own_body_(config.input.mask.empty() ? io::Boxes{} : io::read_boxes(config.input.mask)),
+      own_body_(config.input.mask.empty() ? io::Boxes{} : io::read_mask(config.input.mask)),
       outputs_(outputs),
       recorder_(recorder),
       map_rate_(config.output.map_rate),

@@ -85,8 +85,8 @@ void visit_reading(Options& options, const Visit& visit) {
         options.point_unit);
     row({.name = "mask",
          .help =
-             "file of boxes around what moves with the sensor, which is left out; `none` leaves "
-             "nothing out (default: found, if the sensor moves)"},
+             "file of boxes around what moves with the sensor, or its mesh (.stl), which is left "
+             "out; `none` leaves nothing out (default: found, if the sensor moves)"},
         options.mask);
     row({.name = "time_unit", .help = "unit of the stamps", .choices = {"s", "ms", "us", "ns"}},
         options.time_unit);

@@ -10,7 +10,9 @@
 #include <string>
 #include <utility>
 
+#include "base/text.hpp"
 #include "dynamic_filter/error.hpp"
+#include "recording/mesh_mask.hpp"
 #include "recording/recording_parts.hpp"
 
 namespace dynamic_filter::io {
@@ -39,6 +41,11 @@ Boxes read_boxes(const std::filesystem::path& file) {
     }
     if (boxes.empty()) throw InputError(file, "", "has no box; expected one a line");
     return boxes;
+}
+
+Boxes read_mask(const std::filesystem::path& file) {
+    return to_lower(file.extension().string()) == ".stl" ? boxes_in(read_stl(file))
+                                                           : read_boxes(file);
 }
 
 std::vector<std::uint8_t> take_out(const Boxes& boxes, Points& points) {

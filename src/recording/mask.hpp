@@ -14,6 +14,9 @@ namespace dynamic_filter::io {
 /// sensor frame; `#` begins a comment. Throws InputError that names the line.
 Boxes read_boxes(const std::filesystem::path& file);
 
+/// The boxes of a file, or those in the mesh of an .stl file. Throws InputError.
+Boxes read_mask(const std::filesystem::path& file);
+
 /// Moves the points in the boxes to the origin, where points are no measurements. Returns 1 for
 /// each of them, parallel to the points, or nothing if there are none.
 std::vector<std::uint8_t> take_out(const Boxes& boxes, Points& points);

@@ -58,7 +58,7 @@ io::Recording open(const DataOptions& options) {
                         .time_unit = seconds_of(options.time_unit),
                         .sensor_at = place_of(options.sensor_at),
                         .point_unit = metres_of(options.point_unit)};
-    if (options.mask && *options.mask != kNoMask) how.own_body = io::read_boxes(*options.mask);
+    if (options.mask && *options.mask != kNoMask) how.own_body = io::read_mask(*options.mask);
     if (how.poses == std::filesystem::path(kNoPoses)) {
         how.poses.reset();
         how.without_poses = true;
