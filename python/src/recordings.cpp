@@ -137,7 +137,7 @@ points_in_world: True if points are in the frame of the poses.
 sensor_at: "X,Y,Z" [m], place of the sensor in the frame of the points, if that is the vehicle's; points
 and poses are then those of the sensor.
 point_unit: unit of the coordinates of points: m, cm, mm or feet.
-mask: file of boxes around what moves with the sensor, which is left out, or "none".
+mask: file of boxes around what moves with the sensor, or its mesh (.stl), which is left out, or "none".
 time_unit: unit of the stamps: s, ms, us or ns.
 deskew: True does motion compensation of each scan with the poses and the times of the points.
 first, last, stride: selection of scans.
