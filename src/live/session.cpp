@@ -238,12 +238,13 @@ Latencies Session::latencies() const {
     return {at(0.5), at(0.99), sorted.back(), sorted.size()};
 }
 
-/// The places that a scan sees first are unknown for a moment, so these points are not counted.
+/// Only the ground is watched: the places that a scan sees first are unknown for a moment, and a
+/// truck beside the sensor may fill many scans.
 void Session::watch(const LiveScan& scan, const Verdict& verdict) {
     const Pose& T_world_sensor =
         verdict.tracked ? verdict.tracked->T_world_sensor : scan.T_world_sensor;
     io::ScanWatch seen = io::watch_scan(verdict.index, scan.points, T_world_sensor, verdict.labels);
-    seen.unknown = 0;
+    seen.unknown = seen.dynamic = 0;
     const std::lock_guard hold(lock_);
     watch_.push_back(seen);
     if (watch_.size() > kWatched) watch_.pop_front();

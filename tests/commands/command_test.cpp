@@ -872,6 +872,15 @@ TEST_F(Command, ReportsOfRunsAndMapsAreSetSideBySide) {
     EXPECT_EQ(run("run " + recording().string() + " -o no --view --port 99999"), 2);
 }
 
+/// Cars that drive beside the sensor tell nothing of the times of points, and the scans of a sensor
+/// that sees a part of the surroundings overlay less evenly than others do.
+TEST_F(Command, CheckIsSilentAboutSoundScans) {
+    EXPECT_EQ(run("simulate jam --frames 60 --rate 10 --sweep --seed 63 -o jam"), 0) << said();
+    EXPECT_EQ(run("check jam"), 0) << said();
+    EXPECT_EQ(run("simulate square --sensor solid --frames 40 --rate 10 --seed 32 -o square"), 0);
+    EXPECT_EQ(run("check square"), 0) << said();
+}
+
 TEST_F(Command, CheckSaysWhatToTypeAndThatWorks) {
     const std::string data = recording().string();
     EXPECT_EQ(run("check " + data), 0) << said();
