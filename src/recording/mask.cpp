@@ -45,7 +45,7 @@ Boxes read_boxes(const std::filesystem::path& file) {
 
 Boxes read_mask(const std::filesystem::path& file) {
     return to_lower(file.extension().string()) == ".stl" ? boxes_in(read_stl(file))
-                                                           : read_boxes(file);
+                                                         : read_boxes(file);
 }
 
 std::vector<std::uint8_t> take_out(const Boxes& boxes, Points& points) {

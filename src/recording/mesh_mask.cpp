@@ -101,8 +101,8 @@ Boxes boxes_in(std::span<const Triangle> mesh) {
     for (int x = 0; x < cells.x(); ++x) {
         for (int y = 0; y < cells.y(); ++y) {
             const Eigen::Vector2f low =
-                around.min().head<2>() + kCell * Eigen::Vector2f(static_cast<float>(x),
-                                                                 static_cast<float>(y));
+                around.min().head<2>() +
+                kCell * Eigen::Vector2f(static_cast<float>(x), static_cast<float>(y));
             // Not exactly in the middle, where edges of meshes tend to lie.
             const Eigen::Vector2f place = low + kCell * Eigen::Vector2f(0.4937F, 0.5071F);
             std::vector<float> heights;

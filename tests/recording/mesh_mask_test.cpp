@@ -20,8 +20,12 @@ std::vector<Triangle> box(const Point& low, const Point& high) {
                      (i & 4) != 0 ? high.z() : low.z());
     };
     std::vector<Triangle> mesh;
-    for (const auto& [a, b, c, d] : {std::array{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4},
-                                     {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}}) {
+    for (const auto& [a, b, c, d] : {std::array{0, 1, 3, 2},
+                                     {4, 5, 7, 6},
+                                     {0, 1, 5, 4},
+                                     {2, 3, 7, 6},
+                                     {0, 2, 6, 4},
+                                     {1, 3, 7, 5}}) {
         mesh.push_back({corner(a), corner(b), corner(c)});
         mesh.push_back({corner(a), corner(c), corner(d)});
     }
