@@ -28,12 +28,6 @@ std::string blur_text(const MotionQuality& quality) {
                               last.apart);
 }
 
-std::size_t count_missing(const Recording& recording) {
-    const auto& poses = recording.info().T_world_sensor;
-    return static_cast<std::size_t>(std::count_if(
-        poses.begin(), poses.end(), [](const Pose& pose) { return !pose.matrix().allFinite(); }));
-}
-
 /// A set of poses that may be used.
 struct Candidate {
     std::string name;
@@ -87,6 +81,19 @@ std::string evidence(const std::vector<Candidate>& candidates, const Candidate& 
 
 }  // namespace
 
+std::vector<std::size_t> scans_without_pose(const Recording& recording) {
+    const std::vector<Pose>& poses = recording.info().T_world_sensor;
+    std::vector<std::size_t> missing;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        if (!poses[i].matrix().allFinite()) missing.push_back(i);
+    }
+    return missing;
+}
+
+std::string missing_text(const Recording& recording, std::size_t missing) {
+    return fmt::format("{} of {} scans have no pose of their own", missing, recording.size());
+}
+
 std::string outliers_text(const Recording& recording) {
     const auto outliers = outliers_of(recording.info().T_world_sensor, recording.info().stamps);
     if (outliers.empty()) return "";
@@ -96,10 +103,8 @@ std::string outliers_text(const Recording& recording) {
 
 std::string doubt_about_poses(MotionLook& look) {
     const Recording& recording = look.recording();
-    const std::size_t missing = count_missing(recording);
-    if (missing > 0) {
-        return fmt::format("{} of {} scans have no pose of their own", missing, recording.size());
-    }
+    const std::size_t missing = scans_without_pose(recording).size();
+    if (missing > 0) return missing_text(recording, missing);
     const std::string apart = outliers_text(recording);
     if (!apart.empty()) return apart;
     const MotionQuality& quality = look.quality();
@@ -121,7 +126,7 @@ PosesChoice choose_poses(const Recording& recording, const OdometryConfig& confi
         const PoseFit fit = fit_of(scans, poses_of_scans(tracked), config);
         candidates.push_back({name, fit, std::move(tracked)});
     };
-    const bool is_complete = count_missing(recording) == 0;
+    const bool is_complete = scans_without_pose(recording).empty();
     const auto outliers = outliers_of(recording.info().T_world_sensor, recording.info().stamps);
     if (is_complete && outliers.empty()) {
         candidates.push_back({"given", fit_of(read_fit_scans(recording, config), config), {}});

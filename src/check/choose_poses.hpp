@@ -17,6 +17,11 @@ struct PosesChoice {
     std::vector<std::string> notes;  ///< what was chosen and why, a sentence each
 };
 
+/// Indices of scans whose poses are not known; empty if the files of the scans hold the poses.
+std::vector<std::size_t> scans_without_pose(const Recording& recording);
+/// "3 of 60 scans have no pose of their own"
+std::string missing_text(const Recording& recording, std::size_t missing);
+
 /// Names given poses that lie apart from those of their neighbours, in a sentence; "" if none does.
 std::string outliers_text(const Recording& recording);
 

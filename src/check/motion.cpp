@@ -191,7 +191,8 @@ ChosenMotion choose_for_several(io::Recording& recording, io::Recording first, C
                                 MotionChoice choice) {
     const std::string refine = std::exchange(choice.refine, "off");
     choice.finds_body = false;
-    io::MotionLook look(first, config.odometry, "auto");
+    io::MotionLook look(first, config.odometry, choice.deskew);
+    choice.look = &look;
     const std::string doubt = refine == "off" ? "" : io::doubt_about_poses(look);
     ChosenMotion chosen = choose_motion(first, config, choice);
     if (first.info().deskewed) {

@@ -496,15 +496,12 @@ void note_missing_poses(Preflight& result, const Recording& recording,
                         std::map<std::size_t, std::string>& unusable) {
     const Info& info = recording.info();
     if (info.tracked || info.points_in_world) return;
-    std::vector<std::size_t> missing;
-    for (std::size_t i = 0; i < info.T_world_sensor.size(); ++i) {
-        if (!info.T_world_sensor[i].matrix().allFinite()) missing.push_back(i);
-    }
+    const std::vector<std::size_t> missing = scans_without_pose(recording);
     if (missing.empty() || missing.size() == info.T_world_sensor.size()) return;
     for (const std::size_t i : missing) unusable.erase(i);
-    result.notes.push_back(fmt::format(
-        "{} of {} scans have no pose of their own, the first is {}; `run` finds them by odometry",
-        missing.size(), recording.size(), stem(recording, missing.front())));
+    result.notes.push_back(fmt::format("{}, the first is {}; `run` finds them by odometry",
+                                       missing_text(recording, missing.size()),
+                                       stem(recording, missing.front())));
 }
 
 /// Adds what is not there yet.

@@ -81,14 +81,6 @@ Points as_measured(const Recording& recording, const FullScan& scan) {
                      in_metres(positions(scan.cloud), info));
 }
 
-float typical_range(const Points& points) {
-    std::vector<float> ranges;
-    for (const Point& p : points) {
-        if (is_measured(p)) ranges.push_back(p.norm());
-    }
-    return median(std::move(ranges));
-}
-
 Eigen::Vector2f middle_of(const Points& points) {
     std::vector<float> x, y;
     for (const Point& p : points) {
@@ -131,6 +123,14 @@ Sample sample_of(const Recording& recording, const FullScan& scan) {
 }
 
 }  // namespace
+
+float typical_range(const Points& points) {
+    std::vector<float> ranges;
+    for (const Point& p : points) {
+        if (is_measured(p)) ranges.push_back(p.norm());
+    }
+    return median(std::move(ranges));
+}
 
 Points upright(const Points& points) {
     constexpr float kColumn = 0.6F, kTall = 0.5F;  // [m]

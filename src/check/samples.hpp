@@ -17,6 +17,9 @@ namespace dynamic_filter::io {
 /// same from everywhere, as if the sensor had not moved.
 Points upright(const Points& points);
 
+/// [m] Median distance of the points from the sensor; 0 if none is measured.
+float typical_range(const Points& points);
+
 struct Sample {
     Points upright;  ///< sensor frame; upright structures within 30 m
     Pose T_world_sensor = Pose::Identity();

@@ -84,35 +84,6 @@ double share(std::size_t part, std::size_t all) {
     return all == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(all);
 }
 
-/// Scans that lose much of their ground. Scans that show little of it are taken together.
-std::optional<Alarm> ground_alarm(std::span<const ScanWatch> scans) {
-    constexpr double kMuch = 0.15;           // of the ground of a scan
-    constexpr std::size_t kFewGround = 100;  // parts of the ground, 25 m2
-    constexpr double kMany = 0.05;           // of the scans
-    constexpr std::size_t kLeast = 3;        // scans
-    Alarm alarm;
-    std::size_t count = 0, first = 0, ground = 0, gone = 0;
-    double most = 0.0;
-    for (std::size_t i = 0; i < scans.size(); ++i) {
-        ground += scans[i].ground;
-        gone += scans[i].ground_gone;
-        if (ground < kFewGround) continue;
-        const double lost = share(std::exchange(gone, 0), std::exchange(ground, 0));
-        const std::size_t begin = std::exchange(first, i + 1);
-        if (lost < kMuch) continue;
-        if (count == 0) alarm.first = scans[begin].scan;
-        count += i + 1 - begin;
-        alarm.last = scans[i].scan;
-        if (lost > most) alarm.worst = scans[i].scan;
-        most = std::max(most, lost);
-    }
-    if (count < kLeast || share(count, scans.size()) < kMany) return std::nullopt;
-    alarm.what =
-        fmt::format("{} of {} scans lose more than {:.0f} % of their ground, up to {:.0f} %", count,
-                    scans.size(), 100.0 * kMuch, 100.0 * most);
-    return alarm;
-}
-
 /// `part`: the points that are too many.
 std::optional<Alarm> share_alarm(std::span<const ScanWatch> scans, std::size_t ScanWatch::*part,
                                  double most, const char* meaning) {
@@ -171,6 +142,34 @@ ScanWatch watch_scan(std::size_t scan, const Points& points, const Pose& T_world
         watch.ground_gone += 2 * part.gone > part.points ? 1 : 0;
     }
     return watch;
+}
+
+std::optional<Alarm> ground_alarm(std::span<const ScanWatch> scans) {
+    constexpr double kMuch = 0.15;           // of the ground of a scan
+    constexpr std::size_t kFewGround = 100;  // parts of the ground, 25 m2
+    constexpr double kMany = 0.05;           // of the scans
+    constexpr std::size_t kLeast = 3;        // scans
+    Alarm alarm;
+    std::size_t count = 0, first = 0, ground = 0, gone = 0;
+    double most = 0.0;
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+        ground += scans[i].ground;
+        gone += scans[i].ground_gone;
+        if (ground < kFewGround) continue;
+        const double lost = share(std::exchange(gone, 0), std::exchange(ground, 0));
+        const std::size_t begin = std::exchange(first, i + 1);
+        if (lost < kMuch) continue;
+        if (count == 0) alarm.first = scans[begin].scan;
+        count += i + 1 - begin;
+        alarm.last = scans[i].scan;
+        if (lost > most) alarm.worst = scans[i].scan;
+        most = std::max(most, lost);
+    }
+    if (count < kLeast || share(count, scans.size()) < kMany) return std::nullopt;
+    alarm.what =
+        fmt::format("{} of {} scans lose more than {:.0f} % of their ground, up to {:.0f} %", count,
+                    scans.size(), 100.0 * kMuch, 100.0 * most);
+    return alarm;
 }
 
 std::vector<Alarm> alarms_of(std::span<const ScanWatch> scans) {

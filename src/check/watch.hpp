@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -36,6 +37,9 @@ struct Alarm {
     std::size_t worst = 0;            ///< index of the scan that shows it best
 };
 
+/// Scans that lose much of their ground; those that show little of it are taken together. Empty for
+/// a sound result.
+std::optional<Alarm> ground_alarm(std::span<const ScanWatch> scans);
 /// The faults of a result; empty for a sound one.
 std::vector<Alarm> alarms_of(std::span<const ScanWatch> scans);
 

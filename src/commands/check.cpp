@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "base/exit_code.hpp"
 #include "check/advice.hpp"
@@ -105,13 +107,15 @@ void try_advice(Checked checked, DataOptions options) {
     constexpr int kMost = 3;
     std::string given;
     for (int round = 0; round < kMost; ++round) {
-        const auto advised = std::find_if(
-            checked.findings.begin(), checked.findings.end(), [&](const io::Finding& finding) {
-                return is_option(finding.advice) && with_option(options, finding.advice);
-            });
-        if (advised == checked.findings.end()) break;
+        std::optional<DataOptions> more;
+        const auto advised = std::find_if(checked.findings.begin(), checked.findings.end(),
+                                          [&](const io::Finding& finding) {
+                                              more = with_option(options, finding.advice);
+                                              return more.has_value();
+                                          });
+        if (!more) break;
         given += (given.empty() ? "" : " ") + advised->advice;
-        options = *with_option(options, advised->advice);
+        options = *std::move(more);
         checked = look_at(open(options), options);
     }
     if (given.empty()) return;

@@ -80,10 +80,8 @@ float thinning_of(std::span<const Point> points) {
     // A filter of larger voxels would leave nothing to work with: the points are no metres.
     constexpr float kMost = 3.0F;
     const bool alike = near.distance > kAlike * far.distance;
-    if (near.distance < kLeast || near.distance > kMost || !alike ||
-        near.angle < kWider * far.angle)
-        return 0.0F;
-    return near.distance;
+    const bool is_side = near.distance >= kLeast && near.distance <= kMost;
+    return is_side && alike && near.angle >= kWider * far.angle ? near.distance : 0.0F;
 }
 
 }  // namespace dynamic_filter

@@ -80,12 +80,10 @@ void visit_live(C& c, F&& f) {
               "whether the motion of the sensor during each scan is undone; scans must hold the "
               "times of their points"},
       c.input.deskew);
-    f(
-        Setting{
-            "input.mask", "", "",
-            "file of boxes in the sensor frame that hold the own body, or its mesh (.stl); empty: "
-            "none"},
-        c.input.mask);
+    f(Setting{"input.mask", "", "",
+              "file of boxes in the sensor frame that hold the own body, or its mesh (.stl); "
+              "empty: none"},
+      c.input.mask);
     f(Setting{"output.prefix", "", "", "what the names of the published topics begin with"},
       c.output.prefix);
     f(Setting{"output.qos", "", "", "how scans are published", 0, 0, kAllMethods,

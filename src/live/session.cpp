@@ -238,18 +238,18 @@ Latencies Session::latencies() const {
     return {at(0.5), at(0.99), sorted.back(), sorted.size()};
 }
 
-/// Only the ground is watched: the places that a scan sees first are unknown for a moment, and a
-/// truck beside the sensor may fill many scans.
 void Session::watch(const LiveScan& scan, const Verdict& verdict) {
     const Pose& T_world_sensor =
         verdict.tracked ? verdict.tracked->T_world_sensor : scan.T_world_sensor;
-    io::ScanWatch seen = io::watch_scan(verdict.index, scan.points, T_world_sensor, verdict.labels);
-    seen.unknown = seen.dynamic = 0;
+    const io::ScanWatch seen =
+        io::watch_scan(verdict.index, scan.points, T_world_sensor, verdict.labels);
     const std::lock_guard hold(lock_);
     watch_.push_back(seen);
     if (watch_.size() > kWatched) watch_.pop_front();
 }
 
+/// Only the ground tells: the places that a scan sees first are unknown for a moment, and a truck
+/// beside the sensor may fill many scans.
 std::string Session::alarm() const {
     std::vector<io::ScanWatch> newest;
     {
@@ -257,8 +257,8 @@ std::string Session::alarm() const {
         if (watch_.size() < kWatched) return "";
         newest.assign(watch_.begin(), watch_.end());
     }
-    const std::vector<io::Alarm> alarms = io::alarms_of(newest);
-    return alarms.empty() ? "" : alarms.front().what;
+    const std::optional<io::Alarm> alarm = io::ground_alarm(newest);
+    return alarm ? alarm->what : "";
 }
 
 OdometryState Session::odometry() const {

@@ -28,10 +28,9 @@ void assign_at_scans(Info& info, const std::function<std::optional<Pose>(double)
 }
 
 /// Assigns poses from a file: interpolated if it has stamps, otherwise one row per scan.
-void assign_file_poses(Info& info, const std::filesystem::path& file, PoseFix fix) {
-    PoseFile poses = read_poses(file);
+void assign_file_poses(Info& info, const std::filesystem::path& file) {
+    PoseFile poses = read_pose_file(file, info.pose_fix);
     info.pose_source = file;
-    if (fix == PoseFix::relative) poses.poses = chained(std::move(poses.poses));
     info.notes.insert(info.notes.end(), poses.notes.begin(), poses.notes.end());
     if (poses.stamps.empty()) {
         if (poses.poses.size() != info.stamps.size()) {
@@ -150,7 +149,7 @@ void add(std::vector<std::string>& all, const std::vector<std::string>& more) {
 
 void find_poses(Info& info, const BagContents& contents, const std::string& frame,
                 const OpenOptions& options, const std::function<Cloud(std::size_t)>& read) {
-    if (options.poses) return assign_file_poses(info, *options.poses, options.pose_fix);
+    if (options.poses) return assign_file_poses(info, *options.poses);
     if (options.without_poses) return;
     BagPoses poses = choose_poses(contents, frame, info.stamps, options.pose_topic, read);
     add(info.notes, poses.notes);
@@ -167,6 +166,7 @@ RecordingParts open_bag(const std::filesystem::path& data, const OpenOptions& op
     const BagContents contents = contents_of(scans->bag);
     Info info;
     info.layout = "bag";
+    info.pose_fix = options.pose_fix;
     info.root = data;
     info.notes = contents.notes;
     info.losses = contents.losses;

@@ -249,6 +249,14 @@ std::vector<std::size_t> rows_in_names(const Paths& scans, std::size_t rows) {
     return has_gaps || numbers.front() > 1 ? numbers : std::vector<std::size_t>{};
 }
 
+PoseFile read_pose_file(const std::filesystem::path& file, PoseFix& fix) {
+    PoseFile poses = read_poses(file);
+    if (fix != PoseFix::relative) return poses;
+    fix = PoseFix::none;
+    poses.poses = chained(std::move(poses.poses));
+    return poses;
+}
+
 Match match_poses(const Layout& layout, const PoseFile& given, const std::vector<double>& times,
                   std::optional<double> unit) {
     const std::size_t scans = layout.scans.size();

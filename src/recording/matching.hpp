@@ -11,6 +11,9 @@
 
 namespace dynamic_filter::io {
 
+/// read_poses(). Motions are joined to poses here, because that needs all rows; `fix` is none then.
+PoseFile read_pose_file(const std::filesystem::path& file, PoseFix& fix);
+
 /// A pose for each scan.
 struct Match {
     std::vector<Pose> poses;

@@ -72,8 +72,7 @@ std::vector<double> assign_poses(Info& info, const Layout& layout, std::optional
     info.T_world_sensor = layout.T_world_sensor;
     if (has_own) return times;
     if (!layout.poses) return times.empty() ? growing_times_in_names(layout.scans, unit) : times;
-    PoseFile file = read_poses(*layout.poses);
-    if (info.pose_fix == PoseFix::relative) file.poses = chained(std::move(file.poses));
+    const PoseFile file = read_pose_file(*layout.poses, info.pose_fix);
     info.notes.insert(info.notes.end(), file.notes.begin(), file.notes.end());
     Match match = match_poses(layout, file, times, unit);
     info.T_world_sensor = std::move(match.poses);
@@ -146,7 +145,6 @@ RecordingParts open_folder(const std::filesystem::path& data, const OpenOptions&
 
 RecordingParts open_selected_bag(const std::filesystem::path& data, const OpenOptions& options) {
     RecordingParts parts = open_bag(data, options);
-    parts.info.pose_fix = options.pose_fix;
     for (auto* stamps : {&parts.info.stamps, &parts.info.trajectory.stamps}) {
         for (double& stamp : *stamps) stamp *= options.time_unit;
     }
@@ -155,9 +153,7 @@ RecordingParts open_selected_bag(const std::filesystem::path& data, const OpenOp
 }
 
 void apply_fix(Info& info) {
-    std::error_code is_none;
-    if (info.pose_fix == PoseFix::relative &&
-        !std::filesystem::is_regular_file(info.pose_source, is_none)) {
+    if (info.pose_fix == PoseFix::relative) {  // and no file of motions was read
         throw ConfigError(
             "--pose-fix relative joins the motions of a pose file with one row for each scan, and "
             "the poses of this recording are not from such a file");

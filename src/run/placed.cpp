@@ -9,7 +9,7 @@
 #include <span>
 
 #include "base/crc.hpp"
-#include "base/numbers.hpp"
+#include "check/samples.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
 #include "recording/recording_parts.hpp"
@@ -33,16 +33,14 @@ void append_rows(const Pose& pose, std::vector<double>& numbers) {
     }
 }
 
-/// Median distance of points of the first scan, so that a copy with another unit is another one.
+/// Distance of the points of the first scan, so that a copy with another unit is another recording.
 std::string reach_text(const io::Recording& recording) {
-    std::vector<float> ranges;
     try {
-        for (const Point& p : recording.read(0).points) {
-            if (is_measured(p)) ranges.push_back(p.norm());
-        }
+        const float range = io::typical_range(recording.read(0).points);
+        return range > 0.0F ? fmt::format(", points at {:.2g} m", range) : "";
     } catch (const InputError&) {  // is rejected later, with the reason
+        return "";
     }
-    return ranges.empty() ? "" : fmt::format(", points at {:.2g} m", median(std::move(ranges)));
 }
 
 Json json_of(const std::optional<Tracked>& tracked) {

@@ -39,6 +39,35 @@ TEST_F(OpenRecording, KittiCameraPoses) {
     EXPECT_HAS(open_error(), "Tr:");
 }
 
+TEST_F(OpenRecording, MotionsAreJoinedBeforeScansAreSelected) {
+    put_bins("velodyne", 6);
+    std::string rows;
+    for (int i = 0; i < 6; ++i) rows += "1 0 0 2 0 1 0 0 0 0 1 0\n";
+    data.put("poses.txt", rows);
+    OpenOptions options;
+    options.pose_fix = PoseFix::relative;
+    options.first = 1;
+    options.stride = 2;
+    const Recording recording = open(options);
+    ASSERT_EQ(recording.size(), 3U);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double way = 4.0 + 4.0 * static_cast<double>(i);
+        EXPECT_EQ(recording.info().T_world_sensor[i].translation().x(), way);
+    }
+}
+
+TEST_F(OpenRecording, MotionsAreThoseOfAPoseFileWithARowForEachScan) {
+    for (const char* name : {"1500000000000000000", "1500000000500000000"}) {
+        data.put("Ouster/" + std::string(name) + ".bin", floats({1, 2, 3, 4}));
+    }
+    data.put("global_pose.csv",
+             "1500000000000000000,1,0,0,10,0,1,0,20,0,0,1,30\n"
+             "1500000001000000000,1,0,0,12,0,1,0,20,0,0,1,30\n");
+    OpenOptions options;
+    options.pose_fix = PoseFix::relative;
+    EXPECT_THROW((void)open(options), ConfigError);  // these are poses of a vehicle at other times
+}
+
 TEST_F(OpenRecording, Stamps) {
     put_bins("velodyne", 3);
     data.put("poses.txt", kitti_rows(3));
