@@ -95,7 +95,7 @@ int plan(const PlanOptions& options) {
         job.plan = make_plan(job.drives, job.config, o.data, o.tile_voxels, o.quiet);
     });
     if (interrupted()) return kInterrupted;
-    tell_notes(job, o);
+    tell_remarks(job, o.quiet);
     if (o.output) {
         refuse_existing(*o.output, o.overwrite);
         write_plan(*o.output, job.plan, job.mark);

@@ -119,7 +119,8 @@ std::vector<std::size_t> accepted_scans(const Whole& whole) {
 }
 
 void reject(Whole& whole, std::size_t i, const std::string& why) {
-    whole.summary.rejected.push_back(fmt::format("{}: {}", io::stem(whole.recording, i), why));
+    whole.summary.remarks.push_back(
+        {RemarkKind::rejected, fmt::format("{}: {}", io::stem(whole.recording, i), why)});
 }
 
 /// Puts the filter's notices about scans into the summary.
@@ -128,12 +129,13 @@ void add_notices(Whole& whole) {
         const std::string line =
             fmt::format("{}: {}", io::stem(whole.recording, notice.index), notice.text);
         if (notice.kind == NoticeKind::jump || notice.kind == NoticeKind::restart) {
-            whole.summary.notes.push_back(line);
+            whole.summary.remarks.push_back({RemarkKind::note, line});
             continue;
         }
         whole.accepted[notice.index] = false;
-        (notice.kind == NoticeKind::dropped ? whole.summary.dropped : whole.summary.rejected)
-            .push_back(line);
+        const bool is_dropped = notice.kind == NoticeKind::dropped;
+        whole.summary.remarks.push_back(
+            {is_dropped ? RemarkKind::dropped : RemarkKind::rejected, line});
     }
 }
 
@@ -157,7 +159,10 @@ void use_poses(Whole& whole) {
     }
     const auto was_tracked = [](const auto& tracked) { return tracked.has_value(); };
     if (std::none_of(whole.tracked.begin(), whole.tracked.end(), was_tracked)) return;
-    whole.summary.notes.push_back(use_track(whole.recording, whole.tracked));
+    const std::size_t known = whole.recording.info().losses.size();
+    Remarks& remarks = whole.summary.remarks;
+    remarks.push_back({RemarkKind::note, use_track(whole.recording, whole.tracked)});
+    add(remarks, RemarkKind::lost, std::span(whole.recording.info().losses).subspan(known));
     write_poses(whole.output.path() / "poses.txt", whole.recording);
 }
 
@@ -178,8 +183,9 @@ void filter_scans(Whole& whole) {
             if (fields.empty()) fields = maybe.scan->cloud.fields;
             whole.accepted[i] = true;
             if (!maybe.scan->truth_fault.empty()) {
-                whole.summary.notes.push_back(maybe.scan->truth_fault +
-                                              "; the scan is filtered, but not scored");
+                whole.summary.remarks.push_back(
+                    {RemarkKind::note,
+                     maybe.scan->truth_fault + "; the scan is filtered, but not scored"});
             }
             whole.continuity.add(i, std::exchange(gists[i], {}));
             keep_pace(whole, *start, maybe.scan->stamp);
@@ -205,7 +211,7 @@ void filter_scans(Whole& whole) {
     const bool none =
         std::find(whole.accepted.begin(), whole.accepted.end(), true) == whole.accepted.end();
     if (none && !whole.summary.interrupted) {
-        throw no_scan_is_usable(whole.recording, whole.summary.rejected);
+        throw no_scan_is_usable(whole.recording, whole.summary.remarks);
     }
 }
 
@@ -252,13 +258,12 @@ void write_results(Whole& whole) {
         }
         progress.advance();
     };
-    const auto watched = write_scans(whole.recording, scans, whole.job.config, whole.o.maps,
-                                     whole.output.path(), {.decide = decide, .use = use});
-    whole.summary.alarms = whole.continuity.breaks();
-    for (io::Alarm& alarm : io::alarms_of(watched)) {
-        whole.summary.alarms.push_back(io::explain(std::move(alarm), whole.recording,
-                                                   poses_from(whole), whole.job.config.odometry));
+    const WrittenScans written = write_scans(whole.recording, scans, whole.job.config, whole.o.maps,
+                                             whole.output.path(), {.decide = decide, .use = use});
+    for (const io::Alarm& alarm : whole.continuity.breaks()) {
+        whole.summary.add_alarm(alarm, whole.recording);
     }
+    whole.summary.add_watch(written, whole.recording, poses_from(whole), whole.job.config.odometry);
 }
 
 /// Third reading, over recordings with ground truth: which removed points lie near one that stays.
@@ -340,25 +345,25 @@ void describe(PageRun& run, const Whole& whole) {
     run.info["keyframes_total"] = s.contents.keyframes.empty() ? 0 : s.contents.observers;
     run.info["config"] = to_toml(config);
     run.info["counts"] = {{"static", s.still}, {"dynamic", s.dynamic}, {"unknown", s.unknown}};
-    run.info["notes"] = whole.recording.info().notes;
-    for (const std::string& note : s.notes) run.info["notes"].push_back(note);
+    run.info["notes"] = texts_of(s.remarks, RemarkKind::note);
     run.info["alarms"] = Json::array();
     for (const io::Alarm& alarm : s.alarms) {
         run.info["alarms"].push_back({{"text", io::to_text(alarm, whole.recording)},
                                       {"first", row_of(whole.scan_notes, alarm.first)},
                                       {"last", row_of(whole.scan_notes, alarm.last)}});
     }
-    run.info["rejected"] = s.rejected;
-    run.info["dropped"] = s.dropped;
+    run.info["rejected"] = texts_of(s.remarks, RemarkKind::rejected);
+    run.info["dropped"] = texts_of(s.remarks, RemarkKind::dropped);
 }
 
 /// The page that explains the result.
 void write_page(Whole& whole, const Json& metrics) {
     if (!whole.o.report) return;
     if (viewer_page().empty()) {
-        whole.summary.notes.emplace_back(
-            "no report.html: this command was built without the viewer; run script/bootstrap and "
-            "script/build");
+        whole.summary.remarks.push_back(
+            {RemarkKind::note,
+             "no report.html: this command was built without the viewer; run script/bootstrap and "
+             "script/build"});
         return;
     }
     const Maps& maps = whole.maps;
@@ -381,14 +386,12 @@ void write_page(Whole& whole, const Json& metrics) {
 void write_reports(Whole& whole) {
     const std::filesystem::path& folder = whole.output.path();
     read_contents(whole);
-    const Json metrics = metrics_of(whole.summary, whole.recording.info().losses);
+    const Json metrics = metrics_of(whole.summary);
     write_page(whole, metrics);
     io::write_file(folder / "metrics.json", text_of(metrics));
     whole.summary.seconds = whole.clock.total();
-    RunSummary logged = whole.summary;
-    logged.notes.insert(logged.notes.begin(), whole.recording.info().notes.begin(),
-                        whole.recording.info().notes.end());
-    io::write_file(folder / "run.log", log_of(whole.recording, logged) + to_text(whole.summary));
+    io::write_file(folder / "run.log",
+                   log_of(whole.recording, whole.summary) + to_text(whole.summary));
     io::write_file(folder / "timing.json", text_of(timing(whole)));
 }
 
@@ -399,7 +402,7 @@ RunSummary filter_whole(Job& job, const RunOptions& options, const OutputFolder&
     RunSummary summary;
     with_threads(options.threads, [&] {
         Whole whole{.job = job, .o = options, .output = output, .clock = clock, .live = live};
-        whole.summary.warnings = job.mistakes;
+        whole.summary.remarks = job.remarks;
         if (options.online) whole.worker.emplace(whole.maps, whole.limits(), whole.callbacks());
         io::write_file(output.path() / "config.toml", to_toml(job.config));
         filter_scans(whole);

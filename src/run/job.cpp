@@ -44,14 +44,6 @@ void refuse_unnamed(const RunOptions& o) {
     }
 }
 
-std::vector<std::string> mistakes_in(const io::Recording& recording, const RunOptions& o) {
-    std::vector<std::string> mistakes;
-    for (const auto& found : io::check_recording(recording, io::Depth::quick).findings) {
-        mistakes.push_back(warning_of(found, o.data));
-    }
-    return mistakes;
-}
-
 /// The beginning of every mark.
 std::string version_text() { return fmt::format("version {}\n", DYNAMIC_FILTER_VERSION); }
 
@@ -70,8 +62,7 @@ Job open_tiled_job(const RunOptions& o, std::vector<DriveSource> sources) {
             .fingerprints = {},
             .tracked = {},
             .has_given_poses = false,
-            .mistakes = {},
-            .mended_mistakes = {},
+            .remarks = {},
             .is_tiled = true,
             .part = {},
             .plan = {},
@@ -100,8 +91,7 @@ Job open_job(const RunOptions& o) {
             .fingerprints = {},
             .tracked = {},
             .has_given_poses = false,
-            .mistakes = {},
-            .mended_mistakes = {},
+            .remarks = {},
             .is_tiled = false,
             .part = {},
             .plan = {},
@@ -124,11 +114,14 @@ void choose_job_motion(Job& job, const RunOptions& o) {
         recording = io::with_notes(recording, chosen.notes);
         job.tracked = std::move(chosen.tracked);
         job.has_given_poses = opened.info().has_poses;
-        job.mistakes = mistakes_in(recording, o);
+        job.remarks = remarks_on(recording);
+        for (const auto& found : io::check_recording(recording, io::Depth::quick).findings) {
+            job.remarks.push_back({RemarkKind::warning, warning_of(found, o.data)});
+        }
         if (job.tracked.empty() || !job.has_given_poses) return;
         for (const io::Finding& found : io::mistakes_in_replaced(opened, recording)) {
-            auto& list = io::is_of_points(found) ? job.mistakes : job.mended_mistakes;
-            list.push_back(warning_of(found, o.data));
+            const auto kind = io::is_of_points(found) ? RemarkKind::warning : RemarkKind::mended;
+            job.remarks.push_back({kind, warning_of(found, o.data)});
         }
     });
     job.mark = version_text() + state_of(recording) + to_toml(job.config);
@@ -144,23 +137,11 @@ std::filesystem::path folder_of(const Job& job, std::size_t drive,
     return job.drives.size() == 1 ? output : output / "drives" / job.drives[drive].name;
 }
 
-void tell_notes(const Job& job, const RunOptions& o) {
-    const auto note = [&](const std::string& text) {
-        if (!o.quiet) fmt::print(stderr, "note: {}\n", text);
-    };
-    const auto warn = [](const std::string& text) { fmt::print(stderr, "warning: {}\n", text); };
-    if (!job.is_tiled) {
-        const io::Recording& recording = job.drives.front().recording;
-        for (const std::string& text : recording.info().notes) note(text);
-        for (const std::string& text : job.mistakes) warn(text);
-        for (const std::string& text : job.mended_mistakes) warn(text);
-        return;
-    }
-    for (const std::string& text : job.plan.warnings) warn(text);
-    for (std::size_t d = 0; d < job.drives.size(); ++d) {
-        const std::string name = job.drives[d].name + ": ";
-        for (const std::string& text : job.plan.drives[d].notes) note(name + text);
-        for (const std::string& text : job.plan.drives[d].warnings) warn(name + text);
+void tell_remarks(const Job& job, bool quiet) {
+    tell(job.remarks, "", quiet);
+    tell(job.plan.remarks, "", quiet);
+    for (std::size_t d = 0; d < job.plan.drives.size(); ++d) {
+        tell(job.plan.drives[d].remarks, job.drives[d].name + ": ", quiet);
     }
 }
 

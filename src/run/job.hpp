@@ -11,6 +11,7 @@
 #include "recording/drives.hpp"
 #include "run/part_file.hpp"
 #include "run/plan.hpp"
+#include "run/remarks.hpp"
 #include "run/run.hpp"
 
 namespace dynamic_filter::app {
@@ -23,10 +24,7 @@ struct Job {
     /// Of the only recording of a job in memory, by scan, if its poses were found or refined.
     std::vector<std::optional<Tracked>> tracked;
     bool has_given_poses = false;  ///< of that recording: it came with poses
-    /// What is wrong with it as it is filtered, as far as it shows beforehand.
-    std::vector<std::string> mistakes;
-    /// What was wrong with given poses that were replaced.
-    std::vector<std::string> mended_mistakes;
+    Remarks remarks;               ///< on that recording, as far as it shows beforehand
     /// True: filtered tile by tile, which needs a plan. False: one recording, in memory.
     bool is_tiled = false;
     std::optional<PartNumber> part;  ///< empty: all tiles
@@ -56,7 +54,7 @@ std::string mark_of_output(const Job& job, const RunOptions& options);
 std::filesystem::path folder_of(const Job& job, std::size_t drive,
                                 const std::filesystem::path& output);
 
-/// Tells the user what was found in the drives before they are filtered.
-void tell_notes(const Job& job, const RunOptions& options);
+/// Tells the user what is known of the recordings before they are filtered.
+void tell_remarks(const Job& job, bool quiet);
 
 }  // namespace dynamic_filter::app

@@ -75,9 +75,7 @@ int merge(const MergeOptions& o) {
     Job job = open_tiled_job(run, parts.front().sources);
     job.plan = read_plan(o.parts.front() / kTilesFolder / "plan", job.mark, job.config);
     prepare(job.drives, job.plan);
-    RunOptions only_warnings = run;
-    only_warnings.quiet = true;
-    tell_notes(job, only_warnings);
+    tell_remarks(job, true);
     const auto folders = find_tiles(job, parts, o.parts);
     for (const fs::path& folder : o.parts)
         refuse_same_folder(folder, o.output, "is one of the parts");

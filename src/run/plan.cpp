@@ -17,6 +17,7 @@
 #include "geometry/voxel.hpp"
 #include "recording/mask.hpp"
 #include "recording/scans.hpp"
+#include "run/summary.hpp"
 #include "tracking/pose_jump.hpp"
 
 namespace dynamic_filter::app {
@@ -90,7 +91,8 @@ public:
         : recording_(recording), drive_(drive) {}
 
     void reject(std::size_t i, const std::string& why) {
-        drive_.rejected.push_back(fmt::format("{}: {}", io::stem(recording_, i), why));
+        drive_.remarks.push_back(
+            {RemarkKind::rejected, fmt::format("{}: {}", io::stem(recording_, i), why)});
     }
 
     void add(std::size_t i, const io::FullScan& full, const Extent& extent) {
@@ -106,7 +108,7 @@ public:
         }
         if (!begin_stretch(i, now)) return;
         if (!full.truth_fault.empty()) {
-            drive_.notes.push_back(full.truth_fault + "; the scan is filtered, but not scored");
+            note(full.truth_fault + "; the scan is filtered, but not scored");
         }
         PlannedScan& scan = drive_.scans[i];
         scan.is_used = true;
@@ -148,12 +150,12 @@ private:
                 reject(i, "its stamp is before that of the scan before");
                 return false;
             }
-            drive_.notes.push_back(name +
-                                   ": stamps went back by more than a second; scans are not "
-                                   "compared with those before");
+            note(name +
+                 ": stamps went back by more than a second; scans are not compared with those "
+                 "before");
             next_stretch();
         } else if (const auto jump = pose_jump(before_last_, last_, now)) {
-            drive_.notes.push_back(
+            note(
                 fmt::format("{}: the pose is {:.0f} m from where the previous poses lead; scans "
                             "are not compared with those before",
                             name, *jump));
@@ -161,6 +163,7 @@ private:
         }
         return true;
     }
+    void note(const std::string& text) { drive_.remarks.push_back({RemarkKind::note, text}); }
     void next_stretch() {
         ++stretch_;
         before_last_ = last_ = std::nullopt;
@@ -214,40 +217,41 @@ void scan_drive(const Drive& drive, double voxel_size, PlannedDrive& planned, Vo
     for_each_scan(drive.recording, all_scans(drive.recording), measure, use);
     gate.finish();
     if (used_scans(planned).empty() && !interrupted()) {
-        throw InputError(drive.recording.info().root, "",
-                         "no scan is usable; the first was rejected: " + planned.rejected.front());
+        throw no_scan_is_usable(drive.recording, planned.remarks);
     }
 }
 
 /// Looks at motion and poses, as a run of one recording does; poses are not refined.
 void look_at(Drive& drive, const Config& config, const DataOptions& how, PlannedDrive& planned) {
     Config unrefined = config;
-    planned.notes = drive.recording.info().notes;
+    add(planned.remarks, RemarkKind::note, drive.recording.info().notes);
     const auto chosen =
         choose_motion(drive.recording, unrefined,
                       {.refine = "off", .deskew = how.deskew, .finds_body = !how.mask});
-    planned.notes.insert(planned.notes.end(), chosen.notes.begin(), chosen.notes.end());
+    add(planned.remarks, RemarkKind::note, chosen.notes);
+    add(planned.remarks, RemarkKind::lost, drive.recording.info().losses);
     planned.deskew = drive.recording.info().deskewed;
     planned.sweep = drive.recording.info().sweep;
     planned.own_body = drive.recording.info().own_body;
     planned.sensor_at = drive.recording.info().sensor_at.value_or(Eigen::Vector3d::Zero());
     for (const auto& found : io::check_recording(drive.recording, io::Depth::quick).findings) {
-        planned.warnings.push_back(warning_of(found, how));
+        planned.remarks.push_back({RemarkKind::warning, warning_of(found, how)});
     }
 }
 
 /// Drives that do not fit each other would see each other's walls as moving.
-std::vector<std::string> offsets_of(const std::vector<Drive>& drives) {
+Remarks offsets_of(const std::vector<Drive>& drives) {
     if (drives.size() < 2) return {};
     std::vector<const io::Recording*> recordings;
     for (const Drive& drive : drives) recordings.push_back(&drive.recording);
-    std::vector<std::string> warnings;
+    Remarks remarks;
     for (const io::Finding& finding : io::compare_drives(recordings)) {
-        warnings.push_back(
-            fmt::format("{}; {} (`dynamicfilter check` with all drives looks closer)", finding.what,
-                        finding.advice));
+        remarks.push_back(
+            {RemarkKind::warning,
+             fmt::format("{}; {} (`dynamicfilter check` with all drives looks closer)",
+                         finding.what, finding.advice)});
     }
-    return warnings;
+    return remarks;
 }
 
 bool has_points_in(const PlannedScan& scan, const Tile& tile) {
@@ -332,13 +336,13 @@ Plan make_plan(std::vector<Drive>& drives, const Config& config, const DataOptio
                std::size_t most_voxels, bool quiet) {
     Plan plan{.cell = cell_edge(config.map.voxel_size),
               .drives = std::vector<PlannedDrive>(drives.size()),
-              .warnings = {},
+              .remarks = {},
               .voxels = {},
               .most_voxels = most_voxels,
               .tiles = {}};
     std::size_t scans = 0;
     for (const Drive& drive : drives) scans += drive.recording.size();
-    plan.warnings = offsets_of(drives);
+    plan.remarks = offsets_of(drives);
     VoxelSample sample;
     Progress progress("plan", scans, quiet);
     for (std::size_t d = 0; d < drives.size() && !interrupted(); ++d) {

@@ -11,6 +11,7 @@
 
 #include "dynamic_filter/settings.hpp"
 #include "recording/drives.hpp"
+#include "run/remarks.hpp"
 #include "run/tiles.hpp"
 
 namespace dynamic_filter::app {
@@ -24,11 +25,9 @@ struct PlannedScan {
 };
 
 struct PlannedDrive {
-    std::vector<PlannedScan> scans;     ///< parallel to the recording
-    std::vector<std::string> rejected;  ///< "name: reason"
-    std::vector<std::string> notes;     ///< for the user
-    std::vector<std::string> warnings;  ///< what is suspicious in the recording
-    std::size_t most_points = 0;        ///< in a scan
+    std::vector<PlannedScan> scans;  ///< parallel to the recording
+    Remarks remarks;                 ///< on the recording
+    std::size_t most_points = 0;     ///< in a scan
     /// How the motion during each scan is undone, as Recording has it.
     bool deskew = false;
     std::optional<Sweep> sweep;
@@ -59,7 +58,7 @@ struct TileWork {
 struct Plan {
     double cell = 0.0;  ///< [m] edge of a cell
     std::vector<PlannedDrive> drives;
-    std::vector<std::string> warnings;        ///< about how the drives fit each other
+    Remarks remarks;                          ///< on how the drives fit each other
     std::map<PlaneCell, std::size_t> voxels;  ///< estimated, by cell
     std::size_t most_voxels = 0;              ///< in a tile
     std::vector<TileWork> tiles;

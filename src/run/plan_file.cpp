@@ -28,6 +28,20 @@ std::vector<T> from_blob(const PlanJson& json) {
     return values;
 }
 
+PlanJson json_of(const Remarks& remarks) {
+    PlanJson json = PlanJson::array();
+    for (const Remark& remark : remarks) json.push_back({name_of(remark.kind), remark.text});
+    return json;
+}
+
+Remarks remarks_of(const PlanJson& json) {
+    Remarks remarks;
+    for (const PlanJson& one : json) {
+        remarks.push_back({remark_kind_of(one.at(0).get<std::string>()), one.at(1)});
+    }
+    return remarks;
+}
+
 PlanJson json_of(const PlannedDrive& drive) {
     std::vector<std::uint8_t> used;
     std::vector<std::uint32_t> stretches, counts, counts_around;
@@ -45,8 +59,7 @@ PlanJson json_of(const PlannedDrive& drive) {
     PlanJson json{{"used", blob(used)},           {"parts", blob(stretches)},
                   {"positions", blob(positions)}, {"counts", blob(counts)},
                   {"cells", blob(cells)},         {"counts_around", blob(counts_around)},
-                  {"around", blob(around)},       {"rejected", drive.rejected},
-                  {"notes", drive.notes},         {"warnings", drive.warnings},
+                  {"around", blob(around)},       {"remarks", json_of(drive.remarks)},
                   {"deskew", drive.deskew},       {"most_points", drive.most_points}};
     const auto& at = drive.sensor_at;
     json["sensor_at"] = {at.x(), at.y(), at.z()};
@@ -66,9 +79,7 @@ PlanJson json_of(const PlannedDrive& drive) {
 
 PlannedDrive drive_of(const PlanJson& json) {
     PlannedDrive drive{.scans = {},
-                       .rejected = json.at("rejected"),
-                       .notes = json.at("notes"),
-                       .warnings = json.at("warnings"),
+                       .remarks = remarks_of(json.at("remarks")),
                        .most_points = json.at("most_points"),
                        .deskew = json.at("deskew"),
                        .sweep = {}};
@@ -113,7 +124,7 @@ PlannedDrive drive_of(const PlanJson& json) {
 void write_plan(const std::filesystem::path& file, const Plan& plan, const std::string& run) {
     PlanJson json{{"cell", plan.cell},
                   {"most_voxels", plan.most_voxels},
-                  {"warnings", plan.warnings},
+                  {"remarks", json_of(plan.remarks)},
                   {"drives", PlanJson::array()}};
     for (const PlannedDrive& drive : plan.drives) json["drives"].push_back(json_of(drive));
     std::vector<PlaneCell> cells;
@@ -134,7 +145,7 @@ Plan read_plan(const std::filesystem::path& file, const std::string& run, const 
     const PlanJson json = PlanJson::from_cbor(first, first + bytes.size());
     Plan plan{.cell = json.at("cell"),
               .drives = {},
-              .warnings = json.at("warnings"),
+              .remarks = remarks_of(json.at("remarks")),
               .voxels = {},
               .most_voxels = json.at("most_voxels"),
               .tiles = {}};

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <span>
 
 #include "base/exit_code.hpp"
 #include "base/progress.hpp"
@@ -91,7 +92,7 @@ RunResult run_whole(Job& job, const RunOptions& o, StageClock& clock) {
         output->commit();
         return tell_complete(output->name(), o.quiet);
     }
-    tell_notes(job, o);
+    tell_remarks(job, o.quiet);
     if (interrupted()) {
         fmt::print("interrupted before the first scan was filtered; nothing was written\n");
         return {.exit_code = kInterrupted, .recordings = {}};
@@ -100,10 +101,7 @@ RunResult run_whole(Job& job, const RunOptions& o, StageClock& clock) {
     clock.finish("prepare");
 
     RunSummary summary = filter_whole(job, o, *output, clock, live ? &*live : nullptr);
-    for (const std::string& note : summary.notes) {
-        if (!o.quiet) fmt::print(stderr, "note: {}\n", note);
-    }
-    const bool all = tell_losses("", recording, summary);
+    tell(std::span(summary.remarks).subspan(job.remarks.size()), "", o.quiet);
     if (summary.interrupted) {
         keep_interrupted(summary, recording.size(), o, *output);
         if (live) live->finish(output->name() / "report.html");
@@ -117,8 +115,8 @@ RunResult run_whole(Job& job, const RunOptions& o, StageClock& clock) {
     link_to_latest(o, *output);
     if (interrupted()) return {.exit_code = kInterrupted, .recordings = {}};  // all is there
     if (live) live->linger();
-    const bool well = all && job.mistakes.empty();
-    return {.exit_code = well ? kDone : kRejected, .recordings = {std::move(summary)}};
+    return {.exit_code = are_harmless(summary.remarks) ? kDone : kRejected,
+            .recordings = {std::move(summary)}};
 }
 
 // Several recordings, or one tile by tile.
@@ -211,7 +209,7 @@ RunResult run_tiles(Job& job, const RunOptions& o, StageClock& clock) {
         write_state(*output, mark);
         fs::create_directories(tiles_folder);
         find_plan(job, o, tiles_folder / kPlan);
-        tell_notes(job, o);
+        tell_remarks(job, o.quiet);
     }
     if (!workers->all_done(!interrupted())) return stop(output.get());
     if (!leads && !o.plan) use_plan(job, tiles_folder / kPlan);

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <utility>
 
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/parallel.hpp"
@@ -35,15 +36,6 @@ std::string shares_of(const RunSummary& s) {
                        share(s.dynamic), share(s.unknown));
 }
 
-std::vector<std::string> alarm_lines(const io::Recording& recording, const RunSummary& s) {
-    std::vector<std::string> lines;
-    for (const io::Alarm& alarm : s.alarms) {
-        lines.push_back(fmt::format("{}; {}{}", io::to_text(alarm, recording),
-                                    alarm.advice.starts_with("--") ? "try " : "", alarm.advice));
-    }
-    return lines;
-}
-
 }  // namespace
 
 void RunSummary::count(const Labels& labels) {
@@ -54,23 +46,40 @@ void RunSummary::count(const Labels& labels) {
     }
 }
 
-InputError no_scan_is_usable(const io::Recording& recording,
-                             const std::vector<std::string>& rejected) {
-    return {recording.info().root, "",
-            "no scan is usable; the first was rejected: " + rejected.front()};
+void RunSummary::add_alarm(const io::Alarm& alarm, const io::Recording& recording) {
+    remarks.push_back({RemarkKind::alarm,
+                       fmt::format("{}; {}{}", io::to_text(alarm, recording),
+                                   alarm.advice.starts_with("--") ? "try " : "", alarm.advice)});
+    alarms.push_back(alarm);
 }
 
-Json metrics_of(const RunSummary& s, const std::vector<std::string>& losses) {
+void RunSummary::add_watch(const WrittenScans& written, const io::Recording& recording,
+                           io::PosesFrom from, const OdometryConfig& config) {
+    for (io::Alarm& alarm : io::alarms_of(written.watch)) {
+        add_alarm(io::explain(std::move(alarm), recording, from, config), recording);
+    }
+    if (const auto company = io::company_of(written.beside)) {
+        remarks.push_back({RemarkKind::note, *company});
+    }
+}
+
+InputError no_scan_is_usable(const io::Recording& recording, const Remarks& remarks) {
+    return {recording.info().root, "",
+            "no scan is usable; the first was rejected: " +
+                texts_of(remarks, RemarkKind::rejected).front()};
+}
+
+Json metrics_of(const RunSummary& s) {
     Json json = Json::object();
     if (s.scores) json = to_json(*s.scores);
     if (s.instant_scores) json["instant"] = to_json(*s.instant_scores);
     if (s.scores) json["voxel_size"] = eval::kVoxelSize;
     json["scans"] = s.scans;
     json["points"] = {{"static", s.still}, {"dynamic", s.dynamic}, {"unknown", s.unknown}};
-    json["rejected"] = s.rejected;
-    json["dropped"] = s.dropped;
-    json["lost"] = losses;
-    json["warnings"] = s.warnings;
+    json["rejected"] = texts_of(s.remarks, RemarkKind::rejected);
+    json["dropped"] = texts_of(s.remarks, RemarkKind::dropped);
+    json["lost"] = texts_of(s.remarks, RemarkKind::lost);
+    json["warnings"] = texts_of(s.remarks, RemarkKind::warning);
     json["alarms"] = Json::array();
     for (const io::Alarm& alarm : s.alarms) {
         json["alarms"].push_back({{"what", alarm.what},
@@ -86,15 +95,7 @@ std::string log_of(const io::Recording& recording, const RunSummary& s) {
     const auto root = std::filesystem::absolute(recording.info().root).lexically_normal();
     std::string log = fmt::format("input    {} ({}, {} scans)\n", root.string(),
                                   recording.info().layout, recording.size());
-    const auto add = [&](const char* what, const std::vector<std::string>& lines) {
-        for (const std::string& line : lines) log += fmt::format("{:<8} {}\n", what, line);
-    };
-    add("note", s.notes);
-    add("warning", s.warnings);
-    add("lost", recording.info().losses);
-    add("rejected", s.rejected);
-    add("dropped", s.dropped);
-    add("alarm", alarm_lines(recording, s));
+    log += to_text(s.remarks);
     if (const auto& beams = s.contents.beams) {
         log += fmt::format("beams    {:.2f} deg along azimuth, {:.2f} deg along elevation\n",
                            beams->azimuth_spacing * 180.0 / std::numbers::pi,
@@ -121,8 +122,8 @@ Json timing_of(std::size_t scans, const StageClock& clock, int threads) {
 }
 
 std::string points_text(const RunSummary& s) {
-    return fmt::format("{} scans ({} rejected); {} points: {}", s.scans, s.rejected.size(),
-                       s.points, shares_of(s));
+    return fmt::format("{} scans ({} rejected); {} points: {}", s.scans,
+                       texts_of(s.remarks, RemarkKind::rejected).size(), s.points, shares_of(s));
 }
 
 std::string scores_text(const RunSummary& s) {
@@ -132,8 +133,9 @@ std::string scores_text(const RunSummary& s) {
 
 std::string to_text(const RunSummary& s) {
     std::string text =
-        fmt::format("scans    {} ({} rejected), {} {}, {} voxels\n", s.scans, s.rejected.size(),
-                    s.contents.observers, s.contents.observer, s.contents.voxels) +
+        fmt::format("scans    {} ({} rejected), {} {}, {} voxels\n", s.scans,
+                    texts_of(s.remarks, RemarkKind::rejected).size(), s.contents.observers,
+                    s.contents.observer, s.contents.voxels) +
         fmt::format("points   {}: {}\n", s.points, shares_of(s)) +
         fmt::format("speed    {:.1f} scans/s of the whole run ({:.1f} s, {:.1f} s of CPU)",
                     per_second(s.scans, s.seconds.wall), s.seconds.wall, s.seconds.cpu);
@@ -141,19 +143,6 @@ std::string to_text(const RunSummary& s) {
         text += fmt::format("; {} alone {:.1f} {}/s", rate.stage, rate.per_second, rate.item);
     }
     return text + '\n' + scores_text(s);
-}
-
-bool tell_losses(const std::string& name, const io::Recording& recording, const RunSummary& s) {
-    const auto tell = [&](const char* what, const std::vector<std::string>& lines) {
-        for (const std::string& line : lines) {
-            fmt::print(stderr, "{:<8} {}{}\n", what, name, line);
-        }
-        return lines.empty();
-    };
-    const bool all_read = tell("lost", recording.info().losses),
-               none_rejected = tell("rejected", s.rejected),
-               none_dropped = tell("dropped", s.dropped);
-    return tell("alarm", alarm_lines(recording, s)) && all_read && none_rejected && none_dropped;
 }
 
 }  // namespace dynamic_filter::app

@@ -16,16 +16,15 @@
 #include "dynamic_filter/filter.hpp"
 #include "dynamic_filter/recording.hpp"
 #include "dynamic_filter/scores.hpp"
+#include "run/remarks.hpp"
+#include "run/write_scans.hpp"
 
 namespace dynamic_filter::app {
 
 struct RunSummary {
     std::size_t scans = 0;  ///< that have a verdict
-    std::vector<std::string> rejected;
-    std::vector<std::string> dropped;  ///< online: what it could not keep up with
-    std::vector<std::string> notes;
-    std::vector<std::string> warnings;  ///< what is suspicious in the recording
-    std::vector<io::Alarm> alarms;      ///< what the watch finds in the result
+    Remarks remarks;
+    std::vector<io::Alarm> alarms;  ///< those of the remarks, with their scans
     std::size_t points = 0, still = 0, dynamic = 0, unknown = 0;
     MapContents contents;  ///< of the filter's maps; empty if tiles were filtered
     Seconds seconds;       ///< of the whole process, until the reports were written
@@ -40,15 +39,17 @@ struct RunSummary {
 
     /// Counts a scan with these final labels.
     void count(const Labels& labels);
+    void add_alarm(const io::Alarm& alarm, const io::Recording& recording);
+    /// Adds what the watch finds in the result.
+    void add_watch(const WrittenScans& written, const io::Recording& recording, io::PosesFrom from,
+                   const OdometryConfig& config);
 };
 
 /// The scans that cannot be used.
-InputError no_scan_is_usable(const io::Recording& recording,
-                             const std::vector<std::string>& rejected);
+InputError no_scan_is_usable(const io::Recording& recording, const Remarks& remarks);
 
-/// metrics.json. `losses`: what of the recording cannot be read.
-nlohmann::ordered_json metrics_of(const RunSummary& summary,
-                                  const std::vector<std::string>& losses);
+/// metrics.json.
+nlohmann::ordered_json metrics_of(const RunSummary& summary);
 /// run.log but for its closing lines.
 std::string log_of(const io::Recording& recording, const RunSummary& summary);
 /// timing.json as far as all runs have it.
@@ -60,10 +61,5 @@ std::string points_text(const RunSummary& summary);
 std::string scores_text(const RunSummary& summary);
 /// The closing lines of a recording that was filtered in memory.
 std::string to_text(const RunSummary& summary);
-
-/// Prints what was rejected, dropped and lost, and the alarms; each line begins with `name`. True
-/// if there is none.
-bool tell_losses(const std::string& name, const io::Recording& recording,
-                 const RunSummary& summary);
 
 }  // namespace dynamic_filter::app

@@ -14,10 +14,9 @@
 
 namespace dynamic_filter::app {
 
-std::vector<io::ScanWatch> write_scans(const io::Recording& recording,
-                                       const std::vector<std::size_t>& scans, const Config& config,
-                                       bool with_maps, const std::filesystem::path& folder,
-                                       const ScanResults& results) {
+WrittenScans write_scans(const io::Recording& recording, const std::vector<std::size_t>& scans,
+                         const Config& config, bool with_maps, const std::filesystem::path& folder,
+                         const ScanResults& results) {
     const auto labels = folder / "labels";
     std::filesystem::create_directories(labels);
     MapFiles maps(folder, config.map.keep_unknown, recording.info().layout == "benchmark");
@@ -31,12 +30,15 @@ std::vector<io::ScanWatch> write_scans(const io::Recording& recording,
     std::vector<Verdict> verdicts(recording.size());
     std::vector<MapFiles::Records> records(recording.size());
     std::vector<Gaps> gaps(recording.size());
-    std::vector<io::ScanWatch> seen(recording.size());
+    WrittenScans seen{.watch = std::vector<io::ScanWatch>(recording.size()),
+                      .beside = std::vector<io::DynamicBeside>(recording.size())};
     const auto decide = [&](std::size_t i, MaybeScan& maybe) {
         const io::FullScan& scan = *maybe.scan;
         verdicts[i] = results.decide(i, scan);
         io::label_own_body(scan.own, verdicts[i].labels);
-        seen[i] = io::watch_scan(i, scan.points, scan.T_world_sensor, verdicts[i].labels);
+        const Labels& final = verdicts[i].labels;
+        seen.watch[i] = io::watch_scan(i, scan.points, scan.T_world_sensor, final);
+        seen.beside[i] = io::dynamic_beside(scan.points, scan.T_world_sensor, final);
         io::write_labels(io::label_file(labels, io::stem(recording, i)), verdicts[i].labels,
                          io::Durable::contents);
         if (with_maps) {
@@ -56,9 +58,12 @@ std::vector<io::ScanWatch> write_scans(const io::Recording& recording,
     std::vector<Gaps> of_scans;
     for (const std::size_t i : scans) of_scans.push_back(std::move(gaps[i]));
     write_gaps(folder, of_scans);
-    std::vector<io::ScanWatch> watch;
-    for (const std::size_t i : scans) watch.push_back(seen[i]);
-    return watch;
+    WrittenScans written;
+    for (const std::size_t i : scans) {
+        written.watch.push_back(seen.watch[i]);
+        written.beside.push_back(seen.beside[i]);
+    }
+    return written;
 }
 
 }  // namespace dynamic_filter::app

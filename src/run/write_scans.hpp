@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "check/company.hpp"
 #include "check/watch.hpp"
 #include "dynamic_filter/filter.hpp"
 #include "dynamic_filter/recording.hpp"
@@ -20,12 +21,17 @@ struct ScanResults {
     std::function<void(std::size_t, const io::FullScan&, const Verdict&)> use;
 };
 
+/// What the watch sees of the scans that are written, in order.
+struct WrittenScans {
+    std::vector<io::ScanWatch> watch;
+    std::vector<io::DynamicBeside> beside;
+};
+
 /// Writes what a run leaves of these scans into `folder`: a label file for each, and with `maps`
-/// static_map.pcd, dynamic_points.pcd and map_gaps.bin. Returns what the watch sees of each. Throws
-/// InputError if a scan cannot be read any more.
-std::vector<io::ScanWatch> write_scans(const io::Recording& recording,
-                                       const std::vector<std::size_t>& scans, const Config& config,
-                                       bool maps, const std::filesystem::path& folder,
-                                       const ScanResults& results);
+/// static_map.pcd, dynamic_points.pcd and map_gaps.bin. Throws InputError if a scan cannot be read
+/// any more.
+WrittenScans write_scans(const io::Recording& recording, const std::vector<std::size_t>& scans,
+                         const Config& config, bool maps, const std::filesystem::path& folder,
+                         const ScanResults& results);
 
 }  // namespace dynamic_filter::app

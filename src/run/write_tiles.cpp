@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "base/exit_code.hpp"
 #include "base/progress.hpp"
@@ -113,9 +114,7 @@ RunSummary write_drive(const Job& job, const Tiles& tiles, std::uint32_t number,
     const Drive& drive = job.drives[number];
     const PlannedDrive& planned = job.plan.drives[number];
     RunSummary summary;
-    summary.rejected = planned.rejected;
-    summary.notes = planned.notes;
-    summary.warnings = planned.warnings;
+    summary.remarks = planned.remarks;
     const auto decide = [&](std::size_t i, const io::FullScan& full) {
         return verdict_of(job, tiles, {number, static_cast<std::uint32_t>(i)}, full);
     };
@@ -125,15 +124,11 @@ RunSummary write_drive(const Job& job, const Tiles& tiles, std::uint32_t number,
     };
     const DataOptions how = options_of(job.sources, o.data)[number];
     write_placed(folder, placed_of(drive.recording, how, job.fingerprints[number]));
-    const auto watched = write_scans(drive.recording, used_scans(planned), job.config, o.maps,
-                                     folder, {.decide = decide, .use = use});
-    for (io::Alarm& alarm : io::alarms_of(watched)) {
-        summary.alarms.push_back(io::explain(std::move(alarm), drive.recording,
-                                             io::PosesFrom::given, job.config.odometry));
-    }
+    const WrittenScans written = write_scans(drive.recording, used_scans(planned), job.config,
+                                             o.maps, folder, {.decide = decide, .use = use});
+    summary.add_watch(written, drive.recording, io::PosesFrom::given, job.config.odometry);
     add_scores(tiles, number, summary);
-    io::write_file(folder / "metrics.json",
-                   text_of(metrics_of(summary, drive.recording.info().losses)));
+    io::write_file(folder / "metrics.json", text_of(metrics_of(summary)));
     io::write_file(folder / "run.log", log_of(drive.recording, summary) + "scans    " +
                                            points_text(summary) + "\n" + scores_text(summary));
     return summary;
@@ -226,8 +221,7 @@ std::vector<RunSummary> write_drives(const Job& job, const Tiles& tiles, const R
 Json metrics_of_all(const Job& job, const std::vector<RunSummary>& summaries) {
     Json drives = Json::object();
     for (std::size_t d = 0; d < job.drives.size(); ++d) {
-        drives[job.drives[d].name] =
-            metrics_of(summaries[d], job.drives[d].recording.info().losses);
+        drives[job.drives[d].name] = metrics_of(summaries[d]);
     }
     if (job.drives.size() == 1) return drives.front();
     return {{"drives", drives}};
@@ -273,9 +267,7 @@ std::string write_reports(const Job& job, const Totals& totals,
     io::write_file(folder / "timing.json", text_of(timing));
     const std::string text = to_text(job, totals, drives, clock.total());
     if (!several) return text;
-    std::string log;
-    for (const std::string& line : job.plan.warnings) log += "warning  " + line + "\n";
-    io::write_file(folder / "run.log", log + text);
+    io::write_file(folder / "run.log", to_text(job.plan.remarks) + text);
     return text;
 }
 
@@ -301,12 +293,14 @@ RunResult finish_tiles(const Job& job, const TileFolders& folders, const RunOpti
     if (owns) fs::remove_all(own);
     output.commit();
     if (!o.quiet) fmt::print("{}written  {}\n", text, output.name().string());
-    bool all = true;
+    bool is_well = are_harmless(job.plan.remarks);
     for (std::size_t d = 0; d < job.drives.size(); ++d) {
-        all &=
-            tell_losses(job.drives[d].name + ": ", job.drives[d].recording, result.recordings[d]);
+        const Remarks& remarks = result.recordings[d].remarks;
+        const std::size_t told = job.plan.drives[d].remarks.size();
+        tell(std::span(remarks).subspan(told), job.drives[d].name + ": ", o.quiet);
+        is_well = is_well && are_harmless(remarks);
     }
-    result.exit_code = all ? kDone : kRejected;
+    result.exit_code = is_well ? kDone : kRejected;
     return result;
 }
 

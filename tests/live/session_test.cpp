@@ -48,17 +48,21 @@ struct Running {
     FakeBus bus;
     std::optional<Outputs> outputs;
     std::optional<Session> session;
+    std::size_t pushed = 0;
 
     Session& start(Recorder* recorder = nullptr) {
         outputs.emplace(config, bus.used, bus);
         return session.emplace(config, *outputs, recorder);
     }
-    /// One after the other, as a sensor that is slow enough sends them.
+    /// One after the other, as a sensor that is slow enough sends them: each is published before
+    /// the next one comes.
+    void push(const Scan& scan) {
+        session->push(live(scan));
+        ++pushed;
+        eventually([&] { return session->published() == pushed && !session->is_busy(); });
+    }
     void push_all(int scans) {
-        for (const auto& s : dynamic_filter::test::drive(scans, true)) {
-            eventually([&] { return !session->is_busy(); });
-            session->push(live(s.scan));
-        }
+        for (const auto& s : dynamic_filter::test::drive(scans, true)) push(s.scan);
     }
     std::size_t count(const std::string& topic) const { return bus.published(topic).size(); }
 };
@@ -101,8 +105,7 @@ TEST(Session, GroundThatIsLostRaisesAnAlarm) {
         Session& session = running.start();
         for (auto& s : dynamic_filter::test::drive(60, true)) {
             if (s.scan.index % 2 == 1) s.scan.T_world_sensor.translation().z() += wrong;
-            eventually([&] { return !session.is_busy(); });
-            session.push(live(s.scan));
+            running.push(s.scan);
         }
         session.stop();
         EXPECT_EQ(session.alarm().empty(), wrong == 0.0) << session.alarm();

@@ -88,7 +88,7 @@ TEST(Plan, AJumpOfThePosesBeginsAnotherPart) {
     EXPECT_EQ(scans[9].stretch, 0U);
     EXPECT_EQ(scans[10].stretch, 1U);
     EXPECT_EQ(scans[19].stretch, 1U);
-    const auto& notes = p.plan.drives[0].notes;
+    const auto notes = texts_of(p.plan.drives[0].remarks, RemarkKind::note);
     EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
         return note.find("500 m from where the previous poses lead") != std::string::npos;
     }));
@@ -125,8 +125,8 @@ TEST(Plan, PartsHaveEveryTileOnceAndSimilarWork) {
 
 TEST(Plan, IsTheSameWhenReadBack) {
     Planned p(40, 10.0, 4000, 30);
-    p.plan.drives[0].warnings = {"the poses jitter"};
-    p.plan.warnings = {"the frames differ"};
+    p.plan.drives[0].remarks.push_back({RemarkKind::warning, "the poses jitter"});
+    p.plan.remarks = {{RemarkKind::warning, "the frames differ"}};
     p.plan.drives[0].scans[7].is_used = false;
     cut_into_tiles(p.plan, p.config);
     write_plan(p.folder / "plan", p.plan, "run");
@@ -138,9 +138,8 @@ TEST(Plan, IsTheSameWhenReadBack) {
         EXPECT_EQ(read.tiles[t].inside, p.plan.tiles[t].inside);
         EXPECT_EQ(read.tiles[t].voxels, p.plan.tiles[t].voxels);
     }
-    EXPECT_EQ(read.drives[0].notes, p.plan.drives[0].notes);
-    EXPECT_EQ(read.warnings, p.plan.warnings);
-    EXPECT_EQ(read.drives[0].warnings, p.plan.drives[0].warnings);
+    EXPECT_EQ(read.drives[0].remarks, p.plan.drives[0].remarks);
+    EXPECT_EQ(read.remarks, p.plan.remarks);
     EXPECT_EQ(used_scans(read.drives[0]).size(), 39U);
     EXPECT_EQ(read.drives[0].most_points, p.plan.drives[0].most_points);
     EXPECT_EQ(read.drives[0].scans[31].stretch, 1U);

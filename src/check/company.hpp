@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+/// Company: what moves beside the sensor wherever that goes, such as the person who steers a robot.
+/// It is no part of the own body, because it is not fixed to the sensor.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "dynamic_filter/types.hpp"
+
+namespace dynamic_filter::io {
+
+/// Numbers of dynamic points in sectors around the sensor, of 15 deg from the x axis on, and where
+/// they lie on average. Seen along the z axis of the sensor frame.
+struct DynamicBeside {
+    static constexpr std::size_t kSectors = 24;
+    std::array<std::size_t, kSectors> points{};
+    std::array<double, kSectors> distance{};           ///< [m] sums
+    Eigen::Vector3d sensor = Eigen::Vector3d::Zero();  ///< [m] in the world
+};
+
+/// Counts the dynamic points that are 0.5 to 5 m from the sensor. `points` are in the sensor frame,
+/// `labels` parallel to them.
+DynamicBeside dynamic_beside(const Points& points, const Pose& T_world_sensor,
+                             const Labels& labels);
+
+/// A sentence on what goes along with the sensor; empty if nothing does. In a crowd, something
+/// dynamic is on all sides, and nothing is said. Scans are in order.
+std::optional<std::string> company_of(std::span<const DynamicBeside> scans);
+
+}  // namespace dynamic_filter::io
