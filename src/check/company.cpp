@@ -17,6 +17,7 @@ constexpr std::size_t kFewPoints = 5;
 constexpr double kStep = 0.5;          // [m] from one counted scan to the next
 constexpr std::size_t kFewScans = 20;  // 10 m of way
 constexpr double kAlways = 0.9;        // of the scans, on the side of the company
+constexpr double kSways = 0.15;        // [m] deviation of its places, in the sensor frame
 constexpr double kElsewhere = 0.3;     // of the scans, on the side with the median
 
 /// One side: a sector and those beside it.
@@ -37,6 +38,12 @@ std::vector<const DynamicBeside*> on_the_way(std::span<const DynamicBeside> scan
 
 }  // namespace
 
+std::array<Eigen::Vector2d, kSectors> DynamicBeside::all_zero() {
+    std::array<Eigen::Vector2d, kSectors> zero;
+    zero.fill(Eigen::Vector2d::Zero());
+    return zero;
+}
+
 DynamicBeside dynamic_beside(const Points& points, const Pose& T_world_sensor,
                              const Labels& labels) {
     DynamicBeside beside;
@@ -49,7 +56,7 @@ DynamicBeside dynamic_beside(const Points& points, const Pose& T_world_sensor,
             std::atan2(points[i].y(), points[i].x()) / (2.0 * std::numbers::pi) + 1.0;
         const std::size_t sector = static_cast<std::size_t>(turn * kSectors) % kSectors;
         ++beside.points[sector];
-        beside.distance[sector] += distance;
+        beside.sum[sector] += points[i].head<2>().cast<double>();
     }
     return beside;
 }
@@ -57,38 +64,36 @@ DynamicBeside dynamic_beside(const Points& points, const Pose& T_world_sensor,
 std::optional<std::string> company_of(std::span<const DynamicBeside> scans) {
     const std::vector<const DynamicBeside*> way = on_the_way(scans);
     if (way.size() < kFewScans) return std::nullopt;
-    std::array<std::size_t, kSectors> seen{};
+    std::array<std::vector<Eigen::Vector2d>, kSectors> places;  // one per scan that shows something
     for (const DynamicBeside* scan : way) {
         for (std::size_t s = 0; s < kSectors; ++s) {
             std::size_t points = 0;
-            for (const std::size_t k : side_of(s)) points += scan->points[k];
-            seen[s] += points >= kFewPoints ? 1 : 0;
+            Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+            for (const std::size_t k : side_of(s)) {
+                points += scan->points[k];
+                sum += scan->sum[k];
+            }
+            if (points >= kFewPoints) places[s].emplace_back(sum / static_cast<double>(points));
         }
     }
-    const auto most =
-        static_cast<std::size_t>(std::max_element(seen.begin(), seen.end()) - seen.begin());
-    std::array<std::size_t, kSectors> sorted = seen;
-    std::sort(sorted.begin(), sorted.end());
-    const auto all = static_cast<double>(way.size());
-    const double share = static_cast<double>(seen[most]) / all;
-    if (share < kAlways || static_cast<double>(sorted[kSectors / 2]) > kElsewhere * all) {
-        return std::nullopt;
-    }
-    double distance = 0.0;
-    std::size_t points = 0;
-    for (const DynamicBeside* scan : way) {
-        for (const std::size_t k : side_of(most)) {
-            distance += scan->distance[k];
-            points += scan->points[k];
-        }
-    }
+    const auto by_number = [](const auto& a, const auto& b) { return a.size() < b.size(); };
+    const auto most = std::max_element(places.begin(), places.end(), by_number);
+    const std::vector<Eigen::Vector2d> company = *most;
+    std::nth_element(places.begin(), places.begin() + kSectors / 2, places.end(), by_number);
+    const auto share = [&](const std::vector<Eigen::Vector2d>& of) {
+        return static_cast<double>(of.size()) / static_cast<double>(way.size());
+    };
+    if (share(company) < kAlways || share(places[kSectors / 2]) > kElsewhere) return std::nullopt;
+    Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+    for (const auto& place : company) mean += place / static_cast<double>(company.size());
+    double deviation = 0.0;
+    for (const auto& place : company) deviation += (place - mean).squaredNorm();
+    if (std::sqrt(deviation / static_cast<double>(company.size())) < kSways) return std::nullopt;
     return fmt::format(
         "something that moves goes along with the sensor, such as a person who follows: in {:.0f} "
-        "% "
-        "of the scans on the way, about {:.1f} m from it, at {:.0f} deg counterclockwise from its "
-        "x axis; it is removed with all else that moves",
-        100.0 * share, distance / static_cast<double>(points),
-        (static_cast<double>(most) + 0.5) * 360.0 / kSectors);
+        "% of the scans on the way, around x {:.1f} m, y {:.1f} m from the sensor; it is removed "
+        "with all else that moves",
+        100.0 * share(company), mean.x(), mean.y());
 }
 
 }  // namespace dynamic_filter::io

@@ -13,13 +13,15 @@
 
 namespace dynamic_filter::io {
 
-/// Numbers of dynamic points in sectors around the sensor, of 15 deg from the x axis on, and where
-/// they lie on average. Seen along the z axis of the sensor frame.
+/// The dynamic points in sectors around the sensor, of 15 deg from the x axis on, seen along the z
+/// axis of the sensor frame.
 struct DynamicBeside {
     static constexpr std::size_t kSectors = 24;
-    std::array<std::size_t, kSectors> points{};
-    std::array<double, kSectors> distance{};           ///< [m] sums
-    Eigen::Vector3d sensor = Eigen::Vector3d::Zero();  ///< [m] in the world
+    std::array<std::size_t, kSectors> points{};              ///< their numbers
+    std::array<Eigen::Vector2d, kSectors> sum = all_zero();  ///< [m] of their positions
+    Eigen::Vector3d sensor = Eigen::Vector3d::Zero();        ///< [m] in the world
+
+    static std::array<Eigen::Vector2d, kSectors> all_zero();
 };
 
 /// Counts the dynamic points that are 0.5 to 5 m from the sensor. `points` are in the sensor frame,
@@ -28,7 +30,8 @@ DynamicBeside dynamic_beside(const Points& points, const Pose& T_world_sensor,
                              const Labels& labels);
 
 /// A sentence on what goes along with the sensor; empty if nothing does. In a crowd, something
-/// dynamic is on all sides, and nothing is said. Scans are in order.
+/// dynamic is on all sides, and nothing is said; nor of what stays at its place, such as a part of
+/// the vehicle that is not in the boxes of the own body. Scans are in order.
 std::optional<std::string> company_of(std::span<const DynamicBeside> scans);
 
 }  // namespace dynamic_filter::io

@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "base/progress.hpp"
-#include "check/continuity.hpp"
 #include "check/motion.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
@@ -55,9 +54,8 @@ struct Whole {
     Eigen::Vector3d scoring_origin = Eigen::Vector3d::Zero();
     std::vector<Notice> notices{};
     Maps maps{job.config, limits()};
-    io::Continuity continuity{};  ///< of the scans that were accepted
-    ScanQueue queue{};            ///< refuses what cannot be judged; scans do not wait in it
-    std::uint64_t stretch = 0;    ///< of the scan before
+    ScanQueue queue{};          ///< refuses what cannot be judged; scans do not wait in it
+    std::uint64_t stretch = 0;  ///< of the scan before
     /// With --online: takes the scans, and judges them in a thread of its own.
     std::optional<ScanWorker> worker{};
 
@@ -172,7 +170,6 @@ void filter_scans(Whole& whole) {
     whole.tracked.resize(whole.recording.size());
     std::vector<io::Field> fields;
     std::optional<Clock::time_point> start;
-    std::vector<io::ScanGist> gists(whole.recording.size());
     const auto use = [&](std::size_t i, MaybeScan& maybe) {
         if (!start) start = Clock::now();
         if (!maybe.scan) {
@@ -187,7 +184,6 @@ void filter_scans(Whole& whole) {
                     {RemarkKind::note,
                      maybe.scan->truth_fault + "; the scan is filtered, but not scored"});
             }
-            whole.continuity.add(i, std::exchange(gists[i], {}));
             keep_pace(whole, *start, maybe.scan->stamp);
             if (whole.live) {
                 whole.live->feed().expect(maybe.scan->points, maybe.scan->T_world_sensor,
@@ -198,11 +194,7 @@ void filter_scans(Whole& whole) {
         progress.advance();
         return !(whole.summary.interrupted = interrupted());
     };
-    const auto prepare = [&](std::size_t i, MaybeScan& maybe) {
-        if (maybe.scan->has_pose)
-            gists[i] = io::gist_of(maybe.scan->points, maybe.scan->T_world_sensor);
-    };
-    for_each_scan(whole.recording, all_scans(whole.recording), prepare, use);
+    for_each_scan(whole.recording, all_scans(whole.recording), {}, use);
     finish(whole);
     add_notices(whole);
     use_poses(whole);
@@ -260,9 +252,6 @@ void write_results(Whole& whole) {
     };
     const WrittenScans written = write_scans(whole.recording, scans, whole.job.config, whole.o.maps,
                                              whole.output.path(), {.decide = decide, .use = use});
-    for (const io::Alarm& alarm : whole.continuity.breaks()) {
-        whole.summary.add_alarm(alarm, whole.recording);
-    }
     whole.summary.add_watch(written, whole.recording, poses_from(whole), whole.job.config.odometry);
 }
 

@@ -55,6 +55,7 @@ void RunSummary::add_alarm(const io::Alarm& alarm, const io::Recording& recordin
 
 void RunSummary::add_watch(const WrittenScans& written, const io::Recording& recording,
                            io::PosesFrom from, const OdometryConfig& config) {
+    for (const io::Alarm& alarm : written.breaks) add_alarm(alarm, recording);
     for (io::Alarm& alarm : io::alarms_of(written.watch)) {
         add_alarm(io::explain(std::move(alarm), recording, from, config), recording);
     }

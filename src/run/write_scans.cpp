@@ -30,14 +30,18 @@ WrittenScans write_scans(const io::Recording& recording, const std::vector<std::
     std::vector<Verdict> verdicts(recording.size());
     std::vector<MapFiles::Records> records(recording.size());
     std::vector<Gaps> gaps(recording.size());
+    std::vector<io::ScanGist> gists(recording.size());
+    io::Continuity continuity;
     WrittenScans seen{.watch = std::vector<io::ScanWatch>(recording.size()),
-                      .beside = std::vector<io::DynamicBeside>(recording.size())};
+                      .beside = std::vector<io::DynamicBeside>(recording.size()),
+                      .breaks = {}};
     const auto decide = [&](std::size_t i, MaybeScan& maybe) {
         const io::FullScan& scan = *maybe.scan;
         verdicts[i] = results.decide(i, scan);
         io::label_own_body(scan.own, verdicts[i].labels);
         const Labels& final = verdicts[i].labels;
         seen.watch[i] = io::watch_scan(i, scan.points, scan.T_world_sensor, final);
+        gists[i] = io::gist_of(scan.points, scan.T_world_sensor);
         seen.beside[i] = io::dynamic_beside(scan.points, scan.T_world_sensor, final);
         io::write_labels(io::label_file(labels, io::stem(recording, i)), verdicts[i].labels,
                          io::Durable::contents);
@@ -48,6 +52,7 @@ WrittenScans write_scans(const io::Recording& recording, const std::vector<std::
     };
     const auto use = [&](std::size_t i, MaybeScan& maybe) {
         if (!maybe.scan) throw changed_in_use(recording, i, maybe.error);
+        continuity.add(i, std::exchange(gists[i], {}));
         if (with_maps) maps.append(std::exchange(records[i], {}));
         results.use(i, *maybe.scan, std::exchange(verdicts[i], {}));
         return true;  // what is filtered is written even after an interruption; a second one kills
@@ -58,7 +63,7 @@ WrittenScans write_scans(const io::Recording& recording, const std::vector<std::
     std::vector<Gaps> of_scans;
     for (const std::size_t i : scans) of_scans.push_back(std::move(gaps[i]));
     write_gaps(folder, of_scans);
-    WrittenScans written;
+    WrittenScans written{.watch = {}, .beside = {}, .breaks = continuity.breaks()};
     for (const std::size_t i : scans) {
         written.watch.push_back(seen.watch[i]);
         written.beside.push_back(seen.beside[i]);

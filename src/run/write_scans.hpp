@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "check/company.hpp"
+#include "check/continuity.hpp"
 #include "check/watch.hpp"
 #include "dynamic_filter/filter.hpp"
 #include "dynamic_filter/recording.hpp"
@@ -25,6 +26,7 @@ struct ScanResults {
 struct WrittenScans {
     std::vector<io::ScanWatch> watch;
     std::vector<io::DynamicBeside> beside;
+    std::vector<io::Alarm> breaks;  ///< scans that do not go on where those before them ended
 };
 
 /// Writes what a run leaves of these scans into `folder`: a label file for each, and with `maps`

@@ -40,7 +40,7 @@ TEST(Company, APersonWhoFollowsIsNamedWithHerPlace) {
     const auto behind = way([&](std::size_t) { return std::vector{187.0 + sway(random)}; });
     const auto said = company_of(behind);
     ASSERT_TRUE(said);
-    EXPECT_NE(said->find("about 2.5 m from it, at 188 deg"), std::string::npos) << *said;
+    EXPECT_NE(said->find("around x -2.5 m, y -0.3 m from the sensor"), std::string::npos) << *said;
 }
 
 TEST(Company, WhoPassesIsNone) {
@@ -50,6 +50,10 @@ TEST(Company, WhoPassesIsNone) {
     const auto some_of_the_way =
         way([](std::size_t i) { return i < 30 ? std::vector{180.0} : std::vector<double>{}; });
     EXPECT_FALSE(company_of(some_of_the_way));
+}
+
+TEST(Company, APartOfTheVehicleIsNone) {
+    EXPECT_FALSE(company_of(way([](std::size_t) { return std::vector{180.0}; })));
 }
 
 TEST(Company, InACrowdNobodyIs) {
@@ -62,7 +66,7 @@ TEST(Company, InACrowdNobodyIs) {
 }
 
 TEST(Company, BesideASensorThatRestsNobodyIs) {
-    const auto behind = [](std::size_t) { return std::vector{180.0}; };
+    const auto behind = [](std::size_t i) { return std::vector{i % 2 == 0 ? 175.0 : 185.0}; };
     EXPECT_TRUE(company_of(way(behind)));
     EXPECT_FALSE(company_of(way(behind, 0.1)));
     EXPECT_FALSE(company_of({}));
