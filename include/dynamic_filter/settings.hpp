@@ -203,6 +203,8 @@ struct ScansConfig {
         double dynamic_share = 0.6;
         int dynamic_scans = 3;
         double gone = 0.5;
+        double arrived_share = 0.45;
+        int arrived_scans = 4;
         double share = 0.7;
     } instances;
 
@@ -424,6 +426,14 @@ void visit_scans(C& scans, F&& f) {
     field("scans.instances.gone", "m",
           "a track moves only if it has gone at least this far; leaves stay in their place", 0, 100,
           i.gone);
+    field("scans.instances.arrived_share", "1",
+          "an object came to where it is if at least this share of the voxels of its cluster, and "
+          "the square root of their number more, is dynamic, or was seen free first and occupied "
+          "since",
+          0.01, 1, i.arrived_share);
+    field("scans.instances.arrived_scans", "1",
+          "a track is that of an object that came if it shows this in at least this number of scans",
+          1, 1000, i.arrived_scans);
     field("scans.instances.share", "1",
           "a voxel is dynamic if its points belonged to moving tracks in at least this share of "
           "the scans with points in it",

@@ -2,6 +2,7 @@
 #include "filter/objects.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 namespace dynamic_filter {
@@ -12,8 +13,16 @@ VoxelKey block_of(const EvidenceGrid& grid, std::uint32_t voxel) {
     return pack(grid.voxels().corner(grid.voxels().block_of_voxel(voxel)));
 }
 
-/// True if the voxel had no points, or was surely empty, before the track came.
-bool came_with(std::uint32_t start, const Evidence& e) { return e.since >= start; }
+/// True if the voxel had no points, or was surely empty, before that scan.
+bool came_with(std::optional<std::uint32_t> scan, const Evidence& e) {
+    return scan && e.since >= *scan;
+}
+
+/// True if the voxel was seen free first and is occupied since then: something came and stayed. One
+/// look may have erred, which is why clusters count such voxels.
+bool was_filled(const Evidence& e) {
+    return e.n_free > 0 && e.n_switch <= 1 && e.last == Sight::occupied;
+}
 
 }  // namespace
 
@@ -34,8 +43,7 @@ void Objects::update(const Scan& scan, const PointVoxels& voxels, EvidenceGrid& 
         if (found.of_points[i] == kNoCluster || labels[i] != Label::static_) continue;
         const auto& id = clusters[found.of_points[i]].track;
         if (!id) continue;
-        const Track& track = tracks_.at(*id);
-        if (track.moves && came_with(track.start, grid[voxels[i]].evidence)) {
+        if (came_with(tracks_.at(*id).moving_from, grid[voxels[i]].evidence)) {
             labels[i] = Label::dynamic;
         }
     }
@@ -55,7 +63,11 @@ std::vector<Objects::Cluster> Objects::describe(const Clusters& found, const Poi
         members[c].erase(std::unique(members[c].begin(), members[c].end()), members[c].end());
         Cluster& cluster = clusters[c];
         for (const auto& [voxel, dynamic] : members[c]) {
+            const Evidence& e = grid[voxel].evidence;
+            const bool filled = was_filled(e), refilled = e.since > e.first_owner;
             cluster.dynamic += dynamic ? 1U : 0U;
+            cluster.came += dynamic || filled ? 1U : 0U;
+            if (filled || (dynamic && refilled)) cluster.filled.push_back(e.since);
             if (!cluster.voxels.empty() && cluster.voxels.back() == voxel) continue;
             cluster.voxels.push_back(voxel);
             cluster.center += grid[voxel].centroid;
@@ -92,6 +104,7 @@ void Objects::match(std::vector<Cluster>& clusters, const EvidenceGrid& grid, do
         const double least = config_.overlap * static_cast<double>(clusters[c].voxels.size());
         for (const auto& [id, count] : shared) {
             if (static_cast<double>(count) < least) continue;
+            clusters[c].is_after_moving |= tracks_.at(id).moving_from.has_value();
             if (fits(tracks_.at(id), clusters[c], stamp)) matches.emplace_back(count, c, id);
         }
     }
@@ -108,6 +121,33 @@ void Objects::match(std::vector<Cluster>& clusters, const EvidenceGrid& grid, do
     }
 }
 
+/// Counts the scan if the cluster shows that its object came to where it is. For few voxels, chance
+/// is allowed for by about two standard deviations of a share.
+void Objects::note_arrival(Track& track, const Cluster& cluster) const {
+    const auto voxels = static_cast<double>(cluster.voxels.size());
+    const double least = config_.arrived_share * voxels + std::sqrt(voxels);
+    if (static_cast<double>(cluster.came) < least || cluster.filled.empty()) return;
+    if (track.arrived_scans++ > 0) return;
+    std::vector<std::uint32_t> filled = cluster.filled;
+    const auto quarter = filled.begin() + static_cast<std::ptrdiff_t>(filled.size() / 4);
+    std::nth_element(filled.begin(), quarter, filled.end());
+    track.arrival = *quarter;
+    const bool is_new = track.seen.voxels == 0;
+    if (is_new && cluster.is_after_moving) track.arrived_scans = config_.arrived_scans;
+}
+
+/// Empty: the track is not that of a moving object so far.
+std::optional<std::uint32_t> Objects::moving_from(const Track& track) const {
+    const float path = (track.seen.center - track.first_center).norm();
+    const bool moved =
+        track.dynamic_scans >= config_.dynamic_scans && path >= static_cast<float>(config_.gone);
+    const bool came = track.arrived_scans >= config_.arrived_scans;
+    if (moved && came) return std::min(track.start, track.arrival);
+    if (moved) return track.start;
+    if (came) return track.arrival;
+    return std::nullopt;
+}
+
 /// Continues the track of the cluster, or begins a new one. The cluster stands for `scans` scans.
 void Objects::follow(Cluster& cluster, EvidenceGrid& grid, double stamp, std::uint32_t scans) {
     if (cluster.voxels.size() < static_cast<std::size_t>(config_.fewest)) {
@@ -119,6 +159,7 @@ void Objects::follow(Cluster& cluster, EvidenceGrid& grid, double stamp, std::ui
         tracks_[*cluster.track] = {.start = last_scan_, .first_center = cluster.center, .seen = {}};
     }
     Track& track = tracks_.at(*cluster.track);
+    note_arrival(track, cluster);
     if (track.seen.voxels > 0) {
         const Point step = cluster.center - track.seen.center;
         const auto elapsed = static_cast<float>(stamp - track.seen.stamp);
@@ -131,17 +172,15 @@ void Objects::follow(Cluster& cluster, EvidenceGrid& grid, double stamp, std::ui
         last_there_[block_of(grid, voxel)] = {*cluster.track, stamp};
     }
     const auto mark = [&](std::uint32_t voxel, std::uint32_t count) {
-        if (came_with(track.start, grid[voxel].evidence)) grid.record_moved(voxel, count);
+        if (came_with(track.moving_from, grid[voxel].evidence)) grid.record_moved(voxel, count);
     };
-    if (track.moves) {
+    if (track.moving_from) {
         for (const std::uint32_t voxel : cluster.voxels) mark(voxel, scans);
         return;
     }
     for (const std::uint32_t voxel : cluster.voxels) track.history[voxel] += scans;
-    const float path = (cluster.center - track.first_center).norm();
-    track.moves =
-        track.dynamic_scans >= config_.dynamic_scans && path >= static_cast<float>(config_.gone);
-    if (!track.moves) return;
+    track.moving_from = moving_from(track);
+    if (!track.moving_from) return;
     for (const auto& [voxel, count] : track.history) mark(voxel, count);
     track.history = {};
 }

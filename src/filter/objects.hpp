@@ -18,10 +18,15 @@ namespace dynamic_filter {
 
 /// Tracks clusters over scans. A person who stops at a kerb, or a car that waits in a queue, may
 /// stand there until the recording ends; no beam then shows that the place is free. But earlier
-/// scans saw the object move there. So clusters are linked to tracks by overlap. A track moves once
-/// its clusters were dynamic in several scans and it has gone some distance. All its points, from
-/// the first scan of the track on, are then points of a moving object. Each voxel counts the scans
-/// in which it held such points (Evidence::moved); occupancy_of() uses this count.
+/// scans saw the object move there. So clusters are linked to tracks by overlap. A track is that of
+/// a moving object
+/// - once its clusters were dynamic in several scans and it has gone some distance; or
+/// - once it came: in several scans, about half of the voxels of its clusters were dynamic, or seen
+///   free first and occupied ever since. Few of them may be sure by themselves: together they are.
+///   If another track of a moving object ended there, one such scan is enough.
+/// All its points, from the first scan of the track on, or from when it came on, are then points of
+/// a moving object. Each voxel counts the scans in which it held such points (Evidence::moved);
+/// occupancy_of() uses this count.
 ///
 /// Static objects that touch a track must stay static: the bench beside a person, the parked car
 /// beside a car that passes. So a voxel counts only if it was seen empty, or was not seen at all,
@@ -50,18 +55,25 @@ private:
     };
     struct Track {
         std::uint32_t start = 0;             // number of its first scan
+        std::uint32_t arrival = 0;           // scan in which it came, if that was seen
+        int arrived_scans = 0;               // in which it stood where it came to
         Point first_center = Point::Zero();  // center in its first scan
         Point velocity = Point::Zero();      // [m/s]
         Seen seen;
         int dynamic_scans = 0;
-        bool moves = false;
-        // Per voxel: number of scans; kept until the track moves.
+        // Of a moving object: points that were first seen in this scan or later are its points.
+        std::optional<std::uint32_t> moving_from{};
+        // Per voxel: number of scans; kept until the track is that of a moving object.
         tsl::robin_map<std::uint32_t, std::uint32_t> history{};
     };
     struct Cluster {
         std::vector<std::uint32_t> voxels;  // ascending
         Point center = Point::Zero();
         std::size_t dynamic = 0;  // number of voxels
+        std::size_t came = 0;     // of those that are dynamic or were filled
+        // The scans in which the voxels were filled that were seen free before.
+        std::vector<std::uint32_t> filled{};
+        bool is_after_moving = false;  // a moving object was last seen there
         std::optional<Id> track{};
     };
     [[nodiscard]] std::vector<Cluster> describe(const Clusters& clusters, const PointVoxels& voxels,
@@ -69,6 +81,8 @@ private:
                                                 const Labels& labels) const;
     void match(std::vector<Cluster>& clusters, const EvidenceGrid& grid, double stamp) const;
     [[nodiscard]] bool fits(const Track& track, const Cluster& cluster, double stamp) const;
+    void note_arrival(Track& track, const Cluster& cluster) const;
+    [[nodiscard]] std::optional<std::uint32_t> moving_from(const Track& track) const;
     void follow(Cluster& cluster, EvidenceGrid& grid, double stamp, std::uint32_t scans);
     void forget(double stamp);
 

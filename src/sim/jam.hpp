@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// The street of the scene `jam`: its dimensions, traffic and people.
+/// The street of the scenes `jam` and `queue`: its dimensions, traffic and people.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,7 @@ constexpr double lane = 1.8, cycle_lane = 3.65;
 constexpr double parking = 5.2;                         // middle of the row of parked cars
 constexpr double kerb = 6.5, front = 11.0;              // [m] edges of the pavement
 constexpr double pavement = 0.15;                       // [m] above the street
-constexpr double duration = 185.0;                      // [s]
-constexpr double begin = -20.0, end = duration + 30.0;  // [s] of the traffic
+constexpr double begin = -20.0;                         // [s] of the traffic
 
 /// A part of the row of parked cars that must stay free.
 struct Free {
@@ -29,9 +28,13 @@ struct Plan {
     std::vector<Driver> drivers;  ///< the first vehicle carries the sensor
     std::vector<Free> free;
     double bus_stop = 0.0;  ///< x; the bus stop is on the side of +y
+    double duration = 0.0;  ///< [s]
 };
 
-Plan plan(std::uint64_t seed);
+/// The sensor stands in queues at lights.
+Plan jam_plan(std::uint64_t seed);
+/// The sensor drives by while others queue in the other lane, creep on, pull out and park.
+Plan queue_plan(std::uint64_t seed);
 
 /// Walkers who cross at the lights, wait at the bus stop, talk, or walk along the pavements.
 std::vector<Walker> people(int count, const Plan& plan, const DistanceField& field,

@@ -89,7 +89,7 @@ std::vector<Walker> people(int count, const Plan& plan, const DistanceField& fie
     int companies = 0;
     for (int turn = 0; room() > 0; ++turn) {
         Walker walker = draw_walker(random);
-        if (turn % 10 < 4) {
+        if (turn % 10 < 4 && !plan.signals.empty()) {
             // Slower people would not be across before the light changes.
             walker.speed = std::max(walker.speed, 1.0);
             walker.route = crossing(

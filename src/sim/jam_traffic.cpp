@@ -138,11 +138,44 @@ void add_cyclists(Plan& plan, Random& random) {
     }
 }
 
+/// A column whose first vehicle comes to x some seconds after the beginning of the recording. It
+/// stands there while the sensor comes, and creeps on a few times by one to three metres; the others
+/// queue behind it.
+void add_queue(Plan& plan, double x, int count, Random& random) {
+    const double way = -1.0, from = x + 160.0 + random.uniform(0.0, 20.0);
+    const std::size_t first = plan.drivers.size();
+    add_column(plan, way, from, count, random);
+    Driver& head = plan.drivers[first];
+    double place = way * x, time = random.uniform(26.0, 36.0);
+    for (int i = 0; i < 4; ++i) {
+        head.halts.push_back({.at = place, .time = time});
+        place += random.uniform(1.0, 3.0);
+        time = random.uniform(4.0, 12.0);
+    }
+}
+
 }  // namespace
 
-Plan plan(std::uint64_t seed) {
+Plan queue_plan(std::uint64_t seed) {
+    Random random{hash(seed, 0x7a5)};
+    Plan plan{.signals = {}, .drivers = {}, .free = {}, .bus_stop = 330.0, .duration = 60.0};
+    Driver sensor = in_lane(VehicleKind::car, 1.0, -165.0 - random.uniform(0.0, 8.0), random);
+    sensor.speed = random.uniform(4.5, 6.0);
+    plan.drivers.push_back(sensor);
+    add_column(plan, 1.0, sensor.start + 120.0, 2, random);
+    add_leaving(plan, 1.0, random.uniform(60.0, 70.0), {4.0, 10.0}, random);
+    add_leaving(plan, 1.0, random.uniform(140.0, 150.0), {20.0, 30.0}, random);
+    add_parking(plan, 1.0, sensor.start + 18.0, random.uniform(10.0, 20.0), random);
+    plan.drivers.back().speed = sensor.speed + 0.8;
+    add_column(plan, 1.0, sensor.start - 16.0, 2, random);
+    add_queue(plan, random.uniform(-10.0, 10.0), 8 + random.below(3), random);
+    add_cyclists(plan, random);
+    return plan;
+}
+
+Plan jam_plan(std::uint64_t seed) {
     Random random{hash(seed, 0x7a1)};
-    Plan plan;
+    Plan plan{.signals = {}, .drivers = {}, .free = {}, .bus_stop = 0.0, .duration = 185.0};
     add_signals(plan, random);
     add_own_lane(plan, random);
     add_other_lane(plan, random);

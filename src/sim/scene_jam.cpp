@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-/// A street with a traffic jam, 470 m long, with three traffic lights. Cars queue, stand and start;
-/// a bus stands at its stop; a van delivers; cars park and leave. The sensor is on a car of the
-/// queue.
+/// A street 470 m long. In the scene `jam`, with three traffic lights: cars queue, stand and start; a
+/// bus stands at its stop; a van delivers; cars park and leave; the sensor is on a car of the queue.
+/// In the scene `queue`, the sensor drives by.
 #include <algorithm>
 
 #include "sim/jam.hpp"
@@ -116,7 +116,7 @@ void add_masts(Scene& scene, const Plan& plan) {
 }
 
 void add_traffic(Scene& scene, const Plan& plan, Random& random) {
-    std::vector<Ride> rides = drive(plan.drivers, plan.signals, begin, jam::end);
+    std::vector<Ride> rides = drive(plan.drivers, plan.signals, begin, plan.duration + 30.0);
     scene.robot = rides.front();
     for (std::size_t i = 1; i < rides.size(); ++i) {
         scene.vehicles.push_back({.kind = plan.drivers[i].kind,
@@ -125,11 +125,7 @@ void add_traffic(Scene& scene, const Plan& plan, Random& random) {
     }
 }
 
-}  // namespace
-}  // namespace jam
-
-Scene jam_scene(int pedestrians, std::uint64_t seed) {
-    using namespace jam;
+Scene scene_of(const Plan& plan, int pedestrians, std::uint64_t seed) {
     Scene scene;
     scene.low = {street_from - 5.0, -15.0};
     scene.high = {street_until + 5.0, 15.0};
@@ -137,8 +133,7 @@ Scene jam_scene(int pedestrians, std::uint64_t seed) {
     scene.ground = ground;
     scene.robot_radius = 1.2;
     scene.sensor_height = 1.82;
-    scene.duration = jam::duration;
-    const Plan plan = jam::plan(seed);
+    scene.duration = plan.duration;
     Random random{hash(seed, 0x7a3)};
     add_grounds(scene);
     for (const double side : {-1.0, 1.0}) {
@@ -149,8 +144,19 @@ Scene jam_scene(int pedestrians, std::uint64_t seed) {
     add_masts(scene, plan);
     add_traffic(scene, plan, random);
     const DistanceField field = distance_field(scene.obstacles, scene.low, scene.high);
-    scene.walkers = jam::people(pedestrians, plan, field, seed);
+    scene.walkers = people(pedestrians, plan, field, seed);
     return scene;
+}
+
+}  // namespace
+}  // namespace jam
+
+Scene jam_scene(int pedestrians, std::uint64_t seed) {
+    return jam::scene_of(jam::jam_plan(seed), pedestrians, seed);
+}
+
+Scene queue_scene(int pedestrians, std::uint64_t seed) {
+    return jam::scene_of(jam::queue_plan(seed), pedestrians, seed);
 }
 
 }  // namespace dynamic_filter::sim

@@ -8,6 +8,7 @@ Scene street_scene(int pedestrians, std::uint64_t seed);
 Scene square_scene(int pedestrians, std::uint64_t seed);
 Scene hall_scene(int pedestrians, std::uint64_t seed);
 Scene jam_scene(int pedestrians, std::uint64_t seed);
+Scene queue_scene(int pedestrians, std::uint64_t seed);
 Scene platform_scene(int pedestrians, std::uint64_t seed);
 Scene city_scene(int pedestrians, std::uint64_t seed);
 Scene city_scene(int pedestrians, std::uint64_t seed, const Trip& trip);
@@ -19,6 +20,7 @@ const std::vector<SceneEntry>& scene_table() {
         {.name = "square", .pedestrians = 60, .rate_hz = 10.0, .make = square_scene},
         {.name = "hall", .pedestrians = 60, .rate_hz = 10.0, .make = hall_scene},
         {.name = "jam", .pedestrians = 60, .rate_hz = 10.0, .make = jam_scene},
+        {.name = "queue", .pedestrians = 30, .rate_hz = 10.0, .make = queue_scene},
         {.name = "platform", .pedestrians = 80, .rate_hz = 10.0, .make = platform_scene},
         {.name = "city",
          .pedestrians = 14,
