@@ -431,9 +431,10 @@ void visit_scans(C& scans, F&& f) {
           "the square root of their number more, is dynamic, or was seen free first and occupied "
           "since",
           0.01, 1, i.arrived_share);
-    field("scans.instances.arrived_scans", "1",
-          "a track is that of an object that came if it shows this in at least this number of scans",
-          1, 1000, i.arrived_scans);
+    field(
+        "scans.instances.arrived_scans", "1",
+        "a track is that of an object that came if it shows this in at least this number of scans",
+        1, 1000, i.arrived_scans);
     field("scans.instances.share", "1",
           "a voxel is dynamic if its points belonged to moving tracks in at least this share of "
           "the scans with points in it",

@@ -13,10 +13,10 @@ namespace dynamic_filter::sim::jam {
 
 // [m] middle of each lane, from the middle of the street.
 constexpr double lane = 1.8, cycle_lane = 3.65;
-constexpr double parking = 5.2;                         // middle of the row of parked cars
-constexpr double kerb = 6.5, front = 11.0;              // [m] edges of the pavement
-constexpr double pavement = 0.15;                       // [m] above the street
-constexpr double begin = -20.0;                         // [s] of the traffic
+constexpr double parking = 5.2;             // middle of the row of parked cars
+constexpr double kerb = 6.5, front = 11.0;  // [m] edges of the pavement
+constexpr double pavement = 0.15;           // [m] above the street
+constexpr double begin = -20.0;             // [s] of the traffic
 
 /// A part of the row of parked cars that must stay free.
 struct Free {

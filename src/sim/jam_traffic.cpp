@@ -139,8 +139,8 @@ void add_cyclists(Plan& plan, Random& random) {
 }
 
 /// A column whose first vehicle comes to x some seconds after the beginning of the recording. It
-/// stands there while the sensor comes, and creeps on a few times by one to three metres; the others
-/// queue behind it.
+/// stands there while the sensor comes, and creeps on a few times by one to three metres; the
+/// others queue behind it.
 void add_queue(Plan& plan, double x, int count, Random& random) {
     const double way = -1.0, from = x + 160.0 + random.uniform(0.0, 20.0);
     const std::size_t first = plan.drivers.size();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-/// A street 470 m long. In the scene `jam`, with three traffic lights: cars queue, stand and start; a
-/// bus stands at its stop; a van delivers; cars park and leave; the sensor is on a car of the queue.
-/// In the scene `queue`, the sensor drives by.
+/// A street 470 m long. In the scene `jam`, with three traffic lights: cars queue, stand and start;
+/// a bus stands at its stop; a van delivers; cars park and leave; the sensor is on a car of the
+/// queue. In the scene `queue`, the sensor drives by.
 #include <algorithm>
 
 #include "sim/jam.hpp"

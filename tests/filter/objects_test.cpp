@@ -46,9 +46,15 @@ struct Followed {
     PointVoxels voxels;
     Labels labels;
 
-    /// The instant verdicts call the person dynamic, or not.
-    void see(const Glance& sight, bool person_is_dynamic) {
+    /// The instant verdicts call the person dynamic, or not. `seen_free`: earlier scans saw free
+    /// what the person fills for the first time.
+    void see(const Glance& sight, bool person_is_dynamic, bool seen_free = false) {
         voxels = grid.add_points(sight.scan);
+        for (std::size_t i = 0; seen_free && i < voxels.size(); ++i) {
+            if (!sight.person[i] || grid[voxels[i]].evidence.n_occ > 0) continue;
+            grid.record(voxels[i], Sight::free, 1, false);
+            grid.record(voxels[i], Sight::occupied, 1, true);
+        }
         labels.assign(sight.scan.points.size(), Label::static_);
         for (std::size_t i = 0; i < labels.size(); ++i) {
             if (sight.person[i] && person_is_dynamic) labels[i] = Label::dynamic;
@@ -118,6 +124,54 @@ TEST(Objects, ABenchThatAPersonBrushesStaysStatic) {
     f.see(last, true);
     EXPECT_EQ(dynamic_points(f, last.bench), 0);
     EXPECT_LT(f.moved(last, last.bench).second, 0.5F);
+}
+
+// Nobody saw it come, and no voxel is dynamic by itself.
+TEST(Objects, WhatStandsWhereAllWasFreeIsDynamic) {
+    for (const bool seen_free : {false, true}) {
+        Followed f;
+        for (int i = 0; i < 5; ++i) f.see({0.2 * i, -40.0F}, false);
+        for (int i = 5; i < 15; ++i) f.see({0.2 * i, 4.2F}, false, seen_free);
+        const Glance last(3.0, 4.2F);
+        f.see(last, false);
+        EXPECT_EQ(dynamic_points(f, last.person) > 0, seen_free);
+        EXPECT_EQ(f.moved(last, last.person).first > 0.9F, seen_free);
+        EXPECT_EQ(dynamic_points(f, last.bench), 0);
+    }
+}
+
+// What opens and closes was there before.
+TEST(Objects, WhatIsSeenThroughNowAndThenIsNotFilled) {
+    Followed f;
+    for (int i = 0; i < 10; ++i) {
+        const Glance sight(0.2 * i, -4.0F);
+        f.see(sight, false, true);
+        for (std::size_t k = 0; k < sight.person.size(); ++k) {
+            if (!sight.person[k] || i > 0) continue;
+            f.grid.record(f.voxels[k], Sight::free, 1, false);
+            f.grid.record(f.voxels[k], Sight::occupied, 1, false);
+        }
+    }
+    const Glance last(2.0, -4.0F);
+    f.see(last, false);
+    EXPECT_EQ(dynamic_points(f, last.person), 0);
+}
+
+// From afar only its front was followed; the whole is too large for the same track.
+TEST(Objects, WhatStandsWhereATrackEndedIsKnownAtOnce) {
+    for (const float width : {0.3F, 0.0F}) {  // [m] of the front; 0: nothing was followed
+        Followed f;
+        for (int i = 0; i < 8 && width > 0.0F; ++i) {
+            Glance sight(0.2 * i);
+            const float x = -6.0F + 0.3F * static_cast<float>(i);
+            sight.add_box({x, 3.0F, -1.5F}, {x + 0.3F, 3.0F + width, -1.2F}, sight.person);
+            f.see(sight, true, true);
+        }
+        Glance whole(1.6);
+        whole.add_box({-5.4F, 3.0F, -1.5F}, {-3.9F, 4.2F, -0.4F}, whole.person);
+        f.see(whole, false, true);
+        EXPECT_EQ(dynamic_points(f, whole.person) > 0, width > 0.0F) << width;
+    }
 }
 
 TEST(Objects, SurviveThatVoxelsAreForgotten) {

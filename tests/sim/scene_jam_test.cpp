@@ -21,11 +21,9 @@ double longest_wait(const Crowd& crowd, std::size_t i, double duration) {
     return longest;
 }
 
-}  // namespace
-
-TEST(SceneJam, NoVehicleTouchesAnythingAtAnyTime) {
+void expect_no_touch(const std::string& name) {
     for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U}) {
-        const Scene scene = jam_of(seed);
+        const Scene scene = entry(name).make(0, seed);
         for (double t = 0.0; t < scene.duration; t += 0.2) {
             std::vector<Obstacle> outlines = {outline(VehicleKind::car, scene.robot, t)};
             for (const Vehicle& vehicle : scene.vehicles)
@@ -46,6 +44,10 @@ TEST(SceneJam, NoVehicleTouchesAnythingAtAnyTime) {
         }
     }
 }
+
+}  // namespace
+
+TEST(SceneJam, NoVehicleTouchesAnythingAtAnyTime) { expect_no_touch("jam"); }
 
 TEST(SceneJam, WhatIsAVehicleMovesWhatNeverMovesIsNot) {
     for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U}) {
@@ -104,6 +106,34 @@ TEST(SceneJam, QueuesStandAndTheBusAndTheVanHalt) {
         EXPECT_EQ(arrivals, 2U) << seed;
         EXPECT_EQ(departures, 3U) << seed;
         EXPECT_GE(cyclists, 3U) << seed;
+    }
+}
+
+TEST(SceneQueue, NoVehicleTouchesAnythingAtAnyTime) { expect_no_touch("queue"); }
+
+TEST(SceneQueue, CarsComeStandAndCreepOnWhileTheSensorPasses) {
+    for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U}) {
+        const Scene scene = entry("queue").make(0, seed);
+        EXPECT_TRUE(rests(scene.robot, scene.duration).empty()) << seed;
+        std::size_t queued = 0, crept = 0, parked = 0, left = 0;
+        for (const Vehicle& vehicle : scene.vehicles) {
+            const auto halts = rests(vehicle.ride, scene.duration);
+            if (halts.empty()) continue;
+            const Vector2d p = at(vehicle.ride.path, halts.front().s).position;
+            const bool at_kerb = std::abs(p.y()) > jam::parking - 0.5;
+            const bool came = halts.front().from > 0.5;
+            queued += !at_kerb && came && halts.front().until - halts.front().from > 8.0;
+            for (std::size_t i = 1; i < halts.size() && !at_kerb; ++i) {
+                const double way = halts[i].s - halts[i - 1].s;
+                crept += way > 0.5 && way < 4.0;
+            }
+            parked += at_kerb && came;
+            left += at_kerb && !came && halts.front().until < scene.duration - 0.5;
+        }
+        EXPECT_GE(queued, 6U) << seed;
+        EXPECT_GE(crept, 6U) << seed;
+        EXPECT_EQ(parked, 1U) << seed;
+        EXPECT_EQ(left, 2U) << seed;
     }
 }
 

@@ -27,6 +27,7 @@ TEST(Scenes, NamesAreUniqueAndAllCanBeMade) {
     EXPECT_TRUE(names.contains("square"));
     EXPECT_TRUE(names.contains("hall"));
     EXPECT_TRUE(names.contains("jam"));
+    EXPECT_TRUE(names.contains("queue"));
     EXPECT_TRUE(names.contains("platform"));
     EXPECT_TRUE(names.contains("city"));
 }
