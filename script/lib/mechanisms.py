@@ -9,8 +9,9 @@ MECHANISMS = {
     "the same traffic for longer tells no more": ["scans.evidence.enough=1e6"],
     "the surely static are not outvoted": ["scans.evidence.static_limit=1"],
     "thin things judged by beams through them": ["scans.evidence.thin_benefit=10"],
-    "instances": ["scans.instances.fewest=1000"],  # no cluster is so large
-    "objects that came": ["scans.instances.arrived_share=1"],  # and the square root more: never
+    # No track ever moves or comes: that would take more voxels than there are.
+    "instances": ["scans.instances.dynamic_scans=1000", "scans.instances.arrived_share=1"],
+    "objects that came": ["scans.instances.arrived_share=1"],
     "neighbours weighted by looks": ["scans.vote.sure=0"],
     "margins grow with range": ["scans.sight.per_metre=0"],
     "new voxels ask earlier keyframes": ["scans.max_keyframes=1"],

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <vector>
 
+#include "base/numbers.hpp"
+
 namespace dynamic_filter::io {
 namespace {
 
@@ -38,12 +40,6 @@ std::vector<const DynamicBeside*> on_the_way(std::span<const DynamicBeside> scan
 
 }  // namespace
 
-std::array<Eigen::Vector2d, kSectors> DynamicBeside::all_zero() {
-    std::array<Eigen::Vector2d, kSectors> zero;
-    zero.fill(Eigen::Vector2d::Zero());
-    return zero;
-}
-
 DynamicBeside dynamic_beside(const Points& points, const Pose& T_world_sensor,
                              const Labels& labels) {
     DynamicBeside beside;
@@ -56,7 +52,7 @@ DynamicBeside dynamic_beside(const Points& points, const Pose& T_world_sensor,
             std::atan2(points[i].y(), points[i].x()) / (2.0 * std::numbers::pi) + 1.0;
         const std::size_t sector = static_cast<std::size_t>(turn * kSectors) % kSectors;
         ++beside.points[sector];
-        beside.sum[sector] += points[i].head<2>().cast<double>();
+        beside.sums.col(static_cast<Eigen::Index>(sector)) += points[i].head<2>().cast<double>();
     }
     return beside;
 }
@@ -71,19 +67,18 @@ std::optional<std::string> company_of(std::span<const DynamicBeside> scans) {
             Eigen::Vector2d sum = Eigen::Vector2d::Zero();
             for (const std::size_t k : side_of(s)) {
                 points += scan->points[k];
-                sum += scan->sum[k];
+                sum += scan->sums.col(static_cast<Eigen::Index>(k));
             }
             if (points >= kFewPoints) places[s].emplace_back(sum / static_cast<double>(points));
         }
     }
-    const auto by_number = [](const auto& a, const auto& b) { return a.size() < b.size(); };
-    const auto most = std::max_element(places.begin(), places.end(), by_number);
-    const std::vector<Eigen::Vector2d> company = *most;
-    std::nth_element(places.begin(), places.begin() + kSectors / 2, places.end(), by_number);
-    const auto share = [&](const std::vector<Eigen::Vector2d>& of) {
-        return static_cast<double>(of.size()) / static_cast<double>(way.size());
-    };
-    if (share(company) < kAlways || share(places[kSectors / 2]) > kElsewhere) return std::nullopt;
+    std::vector<double> shares;  // of the scans on the way
+    for (const auto& of_side : places) {
+        shares.push_back(static_cast<double>(of_side.size()) / static_cast<double>(way.size()));
+    }
+    const auto most = std::max_element(shares.begin(), shares.end());
+    if (*most < kAlways || median(shares) > kElsewhere) return std::nullopt;
+    const auto& company = places[static_cast<std::size_t>(most - shares.begin())];
     Eigen::Vector2d mean = Eigen::Vector2d::Zero();
     for (const auto& place : company) mean += place / static_cast<double>(company.size());
     double deviation = 0.0;
@@ -93,7 +88,7 @@ std::optional<std::string> company_of(std::span<const DynamicBeside> scans) {
         "something that moves goes along with the sensor, such as a person who follows: in {:.0f} "
         "% of the scans on the way, around x {:.1f} m, y {:.1f} m from the sensor; it is removed "
         "with all else that moves",
-        100.0 * share(company), mean.x(), mean.y());
+        100.0 * *most, mean.x(), mean.y());
 }
 
 }  // namespace dynamic_filter::io

@@ -17,11 +17,10 @@ namespace dynamic_filter::io {
 /// axis of the sensor frame.
 struct DynamicBeside {
     static constexpr std::size_t kSectors = 24;
-    std::array<std::size_t, kSectors> points{};              ///< their numbers
-    std::array<Eigen::Vector2d, kSectors> sum = all_zero();  ///< [m] of their positions
-    Eigen::Vector3d sensor = Eigen::Vector3d::Zero();        ///< [m] in the world
-
-    static std::array<Eigen::Vector2d, kSectors> all_zero();
+    using Sums = Eigen::Matrix<double, 2, kSectors>;
+    std::array<std::size_t, kSectors> points{};        ///< their numbers
+    Sums sums = Sums::Zero();                          ///< [m] of their x and y
+    Eigen::Vector3d sensor = Eigen::Vector3d::Zero();  ///< [m] in the world
 };
 
 /// Counts the dynamic points that are 0.5 to 5 m from the sensor. `points` are in the sensor frame,

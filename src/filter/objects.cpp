@@ -5,6 +5,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "base/numbers.hpp"
+
 namespace dynamic_filter {
 
 namespace {
@@ -128,10 +130,7 @@ void Objects::note_arrival(Track& track, const Cluster& cluster) const {
     const double least = config_.arrived_share * voxels + std::sqrt(voxels);
     if (static_cast<double>(cluster.came) < least || cluster.filled.empty()) return;
     if (track.arrived_scans++ > 0) return;
-    std::vector<std::uint32_t> filled = cluster.filled;
-    const auto quarter = filled.begin() + static_cast<std::ptrdiff_t>(filled.size() / 4);
-    std::nth_element(filled.begin(), quarter, filled.end());
-    track.arrival = *quarter;
+    track.arrival = value_at_rank(cluster.filled, cluster.filled.size() / 4);
     const bool is_new = track.seen.voxels == 0;
     if (is_new && cluster.is_after_moving) track.arrived_scans = config_.arrived_scans;
 }

@@ -32,17 +32,18 @@ WrittenScans write_scans(const io::Recording& recording, const std::vector<std::
     std::vector<Gaps> gaps(recording.size());
     std::vector<io::ScanGist> gists(recording.size());
     io::Continuity continuity;
-    WrittenScans seen{.watch = std::vector<io::ScanWatch>(recording.size()),
-                      .beside = std::vector<io::DynamicBeside>(recording.size()),
-                      .breaks = {}};
+    std::vector<io::ScanWatch> watch(recording.size());
+    std::vector<io::DynamicBeside> beside(recording.size());
+    WrittenScans written;
+    std::vector<Gaps> gaps_of_scans;
     const auto decide = [&](std::size_t i, MaybeScan& maybe) {
         const io::FullScan& scan = *maybe.scan;
         verdicts[i] = results.decide(i, scan);
         io::label_own_body(scan.own, verdicts[i].labels);
         const Labels& final = verdicts[i].labels;
-        seen.watch[i] = io::watch_scan(i, scan.points, scan.T_world_sensor, final);
+        watch[i] = io::watch_scan(i, scan.points, scan.T_world_sensor, final);
         gists[i] = io::gist_of(scan.points, scan.T_world_sensor);
-        seen.beside[i] = io::dynamic_beside(scan.points, scan.T_world_sensor, final);
+        beside[i] = io::dynamic_beside(scan.points, scan.T_world_sensor, final);
         io::write_labels(io::label_file(labels, io::stem(recording, i)), verdicts[i].labels,
                          io::Durable::contents);
         if (with_maps) {
@@ -53,6 +54,9 @@ WrittenScans write_scans(const io::Recording& recording, const std::vector<std::
     const auto use = [&](std::size_t i, MaybeScan& maybe) {
         if (!maybe.scan) throw changed_in_use(recording, i, maybe.error);
         continuity.add(i, std::exchange(gists[i], {}));
+        written.watch.push_back(watch[i]);
+        written.beside.push_back(beside[i]);
+        gaps_of_scans.push_back(std::move(gaps[i]));
         if (with_maps) maps.append(std::exchange(records[i], {}));
         results.use(i, *maybe.scan, std::exchange(verdicts[i], {}));
         return true;  // what is filtered is written even after an interruption; a second one kills
@@ -60,14 +64,8 @@ WrittenScans write_scans(const io::Recording& recording, const std::vector<std::
     for_each_scan(recording, scans, decide, use);
     io::sync_folder(labels);
     maps.commit();
-    std::vector<Gaps> of_scans;
-    for (const std::size_t i : scans) of_scans.push_back(std::move(gaps[i]));
-    write_gaps(folder, of_scans);
-    WrittenScans written{.watch = {}, .beside = {}, .breaks = continuity.breaks()};
-    for (const std::size_t i : scans) {
-        written.watch.push_back(seen.watch[i]);
-        written.beside.push_back(seen.beside[i]);
-    }
+    write_gaps(folder, gaps_of_scans);
+    written.breaks = continuity.breaks();
     return written;
 }
 

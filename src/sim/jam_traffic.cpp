@@ -158,7 +158,9 @@ void add_queue(Plan& plan, double x, int count, Random& random) {
 
 Plan queue_plan(std::uint64_t seed) {
     Random random{hash(seed, 0x7a5)};
-    Plan plan{.signals = {}, .drivers = {}, .free = {}, .bus_stop = 330.0, .duration = 60.0};
+    Plan plan;
+    plan.bus_stop = 330.0;
+    plan.duration = 60.0;
     Driver sensor = in_lane(VehicleKind::car, 1.0, -165.0 - random.uniform(0.0, 8.0), random);
     sensor.speed = random.uniform(4.5, 6.0);
     plan.drivers.push_back(sensor);
@@ -175,7 +177,8 @@ Plan queue_plan(std::uint64_t seed) {
 
 Plan jam_plan(std::uint64_t seed) {
     Random random{hash(seed, 0x7a1)};
-    Plan plan{.signals = {}, .drivers = {}, .free = {}, .bus_stop = 0.0, .duration = 185.0};
+    Plan plan;
+    plan.duration = 185.0;
     add_signals(plan, random);
     add_own_lane(plan, random);
     add_other_lane(plan, random);
