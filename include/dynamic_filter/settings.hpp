@@ -156,6 +156,7 @@ struct ScansConfig {
         double clear = 0.3;
         double clear_voxels = 1.5;
         double clear_unseen = 2.0;
+        double alignment_gain = 0.15;
     } sight;
 
     /// How the counters of a voxel give its score; see filter/evidence.hpp.
@@ -304,6 +305,11 @@ void visit_scans(C& scans, F&& f) {
           "where a side of the place has no beam, the existing beams must go on by this much for a "
           "sure observation: at the upper border of the image, a ceiling looks free from far away",
           0, 100, s.clear_unseen);
+    field("scans.sight.alignment_gain", "1",
+          "a scan is moved onto the surfaces of an earlier keyframe before places are compared, if "
+          "that lowers their misfit by at least this share: poses of GPS drift by decimeters; 1 "
+          "turns this off",
+          0, 1, s.alignment_gain);
 
     auto& e = scans.evidence;
     field("scans.evidence.flicker", "1",

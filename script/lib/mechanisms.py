@@ -13,6 +13,7 @@ MECHANISMS = {
     "instances": ["scans.instances.dynamic_scans=1000", "scans.instances.arrived_share=1"],
     "objects that came": ["scans.instances.arrived_share=1"],
     "neighbours weighted by looks": ["scans.vote.sure=0"],
+    "poses aligned where scans disagree": ["scans.sight.alignment_gain=1"],
     "margins grow with range": ["scans.sight.per_metre=0"],
     "new voxels ask earlier keyframes": ["scans.max_keyframes=1"],
     "contact": ["scans.contact.lowest=1"],  # nothing rises so far over its own surface

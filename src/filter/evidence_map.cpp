@@ -5,11 +5,13 @@
 #include <utility>
 
 #include "dynamic_filter/parallel.hpp"
+#include "filter/alignment.hpp"
 
 namespace dynamic_filter {
 
 namespace {
 
+const Eigen::Isometry3f kNotMoved = Eigen::Isometry3f::Identity();
 constexpr std::size_t kBlocksAtATime = 64;  // number of blocks that a thread takes at a time
 
 Config with_one_keyframe(Config config) {
@@ -21,6 +23,7 @@ Config with_one_keyframe(Config config) {
 
 EvidenceMap::EvidenceMap(const Config& config, const std::optional<CellBounds>& bounds)
     : margins_(margins_of(config.scans.sight, config.map.voxel_size)),
+      alignment_gain_(static_cast<float>(config.scans.sight.alignment_gain)),
       grid_(static_cast<float>(config.map.voxel_size), config.scans.evidence, bounds),
       keyframes_(config),
       again_{.drive = {}, .keyframes = Keyframes(with_one_keyframe(config)), .blocks = {}} {
@@ -59,14 +62,16 @@ PointVoxels EvidenceMap::insert(const Scan& scan, StageTimes& times) {
         return PointVoxels(scan.points.size(), kNoVoxel);
     }
     known_ = grid_.size();
+    const auto owner = static_cast<std::uint32_t>(indices_.size());
     PointVoxels voxels_of_points;
     timed(times, "insertion", [&] {  // insertion of the points beside that of the beams
         parallel_for(2, 1, [&](std::size_t begin, std::size_t end) {
             if (begin == 0) voxels_of_points = grid_.add_points(scan);
-            if (end == 2) is_due_ = may_observe(scan) && keyframes_.add(scan);
+            if (end == 2) is_due_ = may_observe(scan) && keyframes_.add(scan, owner);
         });
     });
     indices_.push_back(scan.index);
+    timed(times, "alignment", [&] { align(scan); });
     timed(times, "visibility_check", [&] {
         if (is_due_) check_known(grid_.blocks_touched(true));
         check_new();
@@ -127,8 +132,12 @@ void EvidenceMap::observe(const Keyframe& keyframe, std::span<const std::uint32_
     parallel_for(blocks.size(), kBlocksAtATime, [&](std::size_t begin, std::size_t end) {
         const auto some = blocks.subspan(begin, end - begin);
         std::vector<std::uint32_t> in_sight;
-        for (const std::size_t b : blocks_in_sight(some, keyframe)) in_sight.push_back(some[b]);
-        const Places places = places_in(std::move(in_sight), wanted);
+        const float slack = newest ? moved_by_ : 0.0F;
+        for (const std::size_t b : blocks_in_sight(some, keyframe, kNotMoved, slack)) {
+            in_sight.push_back(some[b]);
+        }
+        Places places = places_in(std::move(in_sight), wanted);
+        if (newest) move_to_newest(places);
         const std::vector<Sight> sights = look(keyframe, places.centroids);
         for (std::size_t i = 0; i < sights.size(); ++i) {
             if (sights[i] == Sight::unknown) continue;
@@ -146,7 +155,10 @@ void EvidenceMap::check_new() {
     const std::vector<Keyframes::Asked> asked = keyframes_.asked_by_new();
     std::vector<std::vector<Sight>> sights(asked.size());
     parallel_for(asked.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k < end; ++k) sights[k] = look(*asked[k].keyframe, places);
+        for (std::size_t k = begin; k < end; ++k) {
+            const auto& aligned = aligned_.empty() ? kNotMoved : aligned_[k];
+            sights[k] = look(*asked[k].keyframe, places, aligned);
+        }
     });
     parallel_for(places.voxels.size(), kBlocksAtATime, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
@@ -160,6 +172,55 @@ void EvidenceMap::check_new() {
     });
 }
 
+/// Aligns the newest scan with the earlier keyframes that it asks. One that shares too few surfaces
+/// with the scan is taken to be off as the next later one is.
+void EvidenceMap::align(const Scan& scan) {
+    aligned_.clear();
+    moved_by_ = 0.0F;
+    if (alignment_gain_ >= 1.0F) return;
+    const std::vector<Keyframes::Asked> asked = keyframes_.asked_by_new();
+    const std::size_t earlier = asked.size() - (is_due_ ? 1 : 0);
+    const Points sample = alignment_sample(scan);
+    std::vector<std::optional<Eigen::Isometry3f>> found(earlier);
+    const auto align_every = [&](std::size_t stride) {  // returns false if all are well placed
+        parallel_for((earlier + stride - 1) / stride, 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t k = begin * stride; k < std::min(end * stride, earlier); k += stride) {
+                found[k] = alignment_to(*asked[k].keyframe, sample, alignment_gain_);
+            }
+        });
+        return std::any_of(found.begin(), found.end(), [&](const auto& motion) {
+            return motion && motion->matrix() != kNotMoved.matrix();
+        });
+    };
+    constexpr std::size_t kSome = 2;  // poses are mostly good for all or for none
+    if (!align_every(kSome) || !align_every(1)) return;
+    aligned_.assign(asked.size(), kNotMoved);
+    for (std::size_t k = earlier; k-- > 0;) {
+        const bool has_next = k + 1 < aligned_.size();
+        aligned_[k] = found[k] ? *found[k] : has_next ? aligned_[k + 1] : kNotMoved;
+        const Point sensor = scan.T_world_sensor.translation().cast<float>();
+        const float turn = Eigen::AngleAxisf(aligned_[k].linear()).angle();
+        const float moved = (aligned_[k] * sensor - sensor).norm() + turn * margins_.farthest;
+        moved_by_ = std::max(moved_by_, moved);
+    }
+}
+
+/// Moves the places of earlier scans to where the newest scan would see them, with the motion of
+/// the next keyframe after the scan that found the place.
+void EvidenceMap::move_to_newest(Places& places) const {
+    if (aligned_.empty()) return;
+    const std::vector<Keyframes::Asked> asked = keyframes_.asked_by_new();
+    for (std::size_t i = 0; i < places.voxels.size(); ++i) {
+        const std::uint32_t owner = grid_[places.voxels[i]].evidence.first_owner;
+        const auto next = std::lower_bound(
+            asked.begin(), asked.end(), owner,
+            [](const Keyframes::Asked& a, std::uint32_t o) { return a.keyframe->owner < o; });
+        if (next == asked.end()) continue;
+        const auto& aligned = aligned_[static_cast<std::size_t>(next - asked.begin())];
+        places.centroids[i] = aligned.inverse() * places.centroids[i];
+    }
+}
+
 SightMargins EvidenceMap::margins_for(const Keyframe& keyframe) const {
     SightMargins margins = margins_;
     margins.farthest = keyframe.reach;
@@ -167,19 +228,22 @@ SightMargins EvidenceMap::margins_for(const Keyframe& keyframe) const {
     return margins;
 }
 
-/// Indices of those blocks that may hold a voxel in the view of the keyframe.
+/// Indices of those blocks that may hold a voxel in the view of the keyframe, if they are moved by
+/// `aligned`, and then by up to `slack` [m].
 std::vector<std::size_t> EvidenceMap::blocks_in_sight(std::span<const std::uint32_t> blocks,
-                                                      const Keyframe& keyframe) const {
+                                                      const Keyframe& keyframe,
+                                                      const Eigen::Isometry3f& aligned,
+                                                      float slack) const {
     const SightMargins margins = margins_for(keyframe);
     // Radius of the sphere around a block, and a little more.
-    const float radius = 3.5F * grid_.voxel_size();
+    const float radius = 3.5F * grid_.voxel_size() + slack;
     const Point sensor = keyframe.T_sensor_map.inverse().translation();
     // A little more, because may_see() decides.
     const float in_reach = margins.farthest + radius + 0.1F;
     Points centers;
     std::vector<std::size_t> near, in_sight;
     for (std::size_t b = 0; b < blocks.size(); ++b) {
-        const Point center = grid_.middle_of(blocks[b]);
+        const Point center = aligned * grid_.middle_of(blocks[b]);
         if ((center - sensor).squaredNorm() > in_reach * in_reach) continue;
         centers.push_back(center);
         near.push_back(b);
@@ -204,12 +268,13 @@ std::vector<Sight> EvidenceMap::look(const Keyframe& keyframe, const Points& cen
 }
 
 /// The same for places in blocks, most of which are out of view.
-std::vector<Sight> EvidenceMap::look(const Keyframe& keyframe, const Places& places) const {
+std::vector<Sight> EvidenceMap::look(const Keyframe& keyframe, const Places& places,
+                                     const Eigen::Isometry3f& aligned) const {
     Points centroids;
     std::vector<std::size_t> at;
-    for (const std::size_t b : blocks_in_sight(places.blocks, keyframe)) {
+    for (const std::size_t b : blocks_in_sight(places.blocks, keyframe, aligned, 0.0F)) {
         for (std::size_t i = places.first[b]; i < places.first[b + 1]; ++i) {
-            centroids.push_back(places.centroids[i]);
+            centroids.push_back(aligned * places.centroids[i]);
             at.push_back(i);
         }
     }
@@ -240,7 +305,7 @@ std::vector<std::vector<std::size_t>> EvidenceMap::free_keyframes(
         return kept[stride * (k + 1) - 1];
     };
     parallel_for(asked, 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k < end; ++k) sights[k] = look(keyframe(k), places);
+        for (std::size_t k = begin; k < end; ++k) sights[k] = look(keyframe(k), places, kNotMoved);
     });
     std::vector<std::vector<std::size_t>> result(voxels.size());
     for (std::size_t k = 0; k < asked; ++k) {

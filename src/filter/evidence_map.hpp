@@ -73,15 +73,21 @@ private:
     void observe(const Keyframe& keyframe, std::span<const std::uint32_t> blocks, bool newest,
                  const Wanted& wanted);
     void check_new();
+    void align(const Scan& scan);
+    void move_to_newest(Places& places) const;
     [[nodiscard]] SightMargins margins_for(const Keyframe& keyframe) const;
     [[nodiscard]] std::vector<std::size_t> blocks_in_sight(std::span<const std::uint32_t> blocks,
-                                                           const Keyframe& keyframe) const;
+                                                           const Keyframe& keyframe,
+                                                           const Eigen::Isometry3f& aligned,
+                                                           float slack) const;
     [[nodiscard]] std::vector<Sight> look(const Keyframe& keyframe, const Points& centroids) const;
-    [[nodiscard]] std::vector<Sight> look(const Keyframe& keyframe, const Places& places) const;
+    [[nodiscard]] std::vector<Sight> look(const Keyframe& keyframe, const Places& places,
+                                          const Eigen::Isometry3f& aligned) const;
 
     [[nodiscard]] bool may_observe(const Scan& scan) const;
 
     SightMargins margins_;
+    float alignment_gain_;                     // ScansConfig::Sight::alignment_gain
     std::optional<Eigen::AlignedBox2d> area_;  // [m] of the bounds, in the map
     EvidenceGrid grid_;
     Keyframes keyframes_;
@@ -92,6 +98,10 @@ private:
         Keyframes keyframes;                // keeps one keyframe
         std::vector<std::uint32_t> blocks;  // with voxels that were found after the drive
     } again_;
+    /// Motions in the map that bring the newest scan onto the surfaces of the earlier keyframes
+    /// that it asks, oldest first. Empty: all are the identity.
+    std::vector<Eigen::Isometry3f> aligned_;
+    float moved_by_ = 0.0F;             // [m] by these motions, at most
     std::vector<std::size_t> indices_;  // Scan::index in the order of the scans
     std::uint32_t known_ = 0;           // number of voxels before the newest scan
     bool is_due_ = false;               // true if observe_elsewhere() is due

@@ -21,7 +21,7 @@ bool Keyframes::is_reliable(const BeamPattern& beams, const Scan& scan) const {
            scan.points.size() >= static_cast<std::size_t>(config_.least_points);
 }
 
-bool Keyframes::add(const Scan& scan) {
+bool Keyframes::add(const Scan& scan, std::uint32_t owner) {
     if (last_keyframe_ && !is_keyframe(*last_keyframe_, scan, keyframe_)) return false;
     const BeamPattern beams = beams_ ? *beams_ : estimate_beam_pattern({&scan, 1});
     if (!beams_ && is_reliable(beams, scan)) {
@@ -34,7 +34,8 @@ bool Keyframes::add(const Scan& scan) {
     const float reach =
         looks_far ? farthest_ : std::min(static_cast<float>(config_.near_reach), farthest_);
     kept_.push_back({BeamImage(scan.points, thinned_ > 0.0F ? kFine : beams),
-                     scan.T_world_sensor.inverse().cast<float>(), reach, scan.index, thinned_});
+                     scan.T_world_sensor.inverse().cast<float>(), reach, scan.index, thinned_,
+                     owner});
     ++total_;
     if (kept_.size() > most_) kept_.pop_front();
     return true;

@@ -18,9 +18,10 @@ namespace dynamic_filter {
 struct Keyframe {
     BeamImage image;
     Eigen::Isometry3f T_sensor_map = Eigen::Isometry3f::Identity();
-    float reach = 0.0F;     ///< [m] how far the keyframe looks
-    std::size_t index = 0;  ///< Scan::index
-    float thinned = 0.0F;   ///< [m] see thinning_of()
+    float reach = 0.0F;       ///< [m] how far the keyframe looks
+    std::size_t index = 0;    ///< Scan::index
+    float thinned = 0.0F;     ///< [m] see thinning_of()
+    std::uint32_t owner = 0;  ///< its number in the order of the scans, as in Evidence
 };
 
 /// Stores the newest keyframes of a drive. Single caller.
@@ -33,8 +34,8 @@ public:
           most_(static_cast<std::size_t>(config.scans.max_keyframes)) {}
 
     /// Adds the scan if it is a keyframe, and returns whether it is one. Its pose is relative to
-    /// the map.
-    bool add(const Scan& scan);
+    /// the map; `owner` is its number in the order of the scans.
+    bool add(const Scan& scan, std::uint32_t owner = 0);
 
     /// The next scan is the first one of another drive, perhaps by another sensor. The keyframes so
     /// far are removed.
