@@ -12,14 +12,15 @@ namespace dynamic_filter {
 
 namespace {
 
-constexpr std::size_t kSample = 400;             // points of a scan
+constexpr std::size_t kSample = 400;                 // points of a scan
 constexpr float kNearest = 2.0F, kFarthest = 30.0F;  // [m] farther surfaces are seen too sparsely
-constexpr float kWidest = 1.0F;                  // [m] between the returns around a place
-constexpr float kFlat = 0.1F;                    // deviation from a plane, relative to that width
-constexpr float kOther = 1.0F;                   // [m] a place farther off lies on something else
-constexpr float kShared = 0.2F;                  // share of the sample on surfaces of the keyframe
-constexpr double kMisfit = 0.1;                  // [m] larger ones count less and less
-constexpr double kStiff = 0.01;                  // directions that no surface shows stay as they are
+constexpr float kWidest = 1.0F;                      // [m] between the returns around a place
+constexpr float kFlat = 0.1F;    // deviation from a plane, relative to that width
+constexpr float kOther = 1.0F;   // [m] a place farther off lies on something else
+constexpr float kShared = 0.2F;  // share of the sample on surfaces of the keyframe
+constexpr double kMisfit = 0.1;  // [m] larger ones count less and less
+constexpr double kStiff = 0.01;  // directions that no surface shows stay as they are
+constexpr double kFarthestOff = 1.0, kMostTurned = 0.05;  // [m], [rad] more is no drift of poses
 constexpr int kRounds = 5;
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
@@ -123,8 +124,8 @@ Points alignment_sample(const Scan& scan) {
     const auto is_between = [](const Point& p) {
         return p.squaredNorm() > kNearest * kNearest && p.squaredNorm() < kFarthest * kFarthest;
     };
-    const auto there = static_cast<std::size_t>(
-        std::count_if(scan.points.begin(), scan.points.end(), is_between));
+    const auto there =
+        static_cast<std::size_t>(std::count_if(scan.points.begin(), scan.points.end(), is_between));
     const std::size_t every = std::max<std::size_t>(1, there / kSample);
     Points sample;
     std::size_t k = 0;
@@ -149,6 +150,7 @@ std::optional<Eigen::Isometry3f> alignment_to(const Keyframe& keyframe, const Po
     const float least = kShared * static_cast<float>(sample.size());
     if (misfits.empty() || static_cast<float>(misfits.size()) < least) return std::nullopt;
     const Vector6 motion = motion_of(misfits);
+    if (motion.head<3>().norm() > kFarthestOff || motion.tail<3>().norm() > kMostTurned) return {};
     if (cost(misfits, motion) > (1.0 - gain) * cost(misfits, Vector6::Zero())) {
         return Eigen::Isometry3f::Identity();
     }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-/// How a scan would have to move so that its surfaces fit those of an earlier keyframe. Poses of GPS
-/// and inertial sensors drift by decimeters within seconds. Ground that lies a decimeter lower than
-/// before would then count as free space above ground, although both scans saw the same surface.
+/// How a scan would have to move so that its surfaces fit those of an earlier keyframe. Poses of
+/// GPS and inertial sensors drift by decimeters within seconds. Ground that lies a decimeter lower
+/// than before would then count as free space above ground, although both scans saw the same
+/// surface.
 #pragma once
 
 #include <optional>

@@ -35,7 +35,8 @@ SightMargins margins_of(const ScansConfig::Sight& config, double voxel_size);
 ///   place. The lines between their returns, vertical and horizontal, run behind the place by the
 ///   surface margin, so a surface is not taken for free at any incidence angle. No beam beside the
 ///   place ended in front of it. At the upper or lower border of the image and at holes in it, one
-///   beam must pass very close to the place.
+///   beam must pass very close to the place. Above a hole, the place must also lie in front of the
+///   line to the next beam farther down.
 /// - free: in addition, there is a beam in each of the four quadrants and all of them go on by
 ///   `clear` or more, or all existing beams go on by `clear_unseen`.
 /// - weak_free: the other cases, for example at the upper border of the image, where a ceiling at a

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 namespace dynamic_filter {
 
@@ -82,11 +83,15 @@ private:
         return false;
     }
 
-    bool visit(const Beam& beam) {
+    [[nodiscard]] Near relative(const Beam& beam) const {
         float turn = beam.azimuth - place_.azimuth;
         if (turn > kPi) turn -= 2.0F * kPi;
         if (turn < -kPi) turn += 2.0F * kPi;
-        Near near{turn * cos_elevation_, beam.elevation - place_.elevation, beam.range, 0.0F};
+        return {turn * cos_elevation_, beam.elevation - place_.elevation, beam.range, 0.0F};
+    }
+
+    bool visit(const Beam& beam) {
+        Near near = relative(beam);
         const float right = std::abs(near.right), up = std::abs(near.up);
         if (right > reach_right_ || up > reach_up_) return false;
         if (right <= own_right_ && up <= own_up_) {
@@ -132,6 +137,7 @@ private:
                               std::max(below.range, above.range) > place_.range;
             } else if (below.exists() || above.exists()) {
                 all_behind &= passes_close(below.exists() ? below : above);
+                all_behind &= below.exists() || is_before_ground(s, above);
             }
             const Near &left = quad_[s][0], &right = quad_[s][1];
             if (left.exists() && right.exists() && (is_beyond(left) || is_beyond(right))) {
@@ -144,6 +150,35 @@ private:
         const bool sure = nearest - place_.range >= enough;
         if (passed) return sure ? Sight::passed : Sight::weak_passed;
         return sure ? Sight::free : Sight::weak_free;
+    }
+
+    /// False if the place lies on the surface that goes on between the beam above it and the next
+    /// beam farther down than its neighbors, whose returns were lost.
+    [[nodiscard]] bool is_before_ground(std::size_t side, const Near& above) const {
+        const auto under = farther_down(side);
+        return !under || before_line(under->up, under->range, above.up, above.range, place_.range,
+                                     margins_.same_spot) > margins_.surface;
+    }
+    /// The nearest beam of the next row below the place that has one on that side.
+    [[nodiscard]] std::optional<Near> farther_down(std::size_t side) const {
+        constexpr int kRows = 4;
+        const float row = (place_.elevation - grid_.elevation_min) / grid_.elevation_step;
+        const float column = (place_.azimuth + kPi) / grid_.azimuth_step;
+        const int own_row = static_cast<int>(std::floor(row));
+        const int own_column = static_cast<int>(std::floor(column));
+        for (int r = own_row - 1; r >= std::max(own_row - kRows, 0); --r) {
+            if (r >= grid_.rows) continue;
+            std::optional<Near> nearest;
+            for (int c = own_column - 1; c <= own_column + 1; ++c) {
+                const int wrapped = (c + grid_.columns) % grid_.columns;
+                if (!image_.has_beam(r, wrapped)) continue;
+                const Near near = relative(image_.beam(r, wrapped));
+                if (near.up > 0.0F || (near.right > 0.0F) != (side == 1)) continue;
+                if (!nearest || std::abs(near.right) < std::abs(nearest->right)) nearest = near;
+            }
+            if (nearest) return nearest;
+        }
+        return std::nullopt;
     }
 
     /// Above and below the image, and at holes in it, a beam counts only if it passes very close to

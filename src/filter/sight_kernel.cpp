@@ -77,6 +77,7 @@ DF_INLINE Ints first_check(const SightArgs& args, const Places& p) {
 /// whether any beam touches or blocks the place.
 struct Around {
     Near quad[2][2];
+    Near under[2];  // [right]: the next beam farther down if quad[0] has none, see look_under()
     Ints touched{}, blocked{};
 };
 DF_INLINE void add(Around& around, const Places& p, const Beams& b) {
@@ -101,7 +102,39 @@ DF_INLINE Around nothing_around() {
     for (auto& side : around.quad) {
         for (Near& near : side) near = {zero, zero, zero, zero + kNone};
     }
+    for (Near& near : around.under) near = {zero, zero, zero, zero + kNone};
     return around;
+}
+
+/// Looks farther down where a place has a beam above it and none below, because returns were lost:
+/// the ground may go on between the beam above and the next one farther down.
+DF_INLINE void look_under(const SightArgs& args, const Places& p, Around& around) {
+    constexpr int kRows = 4;
+    const auto lacks = [&](int side) {
+        return p.in_range & exists(around.quad[1][side]) & ~exists(around.quad[0][side]) &
+               ~exists(around.under[side]);
+    };
+    const Ints row = floored(p.row), column = floored(p.column);
+    for (int down = 1; down <= kRows; ++down) {
+        const Ints lacking[2] = {lacks(0), lacks(1)};
+        if (!any(lacking[0] | lacking[1])) return;
+        const Ints r = row - down;
+        const Ints in_image = (lacking[0] | lacking[1]) & (r >= 0) & (r < args.rows);
+        const Section section = section_at(args, first_pixels(args, r, column - 1, in_image));
+        for (int i = 0; i < 3; ++i) {
+            const Beams b = beams_of(args, p, section.pixels[i], r, column + (i - 1));
+            const Ints exists_below = ((section.pixels[i] & 0xFFFF) != 0) & (b.up <= 0.0F);
+            const Floats nearness = magnitude(b.right);
+            for (int side = 0; side < 2; ++side) {
+                Near& under = around.under[side];
+                const Ints closer = lacking[side] & exists_below &
+                                    (side ? b.right > 0.0F : b.right <= 0.0F) &
+                                    (nearness < under.nearness);
+                under = {closer ? b.right : under.right, closer ? b.up : under.up,
+                         closer ? b.range : under.range, closer ? nearness : under.nearness};
+            }
+        }
+    }
 }
 
 /// The places of a vector are processed with the widest of their windows, so places with windows of
@@ -187,7 +220,12 @@ DF_INLINE Ints judge(const SightArgs& args, const Places& p, const Around& aroun
         const Ints passes_close = (is_beyond(below) & (magnitude(below.up) <= close)) |
                                   (is_beyond(above) & (magnitude(above.up) <= close));
         const Ints none = ~(exists(below) | exists(above));
-        all_behind &= none | (both ? up_down.before : passes_close);
+        const Near& under = around.under[side];
+        const Side ground =
+            side_of(args, args.elevation_step * under.up, under.range,
+                    args.elevation_step * above.up, above.range, range, zero + args.surface);
+        const Ints alone = passes_close & (~exists(under) | ground.before);
+        all_behind &= none | (both ? up_down.before : alone);
         const Near &left = quad[side][0], &right = quad[side][1];
         const Ints spans = exists(left) & exists(right) & (is_beyond(left) | is_beyond(right));
         const Side left_right = side_of(args, p.column_width * left.right, left.range,
@@ -225,7 +263,9 @@ __attribute__((noinline)) void judge_group(const SightArgs& args, Pending& w) {
     Group places;
     for (int k = 0; k < done; ++k) put(places, k, args, w.index[k]);
     const Places p = places_at(args, places.azimuth, places.elevation, places.range);
-    const Ints sight = judge(args, p, small ? beams_around_small(args, p) : beams_around(args, p));
+    Around around = small ? beams_around_small(args, p) : beams_around(args, p);
+    look_under(args, p, around);
+    const Ints sight = judge(args, p, around);
     for (int k = 0; k < done; ++k) args.sights[w.index[k]] = static_cast<std::uint8_t>(sight[k]);
     w.count -= done;
     for (int k = 0; k < w.count; ++k) w.index[k] = w.index[k + done];

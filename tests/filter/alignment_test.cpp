@@ -41,8 +41,8 @@ double apart(const Pose& a, const Eigen::Isometry3f& b, const Eigen::Vector3d& s
 
 TEST(Alignment, FindsByHowMuchAPoseIsOff) {
     const Keyframe keyframe = keyframe_of(seen_from(at(0, 0, 0)));
-    for (const Pose& error : {at(0, 0, 0.3), at(0.2, -0.15, 0.1), at(0, 0, 0, 0.02),
-                              at(-0.1, 0.2, -0.2, -0.015)}) {
+    for (const Pose& error :
+         {at(0, 0, 0.3), at(0.2, -0.15, 0.1), at(0, 0, 0, 0.02), at(-0.1, 0.2, -0.2, -0.015)}) {
         const Pose truth = at(1.2, 0.4, 0.1, 0.3);
         Scan scan = seen_from(truth);
         scan.T_world_sensor = error * truth;
