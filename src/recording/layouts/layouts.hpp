@@ -68,6 +68,8 @@ std::optional<Layout> find_mulran(const Place& place);
 /// scene has boxes. Throws InputError with the names of the scenes if none is chosen, and if tables
 /// contradict each other.
 std::optional<Layout> find_nuscenes(const Place& place);
+/// True for DATA/SCENE, which is no folder, but names a scene of the tables in DATA.
+bool names_scene(const std::filesystem::path& data);
 
 /// A raw drive of KITTI: velodyne_points/data/*.bin with timestamps.txt, and oxts/data/*.txt, from
 /// which the poses are computed. The folder is that of the drive or its velodyne_points. Without

@@ -125,12 +125,14 @@ void drop_missing(std::vector<SweepEntry>& sweeps, Layout& layout) {
     const auto missing = std::erase_if(
         sweeps, [](const SweepEntry& s) { return !s.is_key_frame && !present(s.file); });
     if (missing == 0) return;
-    layout.notes.push_back(fmt::format(
-        "{} of the {} scans between key frames are not in {}, so {} filtered; the "
-        "filter knows the more, the more scans it gets",
-        missing, between, (layout.scan_folder / "sweeps/LIDAR_TOP").string(),
-        std::cmp_equal(missing, between) ? fmt::format("only the {} key frames are", sweeps.size())
-                                         : "only the others are"));
+    const std::string folder = (layout.scan_folder / "sweeps/LIDAR_TOP").string();
+    layout.notes.push_back(
+        std::cmp_equal(missing, between)
+            ? fmt::format("none of the {} scans between key frames is in {}; only the key frames "
+                          "are read, and the result is better with all scans",
+                          between, folder)
+            : fmt::format("{} of the {} scans between key frames are not in {}; they are left out",
+                          missing, between, folder));
 }
 
 std::vector<Pose> sensor_poses(const fs::path& tables, const std::vector<SweepEntry>& sweeps) {
@@ -171,6 +173,10 @@ void find_truth(Layout& layout, const fs::path& tables, const std::vector<SweepE
 }
 
 }  // namespace
+
+bool names_scene(const fs::path& data) {
+    return !present(data) && tables_of(without_slash(data).parent_path()).has_value();
+}
 
 std::optional<Layout> find_nuscenes(const Place& place) {
     if (prefers_other_poses(place)) return std::nullopt;
