@@ -75,7 +75,8 @@ struct Info {
     /// In the natural order of their names. For a bag, these are no files, but numbers below its
     /// path.
     std::vector<std::filesystem::path> scan_files;
-    /// Parallel to scan_files, an empty path if a scan has none; or empty.
+    /// The files that hold or define the ground truth. Parallel to scan_files, an empty path if a
+    /// scan has none; or empty.
     std::vector<std::filesystem::path> label_files;
     /// Parallel to scan_files; empty if the scan files hold the poses, or if there are none.
     std::vector<Pose> T_world_sensor;

@@ -74,8 +74,9 @@ struct VoxelCount {
 /// leave out points of unknown ground truth. Single caller.
 class VoxelTally {
 public:
-    /// `voxel_size` [m]; 1 to 32 results.
-    explicit VoxelTally(double voxel_size, std::size_t results = 1);
+    /// `voxel_size` [m]; 1 to 32 results. `shift` [m]: how far the grid is moved against the
+    /// multiples of `voxel_size`, along each axis.
+    explicit VoxelTally(double voxel_size, std::size_t results = 1, double shift = 0.0);
     VoxelTally(VoxelTally&&) noexcept;  ///< the moved-from object can only be destroyed
     ~VoxelTally();
 
@@ -98,7 +99,7 @@ public:
     /// - "majority": it has the kind of most of its points; static on a tie.
     /// - "erasor": the centroid of each voxel gets the label of the majority. It is preserved if
     ///   the nearest centroid of the clean map lies within half a voxel diagonal and has the same
-    ///   label. This key is missing for maps without labels.
+    ///   label. This key is missing for maps without labels, and on shifted grids.
     [[nodiscard]] std::map<std::string, VoxelScore> scores(std::size_t result = 0) const;
     /// The numbers of voxels behind them, with the same keys.
     [[nodiscard]] std::map<std::string, VoxelTotals> totals(std::size_t result = 0) const;
@@ -108,6 +109,7 @@ public:
 
 private:
     double voxel_size_;
+    Point shift_;
     std::unique_ptr<VoxelIndex> index_;
     // Counts per voxel: one for the raw map, one for the removed points of each result.
     std::size_t stride_;
@@ -161,6 +163,9 @@ struct Confusion {
 struct Scores {
     /// Keys: how voxels with points of both kinds are counted, see VoxelTally::scores().
     std::map<std::string, VoxelScore> voxel;
+    /// The same, but for "erasor", on a grid that is shifted by half a voxel along each axis, or
+    /// empty. It shows whether the grid suits the result by chance, such as a map of these voxels.
+    std::map<std::string, VoxelScore> voxel_shifted{};
     PointScore point;            ///< over all points
     double dynamic_share = 0.0;  ///< 0..1: voxels with a dynamic point / all voxels
 };
@@ -170,10 +175,13 @@ struct Scores {
 /// pieces, points of one piece are not covered by points of another one.
 struct ScoreSums {
     std::map<std::string, VoxelTotals> voxel;  ///< keys as in Scores
-    CoverCount cover;                          ///< of all points
-    Confusion confusion;                       ///< of all points
-    std::size_t voxels = 0;                    ///< with points
-    std::size_t dynamic_voxels = 0;            ///< those of them with a dynamic point
+    /// On the shifted grid, or empty. They add up only if areas have none of its voxels in common
+    /// either.
+    std::map<std::string, VoxelTotals> voxel_shifted{};
+    CoverCount cover;                ///< of all points
+    Confusion confusion;             ///< of all points
+    std::size_t voxels = 0;          ///< with points
+    std::size_t dynamic_voxels = 0;  ///< those of them with a dynamic point
 
     /// Adds the counts of another area.
     void add(const ScoreSums& other);
@@ -193,6 +201,10 @@ struct LabelledScan {
 /// from several threads.
 using ScanSource = std::function<std::optional<LabelledScan>(std::size_t)>;
 
+/// On which grids of voxels results are scored: on the multiples of the voxel size alone, or also
+/// on the grid that is shifted by half a voxel along each axis.
+enum class Grids : std::uint8_t { aligned, aligned_and_shifted };
+
 constexpr double kVoxelSize = 0.2;  ///< [m] edge of a voxel, Sec. IV-A
 /// [m] distance within which a point is covered, as in DynamicMap_Benchmark.
 constexpr double kCoverDistance = 0.05;
@@ -204,7 +216,8 @@ constexpr double kCoverDistance = 0.05;
 /// points near the removed ones.
 class ScanScores {
 public:
-    ScanScores(double voxel_size, std::size_t results);  ///< `voxel_size` [m]; number of results
+    /// `voxel_size` [m]; number of results.
+    ScanScores(double voxel_size, std::size_t results, Grids grids = Grids::aligned);
     ScanScores(ScanScores&&) noexcept;  ///< the moved-from object can only be destroyed
     ~ScanScores();
 
@@ -228,17 +241,17 @@ public:
 private:
     struct Result;
     class RemovedCells;
-    VoxelTally tally_;
+    std::vector<VoxelTally> tallies_;  ///< by grid; the first one is aligned
     std::vector<Result> results_;
     std::unique_ptr<RemovedCells> removed_;
 };
 
-/// Scores the verdicts on `scans` scans, with voxels of `voxel_size` [m]. The clean map consists of
-/// all points that are not labelled dynamic.
+/// Scores the verdicts on `scans` scans, with voxels of `voxel_size` [m] of both grids. The clean
+/// map consists of all points that are not labelled dynamic.
 Scores score_labels(std::size_t scans, const ScanSource& source, double voxel_size);
 
-/// Scores a clean map given as points in the frame of the scans, with voxels of `voxel_size` [m].
-/// The IoU stays empty.
+/// Scores a clean map given as points in the frame of the scans, with voxels of `voxel_size` [m]
+/// of both grids. The IoU stays empty.
 Scores score_map(std::size_t scans, const ScanSource& source, const Points& map, double voxel_size);
 
 }  // namespace dynamic_filter::eval

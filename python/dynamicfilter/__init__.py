@@ -104,7 +104,9 @@ def evaluate(truth, *, labels=None, map=None, voxel=0.2, min_range=0.0, max_rang
     labels: folder of label files (N uint32 per scan), or of a run. Or map: cloud file in the world
     frame [m]. voxel: edge length of a voxel [m]. min_range, max_range: only points at this
     distance from the sensor [m] are scored. Options: as in open_recording().
-    Returns the scores as a dict of shares 0..1, and the numbers of `scans` scored and `left_out`.
+    Returns the scores as a dict of shares 0..1, and the numbers of `scans` scored, `left_out`, and
+    not scored because only some scans were to have ground truth (`without_truth`). Scores under
+    `voxel_shifted` are those of the grid that is shifted by half a voxel.
     Raises ConfigError, InputError, TypeError and ValueError.
     """
     return _json.loads(_dynamicfilter.evaluate(truth, labels, map, voxel, min_range, max_range, options))

@@ -117,8 +117,9 @@ std::string evaluate(const fs::path& truth, const std::optional<fs::path>& label
     const py::gil_scoped_release others_go_on;
     const app::Evaluation e = app::scores_of(o);
     nlohmann::ordered_json json = app::to_json(e.scores);
-    json["scans"] = e.scans - e.left_out;
-    json["left_out"] = e.left_out;
+    json["scans"] = e.to_score - e.left_out.size();
+    json["left_out"] = e.left_out.size();
+    json["without_truth"] = e.scans - e.to_score;
     return app::text_of(json);
 }
 

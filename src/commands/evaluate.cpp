@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -15,7 +14,9 @@
 #include "dynamic_filter/file.hpp"
 #include "formats/label_files.hpp"
 #include "recording/data_options.hpp"
+#include "recording/recording_parts.hpp"
 #include "recording/scans.hpp"
+#include "recording/truth.hpp"
 #include "run/open_for_result.hpp"
 #include "run/scored_scans.hpp"
 #include "score/protocols.hpp"
@@ -63,6 +64,37 @@ RecordingOfResult open_truth(const EvalOptions& o) {
                      "--poses");
 }
 
+/// The scans to be scored: those with ground truth where only some were to have it.
+io::Recording scans_to_score(const io::Recording& recording, const EvalOptions& o) {
+    if (!recording.info().has_truth()) {
+        throw InputError(o.truth.data, "",
+                         "has no ground truth (labels/*.label, or 0/1 intensities)");
+    }
+    const auto with_truth = io::scans_with_truth(recording.info());
+    if (with_truth.empty()) {
+        throw InputError(o.truth.data, "",
+                         fmt::format("has no ground truth of the {} chosen scans, but of others",
+                                     recording.size()));
+    }
+    const bool is_sparse = io::is_sparse_truth(with_truth.size(), recording.size());
+    return is_sparse ? io::chosen_scans(recording, with_truth) : recording;
+}
+
+std::vector<std::string> names_of(const io::Recording& recording,
+                                  const std::vector<std::atomic<bool>>& chosen) {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+        if (chosen[i]) names.push_back(io::stem(recording, i));
+    }
+    return names;
+}
+
+std::string count_text(const Evaluation& e) {
+    if (e.to_score == e.scans) return "";
+    return fmt::format("scored {} of {} scans: those with ground truth\n",
+                       e.to_score - e.left_out.size(), e.scans);
+}
+
 }  // namespace
 
 Evaluation scores_of(const EvalOptions& o) {
@@ -70,11 +102,7 @@ Evaluation scores_of(const EvalOptions& o) {
         throw ConfigError("--min-range must be 0 or more, and less than --max-range");
     }
     const RecordingOfResult truth = open_truth(o);
-    const io::Recording& recording = truth.recording;
-    if (!recording.info().has_truth()) {
-        throw InputError(o.truth.data, "",
-                         "has no ground truth (labels/*.label, or 0/1 intensities)");
-    }
+    const io::Recording recording = scans_to_score(truth.recording, o);
     const Eigen::Vector3d origin = scoring_origin(recording, o.voxel);
     std::vector<std::atomic<bool>> left_out(recording.size());
     const eval::ScanSource source =
@@ -85,27 +113,28 @@ Evaluation scores_of(const EvalOptions& o) {
         o.labels ? eval::score_labels(recording.size(), source, o.voxel)
                  : eval::score_map(recording.size(), source,
                                    positions_from(io::read_cloud(*o.map), origin), o.voxel);
-    const auto missing =
-        static_cast<std::size_t>(std::count(left_out.begin(), left_out.end(), true));
-    if (missing == recording.size()) {
+    std::vector<std::string> missing = names_of(recording, left_out);
+    if (missing.size() == recording.size()) {
         throw InputError(
             o.labels ? *o.labels : o.truth.data, "",
             fmt::format("holds no label file of any readable scan in {}; labels are named "
                         "as the scans, for instance {}.label",
                         o.truth.data.string(), io::stem(recording, 0)));
     }
-    return {std::move(scores), recording.size(), missing, truth.note};
+    return {std::move(scores), truth.recording.size(), recording.size(), std::move(missing),
+            truth.note};
 }
 
 int evaluate(const EvalOptions& o) {
     if (o.json) require_extension(*o.json, ".json");
     const Evaluation e = scores_of(o);
     if (!e.note.empty()) fmt::print(stderr, "note: {}\n", e.note);
-    fmt::print("{}{}", ranges_text(o.ranges), protocol_table(o.protocol, e.scores, o.voxel));
+    fmt::print("{}{}{}", count_text(e), ranges_text(o.ranges),
+               protocol_table(o.protocol, e.scores, o.voxel));
     if (o.json) io::write_file(*o.json, text_of(to_json(e.scores)));
-    if (e.left_out == 0) return kDone;
-    fmt::print(stderr, "left out {} of {} scans: unreadable, or without labels\n", e.left_out,
-               e.scans);
+    if (e.left_out.empty()) return kDone;
+    fmt::print(stderr, "left out {} of {} scans: unreadable, or without labels; the first is {}\n",
+               e.left_out.size(), e.to_score, e.left_out.front());
     return kRejected;
 }
 

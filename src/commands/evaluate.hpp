@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "dynamic_filter/scores.hpp"
 #include "recording/data_options.hpp"
@@ -21,7 +22,10 @@ struct EvalOptions {
 
 struct Evaluation {
     eval::Scores scores;
-    std::size_t scans = 0, left_out = 0;  ///< left out: unreadable, or without labels
+    std::size_t scans = 0;     ///< of the recording
+    std::size_t to_score = 0;  ///< all, or those with ground truth if it is sparse on purpose
+    /// Those of them that are unreadable, or without labels or ground truth.
+    std::vector<std::string> left_out{};
     std::string note{};  ///< how the recording was read for the result; may be empty
 };
 

@@ -9,6 +9,7 @@
 
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
+#include "recording/layouts/layouts.hpp"
 #include "recording/scans.hpp"
 
 namespace dynamic_filter::app {
@@ -19,6 +20,10 @@ namespace fs = std::filesystem;
 
 bool is_list(const fs::path& path) {
     return path.extension() == ".txt" && fs::is_regular_file(path);
+}
+
+bool is_there(const fs::path& recording) {
+    return fs::exists(recording) || io::names_scene(recording);
 }
 
 std::string trimmed(const std::string& text) {
@@ -42,7 +47,7 @@ std::vector<DriveSource> read_list(const fs::path& list) {
         const std::string poses = tab == std::string::npos ? "" : trimmed(line.substr(tab + 1));
         if (recording.empty() || recording.front() == '#') continue;
         DriveSource source{.recording = path_of(recording)};
-        if (!fs::exists(source.recording)) {
+        if (!is_there(source.recording)) {
             throw InputError(list, fmt::format("line {}", number),
                              source.recording.string() + " does not exist");
         }
@@ -131,7 +136,7 @@ std::vector<DataOptions> options_of(const std::vector<DriveSource>& sources,
 
 std::vector<Drive> open_drives(const std::vector<DriveSource>& sources, const DataOptions& how) {
     for (const DriveSource& source : sources) {
-        if (fs::exists(source.recording)) continue;
+        if (is_there(source.recording)) continue;
         throw ConfigError(source.recording.string() +
                           ": does not exist; several recordings may be given, and -o names the "
                           "output folder");

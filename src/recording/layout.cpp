@@ -12,6 +12,7 @@
 #include "recording/folders.hpp"
 #include "recording/layouts/beside.hpp"
 #include "recording/layouts/registry.hpp"
+#include "recording/truth.hpp"
 
 namespace dynamic_filter::io {
 namespace {
@@ -70,6 +71,14 @@ void require_folder(const fs::path& data) {
                          "is the output of a run, not a recording; give the recording that run.log "
                          "there names (static_map.pcd is the clean map)");
     }
+}
+
+/// Names a scan that seems to have lost its labels.
+std::string first_without(const Layout& layout, const Paths& labels, std::size_t used) {
+    const auto empty = std::find(labels.begin(), labels.end(), fs::path());
+    if (used == 0 || empty == labels.end() || is_sparse_truth(used, labels.size())) return "";
+    const auto scan = layout.scans.begin() + (empty - labels.begin());
+    return ", the first is " + scan->filename().string();
 }
 
 Layout find_at(const Place& place);
@@ -145,8 +154,9 @@ Paths find_labels(const Layout& layout, std::vector<std::string>& notes) {
     const std::size_t used = found - files.size();
     if (used < labels.size() || !files.empty()) {
         notes.push_back(fmt::format(
-            "{} holds labels of {} of {} scans, and {} of no scan; scans without are not scored",
-            layout.labels->string(), used, labels.size(), files.size()));
+            "{} holds labels of {} of {} scans, and {} of no scan; scans without are not scored{}",
+            layout.labels->string(), used, labels.size(), files.size(),
+            first_without(layout, labels, used)));
     }
     return used == 0 ? Paths{} : labels;
 }

@@ -10,6 +10,7 @@
 
 #include "dynamic_filter/recording.hpp"
 #include "formats/clouds/cloud_size.hpp"
+#include "recording/recording_parts.hpp"
 
 namespace dynamic_filter::io {
 
@@ -28,6 +29,10 @@ struct Layout {
     std::vector<double> stamps;         ///< [s] stamps of the scans if the layout defines them
     std::filesystem::path pose_source;  ///< file of T_world_sensor
     std::optional<std::filesystem::path> poses, times, calib, labels, truth_map;
+    /// Ground truth that is not in files of labels: where that of each scan is from (empty: it has
+    /// none), and what makes it, one label per point of the scan's cloud.
+    Paths truth_files;
+    TruthReader read_truth;
     std::function<Cloud(const std::filesystem::path& scan)> read = read_cloud;
     /// Throws InputError if the size of a scan's file alone shows that it is damaged.
     std::function<void(const std::filesystem::path& scan)> refuse_bad_size =

@@ -123,7 +123,7 @@ RecordingParts open_folder(const std::filesystem::path& data, const OpenOptions&
     info.scan_files = layout.scans;
     info.notes = layout.notes;
     info.points_in_world = layout.points_in_world;
-    info.label_files = find_labels(layout, info.notes);
+    info.label_files = layout.read_truth ? layout.truth_files : find_labels(layout, info.notes);
     info.repeats = repeats_among(layout.scans);
     assign_stamps(info, assign_poses(info, layout, unit_of(options)));
     if (options.without_poses) {
@@ -137,7 +137,8 @@ RecordingParts open_folder(const std::filesystem::path& data, const OpenOptions&
     RecordingParts parts{.info = std::move(info),
                          .read_cloud = [files = layout.scans, read = layout.read](
                                            std::size_t i) { return read(files.at(i)); },
-                         .refuse_bad_size = layout.refuse_bad_size};
+                         .refuse_bad_size = layout.refuse_bad_size,
+                         .read_truth = layout.read_truth};
     select(parts, options.first, options.last, options.stride);
     if (layout.truth_in_intensity) find_intensity_truth(parts.info, layout);
     return parts;

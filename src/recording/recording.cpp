@@ -39,10 +39,11 @@ Labels intensity_truth(const Cloud& cloud, const std::filesystem::path& file) {
     return truth;
 }
 
-Labels truth_of(const Info& info, std::size_t i, const Cloud& cloud) {
+Labels truth_of(const RecordingParts& parts, std::size_t i, const Cloud& cloud) {
+    const Info& info = parts.info;
     if (info.intensity_is_truth) return intensity_truth(cloud, info.scan_files[i]);
     if (info.label_files.empty() || info.label_files[i].empty()) return {};
-    Labels truth = read_labels(info.label_files[i]);
+    Labels truth = parts.read_truth ? parts.read_truth(i, cloud) : read_labels(info.label_files[i]);
     if (truth.size() != cloud.size()) {
         throw InputError(info.label_files[i], "",
                          fmt::format("{} labels but {} points in {}", truth.size(), cloud.size(),
@@ -52,9 +53,9 @@ Labels truth_of(const Info& info, std::size_t i, const Cloud& cloud) {
 }
 
 /// Adds the ground truth. A fault in it does not reject the scan.
-void add_truth(FullScan& scan, const Info& info, std::size_t i) {
+void add_truth(FullScan& scan, const RecordingParts& parts, std::size_t i) {
     try {
-        scan.truth = truth_of(info, i, scan.cloud);
+        scan.truth = truth_of(parts, i, scan.cloud);
     } catch (const InputError& error) {
         scan.truth_fault = error.what();
     }
@@ -225,7 +226,7 @@ FullScan Recording::read(std::size_t i) const {
     scan.stamp = info().stamps[i];
     place(scan, info(), i);
     treat_motion(scan, *parts_, i);
-    add_truth(scan, info(), i);
+    add_truth(scan, *parts_, i);
     return scan;
 }
 

@@ -11,6 +11,9 @@
 
 namespace dynamic_filter::io {
 
+/// Makes the ground truth of scan i for the points of its cloud. Throws InputError.
+using TruthReader = std::function<Labels(std::size_t i, const Cloud& cloud)>;
+
 struct RecordingParts {
     Info info;
     /// Reads the cloud of scan i. Throws InputError.
@@ -18,6 +21,8 @@ struct RecordingParts {
     /// Throws InputError if the size of a scan's file alone shows that it is damaged; empty for
     /// scans that are no files.
     std::function<void(const std::filesystem::path&)> refuse_bad_size{};
+    /// For scans whose ground truth is not in a file of labels; or empty.
+    TruthReader read_truth{};
     bool with_times = false;  ///< scans have the times of their points
     /// Of the sensor, parallel to the scans, or empty: the motion within scans that have times is
     /// undone with them.

@@ -46,6 +46,9 @@ void keep_scans(RecordingParts& parts, const std::vector<std::size_t>& chosen) {
     parts.read_cloud = [read = std::move(parts.read_cloud), chosen](std::size_t i) {
         return read(chosen.at(i));
     };
+    if (!parts.read_truth) return;
+    parts.read_truth = [read = std::move(parts.read_truth), chosen](
+                           std::size_t i, const Cloud& cloud) { return read(chosen.at(i), cloud); };
 }
 
 /// Why the motion within scans cannot be undone; empty if it can.

@@ -213,7 +213,7 @@ void note(Whole& whole, std::size_t i, const io::FullScan& scan, const Labels& l
     note.index = i;
     note.position = scan.T_world_sensor.translation();
     note.stamp = scan.stamp;
-    whole.summary.count(labels);
+    whole.summary.count(labels, scan.truth);
     whole.scan_notes.push_back(note);
 }
 

@@ -38,7 +38,8 @@ std::string shares_of(const RunSummary& s) {
 
 }  // namespace
 
-void RunSummary::count(const Labels& labels) {
+void RunSummary::count(const Labels& labels, const Labels& truth) {
+    with_truth += truth.empty() ? 0 : 1;
     ++scans;
     points += labels.size();
     for (const Label label : labels) {
@@ -75,6 +76,7 @@ Json metrics_of(const RunSummary& s) {
     if (s.scores) json = to_json(*s.scores);
     if (s.instant_scores) json["instant"] = to_json(*s.instant_scores);
     if (s.scores) json["voxel_size"] = eval::kVoxelSize;
+    if (s.scores && s.with_truth < s.scans) json["scans_with_truth"] = s.with_truth;
     json["scans"] = s.scans;
     json["points"] = {{"static", s.still}, {"dynamic", s.dynamic}, {"unknown", s.unknown}};
     json["rejected"] = texts_of(s.remarks, RemarkKind::rejected);
@@ -129,7 +131,10 @@ std::string points_text(const RunSummary& s) {
 
 std::string scores_text(const RunSummary& s) {
     if (!s.scores) return "";
-    return "scores against the ground truth of the recording\n" + table(*s.scores);
+    const std::string of = s.with_truth == s.scans
+                               ? "the recording"
+                               : fmt::format("{} of {} scans", s.with_truth, s.scans);
+    return "scores against the ground truth of " + of + "\n" + table(*s.scores);
 }
 
 std::string to_text(const RunSummary& s) {

@@ -22,7 +22,8 @@
 namespace dynamic_filter::app {
 
 struct RunSummary {
-    std::size_t scans = 0;  ///< that have a verdict
+    std::size_t scans = 0;       ///< that have a verdict
+    std::size_t with_truth = 0;  ///< those of them that have ground truth
     Remarks remarks;
     std::vector<io::Alarm> alarms;  ///< those of the remarks, with their scans
     std::size_t points = 0, still = 0, dynamic = 0, unknown = 0;
@@ -37,8 +38,8 @@ struct RunSummary {
     std::optional<eval::Scores> scores, instant_scores;
     bool interrupted = false;
 
-    /// Counts a scan with these final labels.
-    void count(const Labels& labels);
+    /// Counts a scan with these final labels. `truth`: empty without ground truth.
+    void count(const Labels& labels, const Labels& truth);
     void add_alarm(const io::Alarm& alarm, const io::Recording& recording);
     /// Adds what the watch finds in the result.
     void add_watch(const WrittenScans& written, const io::Recording& recording, io::PosesFrom from,

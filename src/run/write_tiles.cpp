@@ -118,8 +118,8 @@ RunSummary write_drive(const Job& job, const Tiles& tiles, std::uint32_t number,
     const auto decide = [&](std::size_t i, const io::FullScan& full) {
         return verdict_of(job, tiles, {number, static_cast<std::uint32_t>(i)}, full);
     };
-    const auto use = [&](std::size_t, const io::FullScan&, const Verdict& verdict) {
-        summary.count(verdict.labels);
+    const auto use = [&](std::size_t, const io::FullScan& scan, const Verdict& verdict) {
+        summary.count(verdict.labels, scan.truth);
         progress.advance();
     };
     const DataOptions how = options_of(job.sources, o.data)[number];

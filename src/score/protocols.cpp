@@ -36,8 +36,14 @@ constexpr std::array kProtocols{
 };
 
 std::string rates(const eval::VoxelScore& s) {
-    return fmt::format("PR {} %  RR {} %  F1 {}\n", percent(s.pr), percent(s.rr),
-                       three_digits(s.f1));
+    return fmt::format("PR {} %  RR {} %  F1 {}", percent(s.pr), percent(s.rr), three_digits(s.f1));
+}
+
+/// Rates of the project's own protocol say by the shifted grid how much is chance of the grid.
+std::string on_shifted_grid(const Protocol& p, const eval::Scores& scores) {
+    const auto found = scores.voxel_shifted.find(p.reading);
+    if (p.name != std::string("voxel") || found == scores.voxel_shifted.end()) return "";
+    return rates(found->second) + "  on the grid shifted by half a voxel\n";
 }
 
 }  // namespace
@@ -65,7 +71,7 @@ std::string protocol_table(const std::string& protocol, const eval::Scores& scor
         if (found == scores.voxel.end()) {
             return rule + "this rule needs labels: give --labels in place of --map\n";
         }
-        return rule + rates(found->second);
+        return rule + rates(found->second) + "\n" + on_shifted_grid(p, scores);
     }
     return table(scores);
 }

@@ -15,13 +15,29 @@ ordered_json number(const std::optional<double>& value) {
     return value ? ordered_json(*value) : ordered_json(nullptr);
 }
 
+ordered_json json_of(const std::map<std::string, eval::VoxelScore>& scores) {
+    ordered_json json;
+    for (const auto& [reading, s] : scores) {
+        json[reading] = {{"pr", number(s.pr)}, {"rr", number(s.rr)}, {"f1", number(s.f1)}};
+    }
+    return json;
+}
+
+std::string rows_of(const std::map<std::string, eval::VoxelScore>& scores, const char* grid) {
+    std::string text;
+    for (const auto& [reading, s] : scores) {
+        text += fmt::format("  {:<24} {:>7} {:>7} {:>6}\n", reading + grid, percent(s.pr),
+                            percent(s.rr), three_digits(s.f1));
+    }
+    return text;
+}
+
 }  // namespace
 
 ordered_json to_json(const eval::Scores& scores) {
     ordered_json json;
-    for (const auto& [reading, s] : scores.voxel) {
-        json["voxel"][reading] = {{"pr", number(s.pr)}, {"rr", number(s.rr)}, {"f1", number(s.f1)}};
-    }
+    if (!scores.voxel.empty()) json["voxel"] = json_of(scores.voxel);
+    if (!scores.voxel_shifted.empty()) json["voxel_shifted"] = json_of(scores.voxel_shifted);
     const auto& p = scores.point;
     json["point"] = {{"sa", number(p.sa)},
                      {"da", number(p.da)},
@@ -62,10 +78,7 @@ std::string three_digits(const std::optional<double>& value) {
 std::string table(const eval::Scores& scores) {
     std::string text =
         fmt::format("  {:<24} {:>7} {:>7} {:>6}\n", "mixed voxels", "PR [%]", "RR [%]", "F1");
-    for (const auto& [reading, s] : scores.voxel) {
-        text += fmt::format("  {:<24} {:>7} {:>7} {:>6}\n", reading, percent(s.pr), percent(s.rr),
-                            three_digits(s.f1));
-    }
+    text += rows_of(scores.voxel, "") + rows_of(scores.voxel_shifted, ", shifted");
     const auto& p = scores.point;
     text += fmt::format("  points: SA {}  DA {}  AA {}  HA {}  moving IoU {}\n", percent(p.sa),
                         percent(p.da), percent(p.aa), percent(p.ha), percent(p.iou));

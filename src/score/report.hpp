@@ -11,7 +11,8 @@
 
 namespace dynamic_filter::app {
 
-/// {"voxel": {reading: {pr, rr, f1}}, "point": {sa, da, aa, ha, iou}}; null where undefined.
+/// {"voxel": {reading: {pr, rr, f1}}, "point": {sa, da, aa, ha, iou}}; null where undefined. With
+/// scores on the shifted grid also "voxel_shifted", which is as "voxel".
 nlohmann::ordered_json to_json(const eval::Scores& scores);
 
 /// {stage: {count, mean, p50, p95, p99, max}} in milliseconds.
@@ -24,7 +25,7 @@ std::string text_of(const nlohmann::ordered_json& json);
 std::string percent(const std::optional<double>& fraction);
 std::string three_digits(const std::optional<double>& value);
 
-/// A few lines: PR, RR, F1 by reading of mixed voxels, then the point scores.
+/// A few lines: PR, RR, F1 by reading of mixed voxels and by grid, then the point scores.
 std::string table(const eval::Scores& scores);
 
 }  // namespace dynamic_filter::app

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "dynamic_filter/error.hpp"
@@ -50,6 +52,29 @@ void for_each_known_point(const LabelledScan& scan, F&& use) {
     for (std::size_t i = 0; i < scan.points.size(); ++i) {
         if (scan.truth[i] != Label::unknown && scan.points[i].allFinite()) use(i);
     }
+}
+
+/// The aligned grid first.
+std::vector<VoxelTally> tallies_of(Grids grids, double voxel_size, std::size_t results) {
+    std::vector<VoxelTally> tallies;
+    tallies.emplace_back(voxel_size, results);
+    if (grids == Grids::aligned_and_shifted) {
+        tallies.emplace_back(voxel_size, results, 0.5 * voxel_size);
+    }
+    return tallies;
+}
+
+/// Adds the points of a scan to all grids at once.
+void add_points(std::vector<VoxelTally>& tallies, std::span<const VoxelTally::TruePoint> points) {
+    parallel_for(tallies.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) tallies[i].add(points);
+    });
+}
+
+std::map<std::string, VoxelScore> scores_of(const std::map<std::string, VoxelTotals>& totals) {
+    std::map<std::string, VoxelScore> scores;
+    for (const auto& [reading, numbers] : totals) scores[reading] = numbers.score();
+    return scores;
 }
 
 }  // namespace
@@ -131,8 +156,10 @@ struct ScanScores::Result {
     }
 };
 
-ScanScores::ScanScores(double voxel_size, std::size_t results)
-    : tally_(voxel_size, results), results_(results), removed_(std::make_unique<RemovedCells>()) {}
+ScanScores::ScanScores(double voxel_size, std::size_t results, Grids grids)
+    : tallies_(tallies_of(grids, voxel_size, results)),
+      results_(results),
+      removed_(std::make_unique<RemovedCells>()) {}
 ScanScores::ScanScores(ScanScores&&) noexcept = default;
 ScanScores::~ScanScores() = default;
 
@@ -150,7 +177,7 @@ void ScanScores::add(const LabelledScan& scan, std::span<const Labels* const> ve
         if (removed != 0) removed_->insert(scan.points[i], removed);
         points.push_back({scan.points[i], scan.truth[i], removed});
     });
-    tally_.add(points);
+    add_points(tallies_, points);
 }
 
 std::vector<Points> ScanScores::near_removed(const LabelledScan& scan,
@@ -175,17 +202,21 @@ void ScanScores::add_near(const std::vector<Points>& points) {
 
 ScoreSums ScanScores::sums(std::size_t result) const {
     const Result& one = results_[result];
-    return {.voxel = tally_.totals(result),
+    auto shifted =
+        tallies_.size() > 1 ? tallies_.back().totals(result) : std::map<std::string, VoxelTotals>{};
+    return {.voxel = tallies_.front().totals(result),
+            .voxel_shifted = std::move(shifted),
             .cover = one.cover(),
             .confusion = one.confusion,
-            .voxels = tally_.voxels(),
-            .dynamic_voxels = tally_.dynamic_voxels()};
+            .voxels = tallies_.front().voxels(),
+            .dynamic_voxels = tallies_.front().dynamic_voxels()};
 }
 
 Scores ScanScores::scores(std::size_t result) const { return sums(result).scores(); }
 
 void ScoreSums::add(const ScoreSums& other) {
     for (const auto& [reading, numbers] : other.voxel) voxel[reading].add(numbers);
+    for (const auto& [reading, numbers] : other.voxel_shifted) voxel_shifted[reading].add(numbers);
     cover.add(other.cover);
     confusion.add(other.confusion);
     voxels += other.voxels;
@@ -194,7 +225,8 @@ void ScoreSums::add(const ScoreSums& other) {
 
 Scores ScoreSums::scores() const {
     Scores scores;
-    for (const auto& [reading, numbers] : voxel) scores.voxel[reading] = numbers.score();
+    scores.voxel = scores_of(voxel);
+    scores.voxel_shifted = scores_of(voxel_shifted);
     scores.point = point_score(cover);
     scores.point.iou = confusion.iou();
     scores.dynamic_share = share(dynamic_voxels, voxels);
@@ -202,7 +234,7 @@ Scores ScoreSums::scores() const {
 }
 
 Scores score_labels(std::size_t scans, const ScanSource& source, double voxel_size) {
-    ScanScores scores(voxel_size, 1);
+    ScanScores scores(voxel_size, 1, Grids::aligned_and_shifted);
     for_each_scan(scans, source,
                   [&](const LabelledScan& scan) { scores.add(scan, std::array{&scan.verdict}); });
     for_each_scan(scans, source, [&](const LabelledScan& scan) {
@@ -214,7 +246,7 @@ Scores score_labels(std::size_t scans, const ScanSource& source, double voxel_si
 Scores score_map(std::size_t scans, const ScanSource& source, const Points& map,
                  double voxel_size) {
     const NeighborGrid grid(map, 2.0F * kDistance);
-    VoxelTally tally(voxel_size);
+    std::vector<VoxelTally> tallies = tallies_of(Grids::aligned_and_shifted, voxel_size, 1);
     CoverCount count;
     for_each_scan(scans, source, [&](const LabelledScan& scan) {
         refuse_unparallel(scan, scan.verdict.empty() ? scan.truth : scan.verdict);
@@ -223,10 +255,16 @@ Scores score_map(std::size_t scans, const ScanSource& source, const Points& map,
             points.push_back({scan.points[i], scan.truth[i], 1});
             count.add(scan.truth[i], grid.any_within(scan.points[i], kDistance));
         });
-        tally.add(points);
+        add_points(tallies, points);
     });
-    for (const Point& point : map) tally.add_map_point(point);
-    return {tally.scores(), point_score(count), share(tally.dynamic_voxels(), tally.voxels())};
+    for (VoxelTally& tally : tallies) {
+        for (const Point& point : map) tally.add_map_point(point);
+    }
+    const VoxelTally& aligned = tallies.front();
+    return {.voxel = aligned.scores(),
+            .voxel_shifted = tallies.back().scores(),
+            .point = point_score(count),
+            .dynamic_share = share(aligned.dynamic_voxels(), aligned.voxels())};
 }
 
 }  // namespace dynamic_filter::eval

@@ -113,8 +113,11 @@ VoxelScore VoxelTotals::score() const {
                        number(dynamic_kept));
 }
 
-VoxelTally::VoxelTally(double voxel_size, std::size_t results)
-    : voxel_size_(voxel_size), index_(std::make_unique<VoxelIndex>()), stride_(1 + results) {}
+VoxelTally::VoxelTally(double voxel_size, std::size_t results, double shift)
+    : voxel_size_(voxel_size),
+      shift_(Point::Constant(static_cast<float>(shift))),
+      index_(std::make_unique<VoxelIndex>()),
+      stride_(1 + results) {}
 VoxelTally::VoxelTally(VoxelTally&&) noexcept = default;
 VoxelTally::~VoxelTally() = default;
 
@@ -122,7 +125,7 @@ void VoxelTally::add(std::span<const TruePoint> points) {
     std::vector<VoxelKey> keys;
     std::vector<const TruePoint*> of_keys;
     for (const TruePoint& p : points) {
-        const auto cell = cell_of(p.point, static_cast<float>(1.0 / voxel_size_));
+        const auto cell = cell_of(p.point - shift_, static_cast<float>(1.0 / voxel_size_));
         if (!cell) continue;
         keys.push_back(pack(*cell));
         of_keys.push_back(&p);
@@ -144,7 +147,7 @@ void VoxelTally::add(std::span<const TruePoint> points) {
 
 void VoxelTally::add_map_point(const Point& point) {
     unlabelled_ = true;
-    const auto cell = cell_of(point, static_cast<float>(1.0 / voxel_size_));
+    const auto cell = cell_of(point - shift_, static_cast<float>(1.0 / voxel_size_));
     const auto id = cell ? index_->find(pack(*cell)) : std::nullopt;
     if (id) counts_[*id * stride_ + 1].unlabelled += 1;
 }
@@ -154,7 +157,8 @@ std::map<std::string, VoxelTotals> VoxelTally::totals(std::size_t result) const 
     std::map<std::string, VoxelTotals> totals{{"excluded", read(counts, excluded)},
                                               {"static_wins", read(counts, static_wins)},
                                               {"majority", read(counts, majority)}};
-    if (!unlabelled_) totals["erasor"] = erasor_totals(counts, voxel_size_);
+    const bool has_erasor = !unlabelled_ && shift_.isZero(0.0F);  // whose script has one grid
+    if (has_erasor) totals["erasor"] = erasor_totals(counts, voxel_size_);
     return totals;
 }
 

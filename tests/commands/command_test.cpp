@@ -251,7 +251,10 @@ TEST_F(Command, EvalOfLabelsAndOfTheMapAgreeWithTheRun) {
     const auto map = nlohmann::json::parse(slurp(folder_ / "m.json"));
     EXPECT_EQ(labels["voxel"], metrics["voxel"]);
     EXPECT_EQ(labels["point"], metrics["point"]);
-    EXPECT_NEAR(map["voxel"]["excluded"]["f1"], labels["voxel"]["excluded"]["f1"], 0.002);
+    for (const char* grid : {"voxel", "voxel_shifted"}) {
+        EXPECT_NEAR(map[grid]["excluded"]["f1"], labels[grid]["excluded"]["f1"], 0.002) << grid;
+    }
+    EXPECT_NE(labels["voxel_shifted"], labels["voxel"]);
     EXPECT_NEAR(map["point"]["aa"], labels["point"]["aa"], 0.002);
     EXPECT_EQ(run("eval --truth " + recording().string()), 2);
 }
@@ -412,11 +415,46 @@ TEST_F(Command, EvalSaysWhatItLeftOut) {
     const fs::path data = copy();
     fs::resize_file(data / "velodyne/000004.bin", 1001);
     EXPECT_EQ(run("eval --truth data --map out/static_map.pcd"), 4);
-    expect_said("left out 1 of 24");
+    expect_said("left out 1 of 24 scans: unreadable, or without labels; the first is 000004");
     EXPECT_EQ(run("eval --truth data --labels data/velodyne"), 3);
     fs::rename(folder_ / "out/labels/000001.label", folder_ / "out/labels/000002.label");
     EXPECT_EQ(run("eval --truth " + recording().string() + " --labels out"), 2);
     expect_said("another recording");
+}
+
+/// Removes the ground truth of all scans but every `step`-th one.
+void thin_truth(const fs::path& data, std::size_t scans, std::size_t step) {
+    for (std::size_t i = 0; i < scans; ++i) {
+        if (i % step != 0) fs::remove(data / fmt::format("labels/{:06}.label", i));
+    }
+}
+
+TEST_F(Command, ScoresTheScansThatHaveTruthWhereItIsSparse) {
+    const fs::path data = copy();
+    thin_truth(data, 24, 10);
+    ASSERT_EQ(run("run data -o out"), 0) << said();
+    expect_said("labels of 3 of 24 scans");
+    expect_said("scores against the ground truth of 3 of 24 scans");
+    const auto metrics = nlohmann::json::parse(slurp(folder_ / "out/metrics.json"));
+    EXPECT_EQ(metrics["scans_with_truth"], 3);
+    ASSERT_EQ(run("eval --truth data --labels out --json s.json"), 0) << said();
+    expect_said("scored 3 of 24 scans: those with ground truth");
+    const auto scores = nlohmann::json::parse(slurp(folder_ / "s.json"));
+    EXPECT_EQ(scores["voxel"], metrics["voxel"]);
+    EXPECT_EQ(scores["point"], metrics["point"]);
+    EXPECT_EQ(run("eval --truth data --map out/static_map.pcd"), 0) << said();
+    // The chosen scans are those that were to have none.
+    EXPECT_EQ(run("eval --truth data --labels out --first 1 --last 9"), 3);
+    expect_said("has no ground truth of the 9 chosen scans, but of others");
+}
+
+TEST_F(Command, NamesAScanThatSeemsToHaveLostItsTruth) {
+    const fs::path data = copy();
+    fs::remove(data / "labels/000007.label");
+    ASSERT_EQ(run("run data -o out"), 0) << said();
+    expect_said("scans without are not scored, the first is 000007.bin");
+    EXPECT_EQ(run("eval --truth data --labels out"), 4);
+    expect_said("left out 1 of 24 scans: unreadable, or without labels; the first is 000007");
 }
 
 TEST_F(Command, ResultsThatCannotBePrintedAreAnError) { EXPECT_EQ(run("config > /dev/full #"), 1); }

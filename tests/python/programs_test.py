@@ -37,7 +37,8 @@ class Programs(unittest.TestCase):
     def test_evaluate(self):
         scores = df.evaluate(recording(), labels=self.result["output"])
         self.assertEqual(scores["voxel"], self.result["metrics"]["voxel"])
-        self.assertEqual((scores["scans"], scores["left_out"]), (SCANS, 0))
+        self.assertEqual((scores["scans"], scores["left_out"], scores["without_truth"]), (SCANS, 0, 0))
+        self.assertIn("excluded", scores["voxel_shifted"])
         of_map = df.evaluate(recording(), map=os.path.join(scratch("run"), "static_map.pcd"))
         self.assertEqual(of_map["scans"], SCANS)
         self.assertRaises(TypeError, df.evaluate, recording())

@@ -26,6 +26,19 @@ TEST(Drives, AListStandsForItsRecordings) {
     EXPECT_EQ(sources[2].recording, "other");
 }
 
+TEST(Drives, ASceneOfADataSetNeedNotBeAFolder) {
+    const test::TemporaryFolder folder;
+    fs::create_directories(folder / "v1.0-mini");
+    test::spill(folder / "v1.0-mini/sample_data.json", "[]");
+    test::spill(folder / "drives.txt", "scene-0001\n");
+    const auto sources = expand({folder / "drives.txt"});
+    ASSERT_EQ(sources.size(), 1U);
+    EXPECT_EQ(sources[0].recording, folder / "scene-0001");
+    EXPECT_THROW(open_drives(sources, {}), InputError);  // of the tables, which lack that scene
+    fs::remove_all(folder / "v1.0-mini");
+    EXPECT_THROW(open_drives(sources, {}), ConfigError);
+}
+
 TEST(Drives, AListNamesTheLineThatIsWrong) {
     const test::TemporaryFolder folder;
     test::spill(folder / "drives.txt", "\nmissing\n");

@@ -101,11 +101,16 @@ TEST_F(LayoutTest, LabelsMayBeOfSomeScansOnly) {
     EXPECT_TRUE(open().info().has_truth());
     EXPECT_TRUE(open().info().label_files[2].empty());
     EXPECT_TRUE(has_note(open(), "labels of 2 of 3 scans"));
+    EXPECT_TRUE(has_note(open(), "not scored, the first is 000002.bin"));
     put_labels(3);
     EXPECT_TRUE(open().info().has_truth());
     EXPECT_FALSE(has_note(open(), "labels of"));
     put_labels(4);
     EXPECT_TRUE(has_note(open(), "labels of 3 of 3 scans, and 1 of no scan"));
+    put_bins("velodyne", 9);  // now most have none, so that is no accident
+    data.put("poses.txt", kitti_rows(9));
+    EXPECT_TRUE(has_note(open(), "labels of 4 of 9 scans"));
+    EXPECT_FALSE(has_note(open(), "the first is"));
 }
 
 TEST_F(LayoutTest, ScansAndOptimizedPoses) {

@@ -29,6 +29,18 @@ TEST(Protocols, EachPrintsItsScoresOnly) {
     EXPECT_FALSE(says("voxel", "0.860"));
 }
 
+TEST(Protocols, OnlyThatOfTheProjectPrintsTheShiftedGrid) {
+    eval::Scores both = scores();
+    both.voxel_shifted["excluded"] = {0.61, 0.51, 0.55};
+    both.voxel_shifted["static_wins"] = {0.62, 0.52, 0.56};
+    EXPECT_NE(
+        protocol_table("voxel", both, 0.2)
+            .find("\nPR 61.00 %  RR 51.00 %  F1 0.550  on the grid shifted by half a voxel\n"),
+        std::string::npos);
+    EXPECT_EQ(protocol_table("strict", both, 0.2), protocol_table("strict", scores(), 0.2));
+    EXPECT_FALSE(says("voxel", "shifted"));
+}
+
 TEST(Protocols, RulesNameTheVoxelsThatWereCounted) {
     EXPECT_TRUE(says("voxel", "voxels of 0.1 m"));
     EXPECT_TRUE(says("erasor", "within 0.087 m"));  // half the diagonal

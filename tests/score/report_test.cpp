@@ -35,6 +35,15 @@ TEST(Report, TableIsGolden) {
               "  points: SA 50.00  DA -  AA -  HA -  moving IoU -\n");
 }
 
+TEST(Report, TheShiftedGridHasRowsAndAKeyOfItsOwn) {
+    eval::Scores both = some_scores();
+    EXPECT_FALSE(to_json(both).contains("voxel_shifted"));
+    both.voxel_shifted["excluded"] = eval::voxel_score(100, 90, 50, 4);
+    EXPECT_DOUBLE_EQ(to_json(both)["voxel_shifted"]["excluded"]["pr"], 0.9);
+    EXPECT_NE(table(both).find("\n  excluded, shifted          90.00   92.00  0.910\n"),
+              std::string::npos);
+}
+
 TEST(Report, StageTimesAreMillisecondsByRank) {
     StageTimes times;
     for (int i = 100; i >= 1; --i) times["work"].add(1e-3 * i);

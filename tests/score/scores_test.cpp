@@ -85,7 +85,24 @@ TEST(ScoreMap, OfTheKeptPointsAgreesWithScoreLabels) {
     EXPECT_FALSE(by_map.point.iou);
     for (const char* reading : {"excluded", "static_wins", "majority"}) {
         EXPECT_EQ(by_map.voxel.at(reading).f1, by_labels.voxel.at(reading).f1) << reading;
+        EXPECT_EQ(by_map.voxel_shifted.at(reading).f1, by_labels.voxel_shifted.at(reading).f1)
+            << reading;
     }
+}
+
+TEST(ScoreLabels, TheShiftedGridIsThatOfScansMovedByHalfAVoxel) {
+    const auto scans = random_scans();
+    auto moved = scans;
+    for (LabelledScan& scan : moved) {
+        for (Point& p : scan.points) p -= Point::Constant(0.1F);
+    }
+    const Scores both = score_labels(scans.size(), source_of(scans), 0.2);
+    const Scores of_moved = score_labels(moved.size(), source_of(moved), 0.2);
+    for (const char* reading : {"excluded", "static_wins", "majority"}) {
+        EXPECT_EQ(both.voxel_shifted.at(reading).f1, of_moved.voxel.at(reading).f1) << reading;
+        EXPECT_NE(both.voxel_shifted.at(reading).f1, both.voxel.at(reading).f1) << reading;
+    }
+    EXPECT_TRUE(ScanScores(0.2, 1).scores(0).voxel_shifted.empty());  // nobody asked for it
 }
 
 TEST(ScanScores, ResultsBesideEachOtherScoreAsAlone) {

@@ -144,6 +144,23 @@ void expect_equal(const VoxelScore& a, const VoxelScore& b) {
     EXPECT_DOUBLE_EQ(*a.f1, *b.f1);
 }
 
+TEST(VoxelTally, AShiftedGridCountsOtherVoxels) {
+    VoxelTally aligned(0.2), shifted(0.2, 1, 0.1);
+    // Voxels of the aligned grid end between the first two, those of the shifted grid between the
+    // last two.
+    const Point left(0.17F, 0.17F, 0.17F), middle(0.23F, 0.23F, 0.23F), right(0.33F, 0.33F, 0.33F);
+    for (VoxelTally* tally : {&aligned, &shifted}) {
+        add(*tally, left, kStill, kKept);
+        add(*tally, middle, kDynamic, kKept);
+        add(*tally, right, kDynamic, kRemoved);
+    }
+    EXPECT_EQ(aligned.voxels(), 2U);
+    EXPECT_EQ(shifted.voxels(), 2U);
+    EXPECT_DOUBLE_EQ(*aligned.scores().at("excluded").rr, 0.0);  // the middle one stays
+    EXPECT_DOUBLE_EQ(*shifted.scores().at("excluded").rr, 1.0);  // it is in a mixed voxel
+    EXPECT_FALSE(shifted.scores().at("excluded").pr);
+}
+
 TEST(VoxelTally, ResultsBesideEachOtherScoreAsAlone) {
     std::mt19937 random(3);
     VoxelTally both(0.2, 2), first(0.2), second(0.2);

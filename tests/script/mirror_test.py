@@ -25,6 +25,7 @@ COVERED = {  # test -> the units that it covers
     "recording/bag_scans_test.cpp": "recording/bag_contents recording/pose_source",
     "recording/layout_test.cpp": "recording/layouts/beside recording/layouts/kitti",
     "recording/benchmark_test.cpp": "recording/layouts/benchmark",
+    "recording/layouts/nuscenes_test.cpp": "recording/layouts/nuscenes_tables",
     "run/city_test.sh": "commands/merge commands/plan run/filter_tile run/filter_tiles run/job run/merge "
         "run/write_tiles",
     "run/edits_test.cpp": "run/apply_edits run/edit_lookup run/map_gaps run/run_edits",

@@ -63,9 +63,13 @@ std::optional<Layout> find_mulran(const Place& place);
 
 /// nuScenes: v1.0-*/ with its tables, samples/LIDAR_TOP and sweeps/LIDAR_TOP. Returns the scans of
 /// one scene in the order of their times. If there are several scenes, the user appends the name of
-/// one to the folder, as in DATA/scene-0061. The folder may also be one of those in it. Throws
-/// InputError with the names of the scenes if none is chosen, and if tables contradict each other.
+/// one to the folder, as in DATA/scene-0061. The folder may also be one of those in it. Scans
+/// between key frames that are not on the disk are left out. Key frames have ground truth if the
+/// scene has boxes. Throws InputError with the names of the scenes if none is chosen, and if tables
+/// contradict each other.
 std::optional<Layout> find_nuscenes(const Place& place);
+/// True for DATA/SCENE, which is no folder, but names a scene of the tables in DATA.
+bool names_scene(const std::filesystem::path& data);
 
 /// A raw drive of KITTI: velodyne_points/data/*.bin with timestamps.txt, and oxts/data/*.txt, from
 /// which the poses are computed. The folder is that of the drive or its velodyne_points. Without

@@ -59,6 +59,58 @@ TEST_F(Nuscenes, OneScene) {
     EXPECT_HAS(error_of([&] { (void)recording.read(1); }), "multiple of 20");
 }
 
+/// An annotated box around (1, 2, 3) of the sensor at the key frame; half a metre wide, long and
+/// high.
+std::string box(const std::string& sample, const std::string& instance,
+                const std::string& attribute) {
+    return entry("box", R"("sample_token": ")" + sample + R"(", "instance_token": ")" + instance +
+                            R"(", "attribute_tokens": [)" + attribute +
+                            R"(], "translation": [2.5, 2, 3], "rotation": [1, 0, 0, 0])" +
+                            R"(, "size": [0.5, 0.5, 0.5])");
+}
+
+TEST_F(Nuscenes, KeyFramesHaveTruthByTheBoxesAndSweepsHaveNone) {
+    data.put("samples/LIDAR_TOP/b__1.pcd.bin", floats({1, 2, 3, 4, 5, 9, 2, 3, 4, 5}));
+    data.put("sweeps/LIDAR_TOP/a__2.pcd.bin", floats({1, 2, 3, 4, 5}));
+    EXPECT_FALSE(open_recording(data / "scene-0001").info().has_truth());  // no annotations
+    table("attribute", entry("m", R"("name": "vehicle.moving")"));
+    table("sample_annotation", box("k1", "car", R"("m")"));
+    const Recording recording = open_recording(data / "scene-0001");
+    EXPECT_TRUE(has_note(recording, "ground truth of 1 key frames by the boxes of"));
+    EXPECT_EQ(recording.read(0).truth, (Labels{Label::dynamic, Label::static_}));
+    EXPECT_TRUE(recording.read(1).truth.empty());
+    EXPECT_FALSE(recording.info().label_files[0].empty());
+    EXPECT_TRUE(recording.info().label_files[1].empty());
+    data.put("p.txt", kitti_rows(2));
+    // Which scans are chosen, and whose poses they have, changes nothing in their truth.
+    OpenOptions given;
+    given.layout = "nuscenes";
+    given.poses = data / "p.txt";
+    given.last = 0;
+    EXPECT_EQ(open_recording(data / "scene-0001", given).read(0).truth, recording.read(0).truth);
+    EXPECT_TRUE(slice(recording, 1).read(0).truth.empty());
+}
+
+TEST_F(Nuscenes, SweepsThatAreNotOnTheDiskAreLeftOut) {
+    EXPECT_FALSE(has_note(open_recording(data / "scene-0001"), "between key frames"));
+    std::filesystem::remove(data / "sweeps/LIDAR_TOP/a__2.pcd.bin");
+    const Recording recording = open_recording(data / "scene-0001");
+    EXPECT_EQ(recording.info().stamps, std::vector<double>{1.0});
+    EXPECT_TRUE(has_note(recording, "none of the 1 scans between key frames is in "));
+    table("sample_data", sweep("sweeps/LIDAR_TOP/a__2.pcd.bin", "1500000", "k1", "e2") + "," +
+                             sweep("sweeps/LIDAR_TOP/a__3.pcd.bin", "1600000", "k1", "e2") + "," +
+                             sweep("samples/LIDAR_TOP/b__1.pcd.bin", "1000000", "k1", "e1"));
+    data.put("sweeps/LIDAR_TOP/a__3.pcd.bin", floats({1, 2, 3, 4, 5}));
+    EXPECT_EQ(open_recording(data / "scene-0001").size(), 2U);
+    EXPECT_TRUE(has_note(open_recording(data / "scene-0001"),
+                         "1 of the 2 scans between key frames are not in "));
+    // A key frame that is missing is a fault.
+    data.put("sweeps/LIDAR_TOP/a__2.pcd.bin", floats({1, 2, 3, 4, 5}));
+    std::filesystem::remove(data / "samples/LIDAR_TOP/b__1.pcd.bin");
+    EXPECT_EQ(open_recording(data / "scene-0001").size(), 3U);
+    EXPECT_HAS(error_of([&] { (void)open_recording(data / "scene-0001").read(0); }), "b__1");
+}
+
 TEST_F(Nuscenes, Faults) {
     EXPECT_HAS(open_error(), "scene-0001, scene-0002");
     EXPECT_HAS(error_of([&] { (void)open_recording(data / "scene-9"); }),
@@ -77,6 +129,8 @@ TEST_F(Nuscenes, Faults) {
         table("sample_data", sweep(file, "1", "k1", "e1"));
         EXPECT_HAS(scene_error(), "elsewhere");
     }
+    table("sample_data", sweep("sweeps/LIDAR_TOP/missing.pcd.bin", "1", "k1", "e1"));
+    EXPECT_HAS(scene_error(), "no scan");
     table("sample_data", "");
     EXPECT_HAS(scene_error(), "no scan");
     data.put("v1.0-mini/sample.json", "{");
