@@ -116,7 +116,7 @@ std::string evaluate(const fs::path& truth, const std::optional<fs::path>& label
     refuse_unknown("evaluate", options);
     const py::gil_scoped_release others_go_on;
     const app::Evaluation e = app::scores_of(o);
-    nlohmann::ordered_json json = app::to_json(e.scores);
+    nlohmann::ordered_json json = app::to_json(e);
     json["scans"] = e.scans - e.left_out;
     json["left_out"] = e.left_out;
     return app::text_of(json);

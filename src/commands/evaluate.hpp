@@ -2,11 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
 #include "dynamic_filter/scores.hpp"
 #include "recording/data_options.hpp"
+#include "score/knowable_scores.hpp"
 #include "score/range_limits.hpp"
 
 namespace dynamic_filter::app {
@@ -22,10 +24,15 @@ struct EvalOptions {
 struct Evaluation {
     eval::Scores scores;
     std::size_t scans = 0, left_out = 0;  ///< left out: unreadable, or without labels
+    /// Of labels, if the recording has a folder `knowable`.
+    std::optional<eval::KnowableScores> knowable{};
     std::string note{};  ///< how the recording was read for the result; may be empty
 };
 
 /// Computes what `eval` prints, and throws the same errors.
 Evaluation scores_of(const EvalOptions& options);
+
+/// What `eval --json` writes.
+nlohmann::ordered_json to_json(const Evaluation& evaluation);
 
 }  // namespace dynamic_filter::app
