@@ -111,6 +111,9 @@ public:
 
     [[nodiscard]] std::size_t size() const;           ///< number of scans
     [[nodiscard]] SimulatedScan scan(std::size_t i);  ///< returns scan i; i < size()
+    /// T_world_sensor at a time [s] since the scene began, without the noise of
+    /// SimulatedScan::T_world_sensor. May run in several threads.
+    [[nodiscard]] Pose exact_pose(double time) const;
 
 private:
     struct World;

@@ -116,7 +116,7 @@ std::string evaluate(const fs::path& truth, const std::optional<fs::path>& label
     refuse_unknown("evaluate", options);
     const py::gil_scoped_release others_go_on;
     const app::Evaluation e = app::scores_of(o);
-    nlohmann::ordered_json json = app::to_json(e.scores);
+    nlohmann::ordered_json json = app::to_json(e);
     json["scans"] = e.to_score - e.left_out.size();
     json["left_out"] = e.left_out.size();
     json["without_truth"] = e.scans - e.to_score;
@@ -143,8 +143,8 @@ std::string check(const fs::path& data, py::dict options) {
     return app::text_of(json);
 }
 
-std::size_t simulate(const sim::SimulationOptions& options, const fs::path& folder, bool overwrite,
-                     bool quiet) {
+std::size_t simulate(const sim::SimulationOptions& options, const fs::path& folder, bool knowable,
+                     bool overwrite, bool quiet) {
     std::size_t points = 0;
     bool stopped = false;
     {
@@ -153,7 +153,7 @@ std::size_t simulate(const sim::SimulationOptions& options, const fs::path& fold
         for (const auto& recording : app::simulated_recordings(options, folder)) {
             app::OutputFolder output(recording.folder, app::recording_files(),
                                      app::replaced_if(overwrite));
-            points += app::write_simulation(recording.options, output.path(), quiet);
+            points += app::write_simulation(recording.options, output.path(), quiet, knowable);
             stopped = app::interrupted();
             if (stopped) break;
             output.commit();
@@ -174,16 +174,16 @@ void bind_programs(py::module_& module) {
         [](const std::string& scene, const fs::path& output, const std::string& sensor,
            int pedestrians, std::uint64_t seed, std::optional<std::size_t> frames, double rate,
            double pose_noise, double pose_noise_deg, bool sweep, int rounds, double km, int drives,
-           bool overwrite, bool quiet) {
+           bool knowable, bool overwrite, bool quiet) {
             return simulate({scene, sensor, pedestrians, seed, frames, rate, pose_noise,
                              pose_noise_deg, sweep, rounds, km, drives},
-                            output, overwrite, quiet);
+                            output, knowable, overwrite, quiet);
         },
         py::arg("scene"), py::arg("output"), py::kw_only(), py::arg("sensor") = "vlp16",
         py::arg("pedestrians") = -1, py::arg("seed") = 1, py::arg("frames") = py::none(),
         py::arg("rate") = 0.0, py::arg("pose_noise") = 0.0, py::arg("pose_noise_deg") = 0.0,
         py::arg("sweep") = false, py::arg("rounds") = 0, py::arg("km") = 0.0, py::arg("drives") = 0,
-        py::arg("overwrite") = false, py::arg("quiet") = true,
+        py::arg("knowable") = false, py::arg("overwrite") = false, py::arg("quiet") = true,
         R"(Simulates a recording with exact labels, and writes it in KITTI's layout to the folder `output`.
 
 scene: crowd, street, square, hall, jam, queue, platform or city. The drives of a city become recordings in
@@ -198,6 +198,7 @@ sweep: True measures points one after the other while the sensor moves, like a r
 are then PCD files with a field t [s].
 rounds: rounds of the robot in the scene crowd; 0: the default.
 km: length [km] of each drive in the scene city; drives: their number; 0: the defaults.
+knowable: True also writes what could be known of each point; evaluate() reads it.
 overwrite: True replaces an earlier recording. quiet: False shows the progress on stderr.
 Returns the number of points. Raises ConfigError (also if there is an earlier recording), OutputError,
 and KeyboardInterrupt, after which no files are left but those of finished drives.)");

@@ -3,9 +3,9 @@ WIDTH, HEIGHT, LEFT, BOTTOM, TOP, RIGHT = 760, 380, 56, 44, 16, 190
 GREY = "#888888"
 
 
-def line_chart(x_label, y_label, y_range, series, marks=()):
-    """`series`: (name, color, dashed, points); `marks`: vertical lines as (x, text)."""
-    x_end = max(x for *_, points in series for x, _ in points)
+def line_chart(x_label, y_label, y_range, series, marks=(), x_names=()):
+    """`series`: (name, color, dashed, points); `marks`: vertical lines as (x, text); `x_names`: of x = 0, 1, 2... in place of numbers."""
+    x_end = len(x_names) - 1 if x_names else max(x for *_, points in series for x, _ in points)
     low, high = y_range
 
     def at(x, y):
@@ -22,7 +22,8 @@ def line_chart(x_label, y_label, y_range, series, marks=()):
              f'<rect width="{WIDTH}" height="{HEIGHT}" fill="white"/>']
     for y in ticks(low, high):
         parts += [line([at(0, y), at(x_end, y)], "#dddddd"), text(LEFT - 8, at(0, y)[1] + 4, f"{y:g}", "end")]
-    parts += [text(at(x, low)[0], HEIGHT - BOTTOM + 18, f"{x:g}") for x in ticks(0, x_end)]
+    x_ticks = enumerate(x_names) if x_names else ((x, f"{x:g}") for x in ticks(0, x_end))
+    parts += [text(at(x, low)[0], HEIGHT - BOTTOM + 18, name) for x, name in x_ticks]
     for x, words in marks:
         parts += [line([at(x, low), at(x, high)], GREY, 1, "2 3"), text(at(x, low)[0] + 6, at(x, low)[1] - 8, words, "start", GREY)]
     for i, (name, color, dashed, points) in enumerate(series):

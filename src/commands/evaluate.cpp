@@ -12,6 +12,7 @@
 #include "dynamic_filter/cloud.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
+#include "formats/knowable_file.hpp"
 #include "formats/label_files.hpp"
 #include "recording/data_options.hpp"
 #include "recording/recording_parts.hpp"
@@ -19,6 +20,7 @@
 #include "recording/truth.hpp"
 #include "run/open_for_result.hpp"
 #include "run/scored_scans.hpp"
+#include "score/knowable_report.hpp"
 #include "score/protocols.hpp"
 #include "score/range_limits.hpp"
 #include "score/report.hpp"
@@ -47,6 +49,18 @@ eval::ScanSource with_labels(const io::Recording& recording, const Eigen::Vector
         return io::read_labels(file);
     };
     return scan_source(recording, origin, labels_of, ranges);
+}
+
+/// Nothing if the recording tells nothing of what could be known.
+std::optional<eval::KnowableScores> knowable_scores(const EvalOptions& o,
+                                                    const io::Recording& recording,
+                                                    const eval::ScanSource& source) {
+    const auto folder = io::knowable_folder(o.truth.data);
+    if (!o.labels || !std::filesystem::is_directory(folder)) return std::nullopt;
+    const auto knowable = [&](std::size_t i, std::size_t points) {
+        return io::read_knowable(io::knowable_file(folder, io::stem(recording, i)), points);
+    };
+    return eval::score_knowable(recording.size(), source, knowable, o.voxel);
 }
 
 std::string ranges_text(const RangeLimits& ranges) {
@@ -121,8 +135,18 @@ Evaluation scores_of(const EvalOptions& o) {
                         "as the scans, for instance {}.label",
                         o.truth.data.string(), io::stem(recording, 0)));
     }
-    return {std::move(scores), truth.recording.size(), recording.size(), std::move(missing),
+    return {std::move(scores),
+            truth.recording.size(),
+            recording.size(),
+            std::move(missing),
+            knowable_scores(o, recording, source),
             truth.note};
+}
+
+nlohmann::ordered_json to_json(const Evaluation& evaluation) {
+    auto json = to_json(evaluation.scores);
+    if (evaluation.knowable) json["knowable"] = to_json(*evaluation.knowable);
+    return json;
 }
 
 int evaluate(const EvalOptions& o) {
@@ -131,7 +155,8 @@ int evaluate(const EvalOptions& o) {
     if (!e.note.empty()) fmt::print(stderr, "note: {}\n", e.note);
     fmt::print("{}{}{}", count_text(e), ranges_text(o.ranges),
                protocol_table(o.protocol, e.scores, o.voxel));
-    if (o.json) io::write_file(*o.json, text_of(to_json(e.scores)));
+    if (e.knowable) fmt::print("\n{}", table(*e.knowable));
+    if (o.json) io::write_file(*o.json, text_of(to_json(e)));
     if (e.left_out.empty()) return kDone;
     fmt::print(stderr, "left out {} of {} scans: unreadable, or without labels; the first is {}\n",
                e.left_out.size(), e.to_score, e.left_out.front());

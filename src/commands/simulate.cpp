@@ -14,7 +14,9 @@
 #include "commands/write_simulation.hpp"
 #include "dynamic_filter/writers.hpp"
 #include "export/outputs.hpp"
+#include "formats/knowable_file.hpp"
 #include "formats/label_files.hpp"
+#include "sim/knowable.hpp"
 
 namespace dynamic_filter::app {
 
@@ -23,7 +25,7 @@ namespace {
 struct SimulateOptions {
     sim::SimulationOptions simulation;
     std::filesystem::path output;
-    bool overwrite = false, quiet = false;
+    bool knowable = false, overwrite = false, quiet = false;
 };
 
 /// x y z intensity t.
@@ -58,6 +60,8 @@ std::filesystem::path scan_folder(const sim::SimulationOptions& options,
     return folder / (options.sweep ? "scans" : "velodyne");
 }
 
+std::string stem_of(std::size_t scan) { return fmt::format("{:06}", scan); }
+
 /// The names of the files become durable later, all at once.
 void write_scan(const sim::SimulationOptions& options, const std::filesystem::path& folder,
                 const std::string& stem, const sim::SimulatedScan& scan) {
@@ -69,6 +73,26 @@ void write_scan(const sim::SimulationOptions& options, const std::filesystem::pa
     }
     io::write_numbered_labels(io::label_file(folder / "labels", stem), numbered_labels(scan),
                               io::Durable::contents);
+}
+
+/// Simulates the recording once more, because only now it is known where dynamic points lie. Leaves
+/// nothing if it is interrupted.
+void write_knowable(sim::Simulation& simulation, sim::Knowable& knowable,
+                    const std::filesystem::path& recording, bool quiet) {
+    Progress progress("look through", simulation.size(), quiet);
+    for (std::size_t i = 0; i < simulation.size(); ++i) {
+        if (interrupted()) return;
+        knowable.look(sim::exact_beams(simulation, simulation.scan(i)));
+        progress.advance();
+    }
+    knowable.decide();
+    const auto folder = io::knowable_folder(recording);
+    std::filesystem::create_directories(folder);
+    for (std::size_t i = 0; i < simulation.size(); ++i) {
+        io::write_knowable(io::knowable_file(folder, stem_of(i)), knowable.of_scan(i),
+                           io::Durable::contents);
+    }
+    io::sync_folder(folder);
 }
 
 }  // namespace
@@ -87,8 +111,9 @@ std::vector<SimulatedRecording> simulated_recordings(const sim::SimulationOption
 }
 
 std::size_t write_simulation(const sim::SimulationOptions& options,
-                             const std::filesystem::path& folder, bool quiet) {
+                             const std::filesystem::path& folder, bool quiet, bool with_knowable) {
     sim::Simulation simulation(options);
+    sim::Knowable knowable;
     const auto scans = scan_folder(options, folder);
     std::filesystem::create_directories(scans);
     std::filesystem::create_directories(folder / "labels");
@@ -102,9 +127,10 @@ std::size_t write_simulation(const sim::SimulationOptions& options,
         poses.push_back(scan.T_world_sensor);
         stamps.push_back(scan.stamp);
         points += scan.points.size();
+        if (with_knowable) knowable.note(scan, sim::exact_beams(simulation, scan));
         if (writing.valid()) writing.get();
         writing = std::async(std::launch::async, [&options, &folder, i, done = std::move(scan)] {
-            write_scan(options, folder, fmt::format("{:06}", i), done);
+            write_scan(options, folder, stem_of(i), done);
         });
         progress.advance();
     }
@@ -113,6 +139,7 @@ std::size_t write_simulation(const sim::SimulationOptions& options,
     io::sync_folder(folder / "labels");
     io::write_poses_kitti(folder / "poses.txt", poses);
     io::write_times(folder / "times.txt", stamps);
+    if (with_knowable && !interrupted()) write_knowable(simulation, knowable, folder, quiet);
     return points;
 }
 
@@ -121,7 +148,7 @@ int simulate(const SimulateOptions& o) {
     for (const auto& [options, folder] : simulated_recordings(o.simulation, o.output)) {
         if (interrupted()) break;
         OutputFolder output(folder, recording_files(), replaced_if(o.overwrite));
-        const std::size_t points = write_simulation(options, output.path(), o.quiet);
+        const std::size_t points = write_simulation(options, output.path(), o.quiet, o.knowable);
         output.commit();
         if (!o.quiet) fmt::print("written  {} ({} points)\n", output.name().string(), points);
     }
@@ -154,6 +181,10 @@ void add_simulate(Program& program) {
     c.number("--pose-noise", s.pose_noise_m, {0.0, 10.0}, "standard deviation of each axis [m]");
     c.number("--pose-noise-deg", s.pose_noise_deg, {0.0, 90.0},
              "standard deviation of each axis [deg]");
+    c.flag(
+        "--knowable", o->knowable,
+        "also write what could be known of each point: how often beams passed through its place, "
+        "and whether somebody saw its thing move; `eval` reads it");
     c.flag("--overwrite", o->overwrite, "replace an earlier recording in the output folder");
     add_quiet(c, o->quiet);
     c.action([o] { return simulate(*o); });

@@ -13,9 +13,10 @@ namespace dynamic_filter::app {
 /// times.txt; of sweeps, PCD files in scans instead of velodyne. The folder exists. `quiet`: no
 /// progress on stderr. Returns the number of points. Of things that rest during the drive but are
 /// absent from another, labels are 259 (SemanticKITTI's "moving other"), with the number of the
-/// thing in the upper 16 bits.
+/// thing in the upper 16 bits. `with_knowable`: also the folder knowable, unless it is interrupted.
 std::size_t write_simulation(const sim::SimulationOptions& options,
-                             const std::filesystem::path& folder, bool quiet = false);
+                             const std::filesystem::path& folder, bool quiet = false,
+                             bool with_knowable = false);
 
 /// One of the recordings that a simulation gives.
 struct SimulatedRecording {

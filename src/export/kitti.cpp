@@ -55,8 +55,9 @@ private:
 }  // namespace
 
 const FolderFiles& recording_files() {
-    static const FolderFiles files{.files = {"poses.txt", "times.txt"},
-                                   .folders = {{"labels", ".label"}, {"velodyne", ".bin"}}};
+    static const FolderFiles files{
+        .files = {"poses.txt", "times.txt"},
+        .folders = {{"labels", ".label"}, {"velodyne", ".bin"}, {"knowable", ".bin"}}};
     return files;
 }
 

@@ -13,6 +13,7 @@
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/parallel.hpp"
 #include "geometry/neighbor_grid.hpp"
+#include "score/for_each_scan.hpp"
 
 namespace dynamic_filter::eval {
 
@@ -30,21 +31,6 @@ void refuse_unparallel(const LabelledScan& scan, const Labels& verdict) {
     throw Error("a scan to be scored has " + std::to_string(n) + " points, " +
                 std::to_string(scan.truth.size()) + " truths and " +
                 std::to_string(verdict.size()) + " verdicts; expected one per point");
-}
-
-/// Calls `use` with every scan in order; a few scans are read ahead in parallel.
-template <class F>
-void for_each_scan(std::size_t scans, const ScanSource& source, F&& use) {
-    constexpr std::size_t kAhead = 16;
-    for (std::size_t first = 0; first < scans; first += kAhead) {
-        std::vector<std::optional<LabelledScan>> batch(std::min(kAhead, scans - first));
-        parallel_for(batch.size(), 1, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) batch[i] = source(first + i);
-        });
-        for (std::size_t i = 0; i < batch.size(); ++i) {
-            if (batch[i]) use(*batch[i]);
-        }
-    }
 }
 
 template <class F>
@@ -235,9 +221,10 @@ Scores ScoreSums::scores() const {
 
 Scores score_labels(std::size_t scans, const ScanSource& source, double voxel_size) {
     ScanScores scores(voxel_size, 1, Grids::aligned_and_shifted);
-    for_each_scan(scans, source,
-                  [&](const LabelledScan& scan) { scores.add(scan, std::array{&scan.verdict}); });
-    for_each_scan(scans, source, [&](const LabelledScan& scan) {
+    for_each_scan(scans, source, [&](std::size_t, const LabelledScan& scan) {
+        scores.add(scan, std::array{&scan.verdict});
+    });
+    for_each_scan(scans, source, [&](std::size_t, const LabelledScan& scan) {
         scores.add_near(scores.near_removed(scan, std::array{&scan.verdict}));
     });
     return scores.scores(0);
@@ -248,7 +235,7 @@ Scores score_map(std::size_t scans, const ScanSource& source, const Points& map,
     const NeighborGrid grid(map, 2.0F * kDistance);
     std::vector<VoxelTally> tallies = tallies_of(Grids::aligned_and_shifted, voxel_size, 1);
     CoverCount count;
-    for_each_scan(scans, source, [&](const LabelledScan& scan) {
+    for_each_scan(scans, source, [&](std::size_t, const LabelledScan& scan) {
         refuse_unparallel(scan, scan.verdict.empty() ? scan.truth : scan.verdict);
         std::vector<VoxelTally::TruePoint> points;
         for_each_known_point(scan, [&](std::size_t i) {

@@ -269,6 +269,10 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 
 std::size_t Simulation::size() const { return world_->scans; }
 
+Pose Simulation::exact_pose(double time) const {
+    return Eigen::Translation3d(0.0, 0.0, world_->scene.floor) * true_pose(world_->scene, time);
+}
+
 SimulatedScan Simulation::scan(std::size_t i) {
     const double t = static_cast<double>(i) / world_->rate_hz;
     const Pose pose = true_pose(world_->scene, t);

@@ -240,6 +240,46 @@ TEST_F(Command, SimulatesDrivesAsRecordingsOfTheirOwn) {
     expect_said("with drives: city");
 }
 
+TEST_F(Command, EvalSaysWhatWasRemovedOfWhatCouldBeKnown) {
+    ASSERT_EQ(run("simulate crowd --frames 8 --pedestrians 10 --knowable -q -o known"), 0);
+    EXPECT_EQ(fs::file_size(folder_ / "known/knowable/000007.bin"),
+              fs::file_size(folder_ / "known/labels/000007.label"));
+    const std::string eval = "eval --truth known --labels ";
+    // Labels that are the truth remove all that is dynamic.
+    ASSERT_EQ(run(eval + "known --last 5 --json s.json"), 0) << said();
+    expect_said("  what is dynamic                  points removed [%]    voxels  RR [%]\n");
+    const auto scores = nlohmann::json::parse(slurp(folder_ / "s.json"))["knowable"];
+    EXPECT_EQ(scores["groups"]["knowable"]["rr"], 1.0);
+    EXPECT_EQ(scores["groups"]["all"]["points_removed"], 1.0);
+    std::size_t points = 0;
+    for (const auto& bin : scores["bins"]) points += bin["points"].get<std::size_t>();
+    EXPECT_EQ(scores["groups"]["all"]["points"], points);
+    EXPECT_GT(points, 1000U);
+
+    ASSERT_EQ(run("run known -o out --no-report"), 0) << said();
+    ASSERT_EQ(run("eval --truth known --map out/static_map.pcd"), 0) << said();
+    EXPECT_EQ(said().find("what is dynamic"), std::string::npos);
+    spill(folder_ / "known/knowable/000003.bin", "1234");
+    EXPECT_EQ(run(eval + "out"), 3);
+    expect_said("known/knowable/000003.bin: has 4 bytes; expected ");
+    fs::remove(folder_ / "known/knowable/000003.bin");
+    EXPECT_EQ(run(eval + "out"), 3);
+    expect_said("known/knowable/000003.bin: ");
+    ASSERT_EQ(run("simulate crowd --frames 8 --pedestrians 10 -q -o known --overwrite"), 0);
+    EXPECT_FALSE(fs::exists(folder_ / "known/knowable"));
+    EXPECT_EQ(run(eval + "out"), 0) << said();
+}
+
+TEST_F(Command, WhatCouldBeKnownGoesWithASweepAndWithNoisyPoses) {
+    ASSERT_EQ(run("simulate street --sensor vlp16 --frames 4 --sweep --pose-noise 0.02 --knowable "
+                  "-q -o swept"),
+              0);
+    ASSERT_EQ(run("eval --truth swept --labels swept"), 0) << said();
+    expect_said("  knowable ");
+    ASSERT_EQ(run("simulate city --km 0.05 --drives 2 --frames 2 --knowable -q -o city"), 0);
+    EXPECT_TRUE(fs::exists(folder_ / "city/drive_2/knowable/000001.bin"));
+}
+
 TEST_F(Command, EvalOfLabelsAndOfTheMapAgreeWithTheRun) {
     ASSERT_EQ(run("run " + recording().string() + " -o out"), 0);
     const auto metrics = nlohmann::json::parse(slurp(folder_ / "out/metrics.json"));

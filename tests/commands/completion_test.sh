@@ -26,6 +26,7 @@ offers "bag nuscenes kitti-360 kitti-raw apollo mulran pairs glim hdl kitti benc
 offers "map.voxel_size=" run data --set map.v
 offers "crowd street square hall jam queue platform city" simulate ""
 offers "vlp16 os64" simulate crowd --sensor ""
+offers "--knowable" simulate crowd --know
 offers "erasor mos" eval --protocol ""
 offers "kitti benchmark autoware 3dtiles las" convert a b --to ""
 offers "" run data --poses ""

@@ -45,3 +45,17 @@ wait "$process" || code=$?
 [ "$code" = 130 ] || fail "exit code $code in the first moment"
 grep -q '^interrupted' said.txt || fail "it does not say that it was interrupted"
 [ -z "$(find . -name '*.lock')" ] || fail "a lock is left"
+
+# A simulation that looks through its recording once more leaves the recording, and nothing of what it counts.
+"$command" simulate crowd --frames 200 --pedestrians 10 --knowable -o known > said.txt 2>&1 &
+process=$!
+until grep -qs "look through" said.txt; do
+    kill -0 "$process" || fail "ended before it looked through the recording"
+    sleep 0.02
+done
+kill -s INT "$process"
+code=0
+wait "$process" || code=$?
+[ "$code" = 130 ] || fail "exit code $code while it looked through the recording"
+[ "$(ls known/velodyne | wc -l)" = 200 ] || fail "scans are missing"
+[ ! -e known/knowable ] || fail "a part of what could be known is left"

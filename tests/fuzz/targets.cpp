@@ -14,6 +14,7 @@
 #include "formats/bags/bag_file.hpp"
 #include "formats/byte_reader.hpp"
 #include "formats/clouds/bin_layout.hpp"
+#include "formats/knowable_file.hpp"
 #include "formats/messages/messages.hpp"
 #include "recording/frame_tree.hpp"
 #include "recording/mask.hpp"
@@ -156,6 +157,11 @@ const std::map<std::string, Target>& targets() {
         {"labels",
          [](std::span<const std::uint8_t> bytes) {
              expect_result_or_error(bytes, [](const auto& file) { (void)io::read_labels(file); });
+         }},
+        {"knowable",
+         [](std::span<const std::uint8_t> bytes) {
+             expect_result_or_error(
+                 bytes, [&](const auto& file) { (void)io::read_knowable(file, bytes.size() / 4); });
          }},
         {"config",
          [](std::span<const std::uint8_t> bytes) {

@@ -15,7 +15,7 @@ foreach(program fuzz_test fuzz_allocation_test)
 endforeach()
 
 if(DYNAMIC_FILTER_FUZZ)
-  foreach(target bin calib config labels las mask mcap message npy pcd ply poses rosbag1 rosbag2 text)
+  foreach(target bin calib config knowable labels las mask mcap message npy pcd ply poses rosbag1 rosbag2 text)
     add_executable(fuzz_${target} ${CMAKE_CURRENT_LIST_DIR}/fuzzer.cpp)
     target_compile_definitions(fuzz_${target} PRIVATE DYNAMIC_FILTER_TARGET="${target}")
     target_link_libraries(fuzz_${target} PRIVATE dynamic_filter_fuzz dynamic_filter_flags)

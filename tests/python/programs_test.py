@@ -52,6 +52,12 @@ class Programs(unittest.TestCase):
         with self.assertRaisesRegex(df.ConfigError, "crowd"):
             df.simulate("nowhere", scratch("nowhere"))
 
+    def test_evaluate_says_what_could_be_known(self):
+        df.simulate("crowd", scratch("known"), frames=3, pedestrians=10, knowable=True)
+        known = df.evaluate(scratch("known"), labels=scratch("known"))["knowable"]
+        self.assertEqual(known["groups"]["knowable"]["rr"], 1.0)
+        self.assertEqual(sum(b["points"] for b in known["bins"]), known["groups"]["all"]["points"])
+
     def test_recording(self):
         opened = df.open_recording(recording(), first=3, stride=2)
         self.assertEqual(len(opened), (SCANS - 3 + 1) // 2)
