@@ -214,10 +214,11 @@ struct ScansConfig {
     struct Contact {
         int fewest = 6;
         double flat = 0.04;
+        double above = 0.03;
         double outlier = 0.05;
         double lowest = 0.03;
         double height = 0.02;
-        double roughness = 2.0;
+        double roughness = 3.0;
     } contact;
 };
 
@@ -453,9 +454,13 @@ void visit_scans(C& scans, F&& f) {
           "largest root mean square distance of these voxels from the surface, which allows for "
           "range noise",
           0, 1, c.flat);
+    field(
+        "scans.contact.above", "m",
+        "a static voxel more than this above the surface does not belong to it: it may hold a foot "
+        "that was not found",
+        0, 1, c.above);
     field("scans.contact.outlier", "m",
-          "a static voxel farther than this from the surface does not belong to it", 0, 1,
-          c.outlier);
+          "a static voxel more than this below the surface does not belong to it", 0, 1, c.outlier);
     field("scans.contact.lowest", "m",
           "dynamic voxels must rise above the surface by at least this; otherwise they are the "
           "surface itself",

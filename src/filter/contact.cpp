@@ -22,6 +22,11 @@ std::optional<Point> moving_side(std::span<const VoxelVerdict> around) {
     return Point(sum / static_cast<float>(count));
 }
 
+ContactSurface towards(const Point& moving, const ContactSurface& plane) {
+    if (plane.height(moving) >= 0.0F) return plane;
+    return {-plane.normal, -plane.offset, plane.roughness};
+}
+
 std::optional<ContactSurface> plane_of(const Points& points, const ScansConfig::Contact& config) {
     if (points.size() < static_cast<std::size_t>(config.fewest)) return std::nullopt;
     Moments moments{.origin = points.front()};
@@ -32,23 +37,31 @@ std::optional<ContactSurface> plane_of(const Points& points, const ScansConfig::
     return ContactSurface{axis->cast<float>(), axis->cast<float>().dot(mean), 0.0F};
 }
 
-/// Fits a plane twice: the second time without the points that do not lie on the first plane.
-std::optional<ContactSurface> fit(const Points& points, const ScansConfig::Contact& config) {
+/// The plane of the static surface, with the normal towards the moving side. Some of the points
+/// belong to feet that were not found, and lie above the surface. So the plane is fitted again and
+/// again without the points above it, or far below it.
+std::optional<ContactSurface> fit(const Points& points, const Point& moving,
+                                  const ScansConfig::Contact& config) {
+    constexpr int kFits = 3;
+    const auto above = static_cast<float>(config.above);
     const auto outlier = static_cast<float>(config.outlier);
     const auto flat = static_cast<float>(config.flat);
-    const auto first = plane_of(points, config);
-    if (!first) return std::nullopt;
-    Points inliers;
-    for (const Point& p : points) {
-        if (std::abs(first->height(p)) <= outlier) inliers.push_back(p);
+    Points inliers = points;
+    auto plane = plane_of(points, config);
+    for (int round = 0; round < kFits && plane; ++round) {
+        const ContactSurface last = towards(moving, *plane);
+        inliers.clear();
+        for (const Point& p : points) {
+            if (last.height(p) <= above && last.height(p) >= -outlier) inliers.push_back(p);
+        }
+        plane = plane_of(inliers, config);
     }
-    const auto second = plane_of(inliers, config);
-    if (!second || 2 * inliers.size() < points.size()) return std::nullopt;
+    if (!plane || 2 * inliers.size() < points.size()) return std::nullopt;
     float sum_sq = 0.0F;
-    for (const Point& p : inliers) sum_sq += second->height(p) * second->height(p);
+    for (const Point& p : inliers) sum_sq += plane->height(p) * plane->height(p);
     const float roughness = std::sqrt(sum_sq / static_cast<float>(inliers.size()));
     if (roughness > flat) return std::nullopt;
-    return ContactSurface{second->normal, second->offset, roughness};
+    return towards(moving, {plane->normal, plane->offset, roughness});
 }
 
 }  // namespace
@@ -61,14 +74,10 @@ std::optional<ContactSurface> contact_surface(std::span<const VoxelVerdict> arou
     for (const VoxelVerdict& v : around) {
         if (v.label == Label::static_) fixed.push_back(v.centroid);
     }
-    auto surface = fit(fixed, config);
-    if (!surface) return std::nullopt;
-    const float height = surface->height(*moving);
-    if (std::abs(height) < static_cast<float>(config.lowest))
-        // The dynamic voxels lie on the surface itself, so their verdict is wrong.
-        return std::nullopt;
-    if (height < 0.0F) *surface = {-surface->normal, -surface->offset, surface->roughness};
-    return surface;
+    const auto surface = fit(fixed, *moving, config);
+    // Dynamic voxels on the surface itself have a wrong verdict.
+    const bool rises = surface && surface->height(*moving) >= static_cast<float>(config.lowest);
+    return rises ? surface : std::nullopt;
 }
 
 }  // namespace dynamic_filter

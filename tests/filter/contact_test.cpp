@@ -57,6 +57,19 @@ TEST(ContactSurface, IsThePlaneOfTheGroundUnderAFoot) {
     }
 }
 
+/// Ground high in its voxels: feet in the voxels above it were not found.
+TEST(ContactSurface, IsNotLiftedByFeetThatWereNotFound) {
+    World world = patch(0.0F, 0.01F);
+    for (const float x : {-0.3F, -0.1F, 0.1F, 0.3F}) {
+        for (const float y : {-0.3F, -0.1F, 0.1F}) world.add({x, y, 0.25F}, Label::static_);
+    }
+    world.add({0.1F, 0.1F, 0.35F}, Label::dynamic);
+    const auto surface = world.contact(kBelow);
+    ASSERT_TRUE(surface);
+    EXPECT_NEAR(surface->height({0.1F, 0.1F, 0.07F}), 0.0F, 0.01F);
+    EXPECT_LT(surface->roughness, 0.012F);
+}
+
 TEST(ContactSurface, NeedsSomethingDynamicThatTouches) {
     World world = patch(0.0F);
     EXPECT_FALSE(world.contact(kBelow));
