@@ -195,14 +195,17 @@ void EvidenceMap::align(const Scan& scan) {
     constexpr std::size_t kSome = 2;  // poses are mostly good for all or for none
     if (!align_every(kSome) || !align_every(1)) return;
     aligned_.assign(asked.size(), kNotMoved);
+    const Point sensor = scan.T_world_sensor.translation().cast<float>();
+    float sum = 0.0F;
     for (std::size_t k = earlier; k-- > 0;) {
         const bool has_next = k + 1 < aligned_.size();
         aligned_[k] = found[k] ? *found[k] : has_next ? aligned_[k + 1] : kNotMoved;
-        const Point sensor = scan.T_world_sensor.translation().cast<float>();
+        const float moved = (aligned_[k] * sensor - sensor).norm();
         const float turn = Eigen::AngleAxisf(aligned_[k].linear()).angle();
-        const float moved = (aligned_[k] * sensor - sensor).norm() + turn * margins_.farthest;
-        moved_by_ = std::max(moved_by_, moved);
+        moved_by_ = std::max(moved_by_, moved + turn * margins_.farthest);
+        sum += moved;
     }
+    disagreement_ += sum / static_cast<float>(earlier);
 }
 
 /// Moves the places of earlier scans to where the newest scan would see them, with the motion of

@@ -3,6 +3,7 @@
 /// voxels.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <vector>
@@ -58,6 +59,13 @@ public:
     [[nodiscard]] std::vector<std::vector<std::size_t>> free_keyframes(
         std::span<const std::uint32_t> voxels) const;
 
+    /// [m] By how much the poses of two scans disagree, on average: by the motions that align them,
+    /// and 0 for those that need none.
+    [[nodiscard]] float disagreement() const {
+        return static_cast<float>(disagreement_ /
+                                  static_cast<double>(std::max<std::size_t>(1, indices_.size())));
+    }
+
     /// Scan::index of an owner (Evidence::first_owner or last_owner).
     [[nodiscard]] std::size_t index_of_owner(std::uint32_t owner) const { return indices_[owner]; }
     [[nodiscard]] const EvidenceGrid& grid() const { return grid_; }
@@ -102,6 +110,7 @@ private:
     /// that it asks, oldest first. Empty: all are the identity.
     std::vector<Eigen::Isometry3f> aligned_;
     float moved_by_ = 0.0F;             // [m] by these motions, at most
+    double disagreement_ = 0.0;         // [m] sum over the scans
     std::vector<std::size_t> indices_;  // Scan::index in the order of the scans
     std::uint32_t known_ = 0;           // number of voxels before the newest scan
     bool is_due_ = false;               // true if observe_elsewhere() is due

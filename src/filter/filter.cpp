@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "dynamic_filter/filter.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -131,7 +132,10 @@ void DynamicFilter::look_again(std::size_t drive, Scan scan) {
 
 void DynamicFilter::finish() {
     if (std::exchange(impl_->finished, true)) return;
-    const Config& config = impl_->config;
+    Config& config = impl_->config;
+    // Poses that disagree lift points above the ground by as much.
+    double& height = config.scans.contact.height;
+    height = std::max(height, static_cast<double>(impl_->map.disagreement()));
     timed(impl_->times, "finish", [&] {
         impl_->decided = decide_voxels(impl_->map.grid(), config);
         if (config.map.time == MapTime::latest) {
