@@ -156,7 +156,7 @@ void EvidenceMap::check_new() {
     std::vector<std::vector<Sight>> sights(asked.size());
     parallel_for(asked.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
-            const auto& aligned = aligned_.empty() ? kNotMoved : aligned_[k];
+            const auto& aligned = alignments_.empty() ? kNotMoved : alignments_[k].to_keyframe;
             sights[k] = look(*asked[k].keyframe, places, aligned);
         }
     });
@@ -175,33 +175,41 @@ void EvidenceMap::check_new() {
 /// Aligns the newest scan with the earlier keyframes that it asks. One that shares too few surfaces
 /// with the scan is taken to be off as the next later one is.
 void EvidenceMap::align(const Scan& scan) {
-    aligned_.clear();
+    alignments_.clear();
     moved_by_ = 0.0F;
     if (alignment_gain_ >= 1.0F) return;
     const std::vector<Keyframes::Asked> asked = keyframes_.asked_by_new();
     const std::size_t earlier = asked.size() - (is_due_ ? 1 : 0);
     const Points sample = alignment_sample(scan);
     std::vector<std::optional<Eigen::Isometry3f>> found(earlier);
-    const auto align_every = [&](std::size_t stride) {  // returns false if all are well placed
-        parallel_for((earlier + stride - 1) / stride, 1, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t k = begin * stride; k < std::min(end * stride, earlier); k += stride) {
+    const auto align_half = [&](std::size_t first) {
+        parallel_for((earlier + 1 - first) / 2, 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                const std::size_t k = first + 2 * i;
                 found[k] = alignment_to(*asked[k].keyframe, sample, alignment_gain_);
             }
         });
-        return std::any_of(found.begin(), found.end(), [&](const auto& motion) {
-            return motion && motion->matrix() != kNotMoved.matrix();
-        });
     };
-    constexpr std::size_t kSome = 2;  // poses are mostly good for all or for none
-    if (!align_every(kSome) || !align_every(1)) return;
-    aligned_.assign(asked.size(), kNotMoved);
+    align_half(0);
+    const bool is_off = std::any_of(found.begin(), found.end(), [](const auto& motion) {
+        return motion && motion->matrix() != kNotMoved.matrix();
+    });
+    if (!is_off) return;  // poses are mostly good for all keyframes or for none
+    align_half(1);
+    for (const Keyframes::Asked& a : asked) {
+        alignments_.push_back({a.keyframe->owner, kNotMoved, kNotMoved});
+    }
     const Point sensor = scan.T_world_sensor.translation().cast<float>();
     float sum = 0.0F;
     for (std::size_t k = earlier; k-- > 0;) {
-        const bool has_next = k + 1 < aligned_.size();
-        aligned_[k] = found[k] ? *found[k] : has_next ? aligned_[k + 1] : kNotMoved;
-        const float moved = (aligned_[k] * sensor - sensor).norm();
-        const float turn = Eigen::AngleAxisf(aligned_[k].linear()).angle();
+        const bool has_next = k + 1 < alignments_.size();
+        const Eigen::Isometry3f motion = found[k]   ? *found[k]
+                                         : has_next ? alignments_[k + 1].to_keyframe
+                                                    : kNotMoved;
+        alignments_[k].to_keyframe = motion;
+        alignments_[k].to_newest = motion.inverse();
+        const float moved = (motion * sensor - sensor).norm();
+        const float turn = Eigen::AngleAxisf(motion.linear()).angle();
         moved_by_ = std::max(moved_by_, moved + turn * margins_.farthest);
         sum += moved;
     }
@@ -211,16 +219,14 @@ void EvidenceMap::align(const Scan& scan) {
 /// Moves the places of earlier scans to where the newest scan would see them, with the motion of
 /// the next keyframe after the scan that found the place.
 void EvidenceMap::move_to_newest(Places& places) const {
-    if (aligned_.empty()) return;
-    const std::vector<Keyframes::Asked> asked = keyframes_.asked_by_new();
+    if (alignments_.empty()) return;
     for (std::size_t i = 0; i < places.voxels.size(); ++i) {
         const std::uint32_t owner = grid_[places.voxels[i]].evidence.first_owner;
-        const auto next = std::lower_bound(
-            asked.begin(), asked.end(), owner,
-            [](const Keyframes::Asked& a, std::uint32_t o) { return a.keyframe->owner < o; });
-        if (next == asked.end()) continue;
-        const auto& aligned = aligned_[static_cast<std::size_t>(next - asked.begin())];
-        places.centroids[i] = aligned.inverse() * places.centroids[i];
+        const auto next =
+            std::lower_bound(alignments_.begin(), alignments_.end(), owner,
+                             [](const Alignment& a, std::uint32_t o) { return a.owner < o; });
+        if (next == alignments_.end()) continue;
+        places.centroids[i] = next->to_newest * places.centroids[i];
     }
 }
 

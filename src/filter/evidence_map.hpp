@@ -106,14 +106,17 @@ private:
         Keyframes keyframes;                // keeps one keyframe
         std::vector<std::uint32_t> blocks;  // with voxels that were found after the drive
     } again_;
-    /// Motions in the map that bring the newest scan onto the surfaces of the earlier keyframes
-    /// that it asks, oldest first. Empty: all are the identity.
-    std::vector<Eigen::Isometry3f> aligned_;
-    float moved_by_ = 0.0F;             // [m] by these motions, at most
-    double disagreement_ = 0.0;         // [m] sum over the scans
-    std::vector<std::size_t> indices_;  // Scan::index in the order of the scans
-    std::uint32_t known_ = 0;           // number of voxels before the newest scan
-    bool is_due_ = false;               // true if observe_elsewhere() is due
+    /// How the newest scan fits the surfaces of a keyframe that it asks: a motion in the map.
+    struct Alignment {
+        std::uint32_t owner;  // of the keyframe
+        Eigen::Isometry3f to_keyframe, to_newest;
+    };
+    std::vector<Alignment> alignments_;  // as asked, oldest first; empty: all are the identity
+    float moved_by_ = 0.0F;              // [m] by these motions, at most
+    double disagreement_ = 0.0;          // [m] sum over the scans
+    std::vector<std::size_t> indices_;   // Scan::index in the order of the scans
+    std::uint32_t known_ = 0;            // number of voxels before the newest scan
+    bool is_due_ = false;                // true if observe_elsewhere() is due
 };
 
 }  // namespace dynamic_filter

@@ -13,10 +13,6 @@ using nlohmann::ordered_json;
 
 namespace {
 
-ordered_json share_or_null(const std::optional<double>& share) {
-    return share ? ordered_json(*share) : ordered_json(nullptr);
-}
-
 void put_removed(ordered_json& json, const eval::Removed& removed) {
     json["points"] = removed.points;
     json["points_removed"] = share_or_null(removed.point_share());

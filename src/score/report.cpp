@@ -11,14 +11,11 @@ using nlohmann::ordered_json;
 
 namespace {
 
-ordered_json number(const std::optional<double>& value) {
-    return value ? ordered_json(*value) : ordered_json(nullptr);
-}
-
 ordered_json json_of(const std::map<std::string, eval::VoxelScore>& scores) {
     ordered_json json;
     for (const auto& [reading, s] : scores) {
-        json[reading] = {{"pr", number(s.pr)}, {"rr", number(s.rr)}, {"f1", number(s.f1)}};
+        json[reading] = {
+            {"pr", share_or_null(s.pr)}, {"rr", share_or_null(s.rr)}, {"f1", share_or_null(s.f1)}};
     }
     return json;
 }
@@ -34,16 +31,20 @@ std::string rows_of(const std::map<std::string, eval::VoxelScore>& scores, const
 
 }  // namespace
 
+ordered_json share_or_null(const std::optional<double>& share) {
+    return share ? ordered_json(*share) : ordered_json(nullptr);
+}
+
 ordered_json to_json(const eval::Scores& scores) {
     ordered_json json;
     if (!scores.voxel.empty()) json["voxel"] = json_of(scores.voxel);
     if (!scores.voxel_shifted.empty()) json["voxel_shifted"] = json_of(scores.voxel_shifted);
     const auto& p = scores.point;
-    json["point"] = {{"sa", number(p.sa)},
-                     {"da", number(p.da)},
-                     {"aa", number(p.aa)},
-                     {"ha", number(p.ha)},
-                     {"iou", number(p.iou)}};
+    json["point"] = {{"sa", share_or_null(p.sa)},
+                     {"da", share_or_null(p.da)},
+                     {"aa", share_or_null(p.aa)},
+                     {"ha", share_or_null(p.ha)},
+                     {"iou", share_or_null(p.iou)}};
     json["dynamic_voxel_share"] = scores.dynamic_share;
     return json;
 }

@@ -11,6 +11,9 @@
 
 namespace dynamic_filter::app {
 
+/// null if it is not defined.
+nlohmann::ordered_json share_or_null(const std::optional<double>& share);
+
 /// {"voxel": {reading: {pr, rr, f1}}, "point": {sa, da, aa, ha, iou}}; null where undefined. With
 /// scores on the shifted grid also "voxel_shifted", which is as "voxel".
 nlohmann::ordered_json to_json(const eval::Scores& scores);
