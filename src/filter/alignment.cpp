@@ -51,7 +51,7 @@ Corners corners_around(const BeamImage& image, const Beam& place) {
     std::array<std::array<float, 2>, 2> nearest{};
     for (int r = std::max(first_row, 0); r < std::min(first_row + 3, grid.rows); ++r) {
         for (int c = first_column; c < first_column + 3; ++c) {
-            const int wrapped = (c + grid.columns) % grid.columns;
+            const int wrapped = c < 0 ? c + grid.columns : c >= grid.columns ? c - grid.columns : c;
             if (!image.has_beam(r, wrapped)) continue;
             const Beam beam = image.beam(r, wrapped);
             float right = beam.azimuth - place.azimuth;

@@ -13,6 +13,10 @@ namespace {
 
 const Eigen::Isometry3f kNotMoved = Eigen::Isometry3f::Identity();
 constexpr std::size_t kBlocksAtATime = 64;  // number of blocks that a thread takes at a time
+/// The newest scan is aligned with every second keyframe first, and with the others only if it does
+/// not fit one of these. After so many scans in a row that fitted all, every eighth is enough.
+constexpr std::size_t kFitting = 8;
+constexpr std::size_t kTestedFirst = 2, kTestedLater = 8;
 
 Config with_one_keyframe(Config config) {
     config.scans.max_keyframes = 1;
@@ -41,6 +45,7 @@ bool EvidenceMap::may_observe(const Scan& scan) const {
 
 void EvidenceMap::begin_drive() {
     keyframes_.begin_drive();
+    fitting_ = 0;
     known_after_.push_back(grid_.size());
 }
 
@@ -182,20 +187,23 @@ void EvidenceMap::align(const Scan& scan) {
     const std::size_t earlier = asked.size() - (is_due_ ? 1 : 0);
     const Points sample = alignment_sample(scan);
     std::vector<std::optional<Eigen::Isometry3f>> found(earlier);
-    const auto align_half = [&](std::size_t first) {
-        parallel_for((earlier + 1 - first) / 2, 1, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                const std::size_t k = first + 2 * i;
-                found[k] = alignment_to(*asked[k].keyframe, sample, alignment_gain_);
-            }
-        });
+    const std::size_t apart = fitting_ < kFitting ? kTestedFirst : kTestedLater;
+    const auto fit = [&](std::size_t k) {
+        found[k] = alignment_to(*asked[k].keyframe, sample, alignment_gain_);
     };
-    align_half(0);
+    parallel_for((earlier + apart - 1) / apart, 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) fit(apart * i);
+    });
     const bool is_off = std::any_of(found.begin(), found.end(), [](const auto& motion) {
         return motion && motion->matrix() != kNotMoved.matrix();
     });
+    fitting_ = is_off ? 0 : fitting_ + 1;
     if (!is_off) return;  // poses are mostly good for all keyframes or for none
-    align_half(1);
+    parallel_for(earlier, 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+            if (k % apart != 0) fit(k);
+        }
+    });
     for (const Keyframes::Asked& a : asked) {
         alignments_.push_back({a.keyframe->owner, kNotMoved, kNotMoved});
     }

@@ -112,6 +112,7 @@ private:
         Eigen::Isometry3f to_keyframe, to_newest;
     };
     std::vector<Alignment> alignments_;  // as asked, oldest first; empty: all are the identity
+    std::size_t fitting_ = 0;            // number of scans in a row that need no alignment
     float moved_by_ = 0.0F;              // [m] by these motions, at most
     double disagreement_ = 0.0;          // [m] sum over the scans
     std::vector<std::size_t> indices_;   // Scan::index in the order of the scans
