@@ -195,10 +195,11 @@ struct ScansConfig {
         double ground_cell = 1.2;
         double ground = 0.25;
         double top = 3.0;
-        double largest = 12.0;
+        double largest = 20.0;
         int fewest = 3;
         double overlap = 0.2;
         double jump = 0.8;
+        double jump_share = 0.25;
         double growth = 3.0;
         double lost = 1.5;
         double dynamic_share = 0.6;
@@ -418,6 +419,10 @@ void visit_scans(C& scans, F&& f) {
           "the predicted center of the track, because two objects that touch form one cluster for "
           "a while",
           0.05, 100, i.jump);
+    field("scans.instances.jump_share", "1",
+          "or within this share of the length of the shorter of both, because the center of a long "
+          "object moves when more of it comes into view",
+          0, 1, i.jump_share);
     field("scans.instances.growth", "1",
           "a cluster continues a track only if it is less than this many times larger or smaller",
           1, 100, i.growth);
@@ -434,9 +439,9 @@ void visit_scans(C& scans, F&& f) {
           "a track moves only if it has gone at least this far; leaves stay in their place", 0, 100,
           i.gone);
     field("scans.instances.arrived_share", "1",
-          "an object came to where it is if at least this share of the voxels of its cluster, and "
-          "the square root of their number more, is dynamic, or was seen free first and occupied "
-          "since",
+          "a scan shows that an object came to where it is if at least this share of the voxels of "
+          "its cluster, and the square root of their number more, is dynamic, or was seen free "
+          "first and occupied since; from half of this share on, the scan counts in part",
           0.01, 1, i.arrived_share);
     field(
         "scans.instances.arrived_scans", "1",

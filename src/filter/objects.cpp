@@ -64,6 +64,7 @@ std::vector<Objects::Cluster> Objects::describe(const Clusters& found, const Poi
         std::sort(members[c].begin(), members[c].end());
         members[c].erase(std::unique(members[c].begin(), members[c].end()), members[c].end());
         Cluster& cluster = clusters[c];
+        Eigen::AlignedBox3f box;
         for (const auto& [voxel, dynamic] : members[c]) {
             const Evidence& e = grid[voxel].evidence;
             const bool filled = was_filled(e), refilled = e.since > e.first_owner;
@@ -73,8 +74,10 @@ std::vector<Objects::Cluster> Objects::describe(const Clusters& found, const Poi
             if (!cluster.voxels.empty() && cluster.voxels.back() == voxel) continue;
             cluster.voxels.push_back(voxel);
             cluster.center += grid[voxel].centroid;
+            box.extend(grid[voxel].centroid);
         }
         cluster.center /= static_cast<float>(cluster.voxels.size());
+        cluster.length = box.sizes().maxCoeff();
     }
     return clusters;
 }
@@ -90,7 +93,10 @@ bool Objects::fits(const Track& track, const Cluster& cluster, double stamp) con
     const auto now = static_cast<double>(cluster.voxels.size());
     const auto before = static_cast<double>(track.seen.voxels);
     const double least = config_.fewest;  // tolerance for small clusters, whose size varies
-    return jump <= static_cast<float>(config_.jump) && now <= config_.growth * before + least &&
+    const float length = std::min(cluster.length, track.seen.length);
+    const float most =
+        std::max(static_cast<float>(config_.jump), static_cast<float>(config_.jump_share) * length);
+    return jump <= most && now <= config_.growth * before + least &&
            before <= config_.growth * now + least;
 }
 
@@ -106,7 +112,11 @@ void Objects::match(std::vector<Cluster>& clusters, const EvidenceGrid& grid, do
         const double least = config_.overlap * static_cast<double>(clusters[c].voxels.size());
         for (const auto& [id, count] : shared) {
             if (static_cast<double>(count) < least) continue;
-            clusters[c].is_after_moving |= tracks_.at(id).moving_from.has_value();
+            const auto& since = tracks_.at(id).moving_from;
+            if (since) {
+                clusters[c].after_moving =
+                    std::min(clusters[c].after_moving.value_or(*since), *since);
+            }
             if (fits(tracks_.at(id), clusters[c], stamp)) matches.emplace_back(count, c, id);
         }
     }
@@ -123,16 +133,23 @@ void Objects::match(std::vector<Cluster>& clusters, const EvidenceGrid& grid, do
     }
 }
 
-/// Counts the scan if the cluster shows that its object came to where it is. For few voxels, chance
-/// is allowed for by about two standard deviations of a share.
+/// Adds what the cluster shows of whether its object came to where it is: a scan counts fully if
+/// enough of its voxels did, and in part from half of that share on. Few looks at a surface that
+/// was never seen before tell little; over many scans they add up. For few voxels, chance is
+/// allowed for by about two standard deviations of a share.
 void Objects::note_arrival(Track& track, const Cluster& cluster) const {
     const auto voxels = static_cast<double>(cluster.voxels.size());
-    const double least = config_.arrived_share * voxels + std::sqrt(voxels);
-    if (static_cast<double>(cluster.came) < least || cluster.filled.empty()) return;
-    if (track.arrived_scans++ > 0) return;
+    const double share = (static_cast<double>(cluster.came) - std::sqrt(voxels)) / voxels;
+    const double weight = std::clamp(2.0 * share / config_.arrived_share - 1.0, 0.0, 1.0);
+    if (weight == 0.0 || cluster.filled.empty()) return;
+    const bool is_first = track.arrived_scans == 0.0;
+    track.arrived_scans += weight;
+    if (!is_first) return;
     track.arrival = value_at_rank(cluster.filled, cluster.filled.size() / 4);
     const bool is_new = track.seen.voxels == 0;
-    if (is_new && cluster.is_after_moving) track.arrived_scans = config_.arrived_scans;
+    if (!is_new || !cluster.after_moving) return;
+    track.arrived_scans = config_.arrived_scans;
+    track.arrival = std::min(track.arrival, *cluster.after_moving);
 }
 
 /// Empty: the track is not that of a moving object so far.
@@ -164,7 +181,7 @@ void Objects::follow(Cluster& cluster, EvidenceGrid& grid, double stamp, std::ui
         const auto elapsed = static_cast<float>(stamp - track.seen.stamp);
         track.velocity = 0.5F * (track.velocity + step / elapsed);
     }
-    track.seen = {stamp, cluster.center, cluster.voxels.size()};
+    track.seen = {stamp, cluster.center, cluster.voxels.size(), cluster.length};
     const double least = config_.dynamic_share * static_cast<double>(cluster.voxels.size());
     if (static_cast<double>(cluster.dynamic) >= least) ++track.dynamic_scans;
     for (const std::uint32_t voxel : cluster.voxels) {

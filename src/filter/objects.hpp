@@ -52,11 +52,12 @@ private:
         double stamp = 0.0;  // [s]
         Point center = Point::Zero();
         std::size_t voxels = 0;
+        float length = 0.0F;  // [m] longest side of its bounding box
     };
     struct Track {
         std::uint32_t start = 0;             // number of its first scan
         std::uint32_t arrival = 0;           // scan in which it came, if that was seen
-        int arrived_scans = 0;               // in which it stood where it came to
+        double arrived_scans = 0.0;          // in which it stood where it came to, weighted
         Point first_center = Point::Zero();  // center in its first scan
         Point velocity = Point::Zero();      // [m/s]
         Seen seen;
@@ -69,11 +70,13 @@ private:
     struct Cluster {
         std::vector<std::uint32_t> voxels;  // ascending
         Point center = Point::Zero();
+        float length = 0.0F;      // [m]
         std::size_t dynamic = 0;  // number of voxels
         std::size_t came = 0;     // of those that are dynamic or were filled
         // The scans in which the voxels were filled that were seen free before.
         std::vector<std::uint32_t> filled{};
-        bool is_after_moving = false;  // a moving object was last seen there
+        // A moving object was last seen there; from this scan on it was known to be one.
+        std::optional<std::uint32_t> after_moving{};
         std::optional<Id> track{};
     };
     [[nodiscard]] std::vector<Cluster> describe(const Clusters& clusters, const PointVoxels& voxels,
