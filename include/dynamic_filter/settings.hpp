@@ -205,8 +205,9 @@ struct ScansConfig {
         double dynamic_share = 0.6;
         int dynamic_scans = 3;
         double gone = 0.5;
+        double displaced = 0.3;
         double arrived_share = 0.45;
-        int arrived_scans = 4;
+        int arrived_scans = 6;
         double share = 0.7;
     } instances;
 
@@ -438,6 +439,10 @@ void visit_scans(C& scans, F&& f) {
     field("scans.instances.gone", "m",
           "a track moves only if it has gone at least this far; leaves stay in their place", 0, 100,
           i.gone);
+    field("scans.instances.displaced", "m",
+          "a track also moves once its surface has moved at least this far by a steady motion, "
+          "however slow; several times what the poses and the scatter of its points explain",
+          0.02, 1000, i.displaced);
     field("scans.instances.arrived_share", "1",
           "a scan shows that an object came to where it is if at least this share of the voxels of "
           "its cluster, and the square root of their number more, is dynamic, or was seen free "

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Simulated scenes with exact labels: a crowd (Sec. IV-A), a street, a square, a hall, a traffic
-/// jam, a street with a queue, a platform, and a city for long drives on several days. Embree casts
-/// the rays. Each point knows the kind of object on which it lies; errors are tabulated by kind.
+/// jam, a street with a queue, a platform, a yard where things move slowly, and a city for long
+/// drives on several days. Embree casts the rays. Each point knows the kind of object on which it
+/// lies; errors are tabulated by kind.
 ///
 /// - Units: [m], [s], [deg].
 /// - Frames: points in the sensor frame, poses T_world_sensor; the z axis of the world points up.

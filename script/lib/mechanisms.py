@@ -10,7 +10,12 @@ MECHANISMS = {
     "the surely static are not outvoted": ["scans.evidence.static_limit=1"],
     "thin things judged by beams through them": ["scans.evidence.thin_benefit=10"],
     # No track ever moves or comes: that would take more voxels than there are.
-    "instances": ["scans.instances.dynamic_scans=1000", "scans.instances.arrived_scans=1000"],
+    "instances": [
+        "scans.instances.dynamic_scans=1000",
+        "scans.instances.arrived_scans=1000",
+        "scans.instances.displaced=1000",
+    ],
+    "surfaces that moved steadily": ["scans.instances.displaced=1000"],
     "objects that came": ["scans.instances.arrived_scans=1000"],
     "neighbours weighted by looks": ["scans.vote.sure=0"],
     "poses aligned where scans disagree": ["scans.sight.alignment_gain=1"],

@@ -11,6 +11,12 @@ namespace dynamic_filter {
 
 namespace {
 
+// Surfaces are compared so often, so near, and if so much of them is seen. Less may be a rim that
+// the shadow of something else leaves, and that moves with the shadow.
+constexpr double kLookEvery = 0.4;   // [s]
+constexpr float kLookReach = 30.0F;  // [m]
+constexpr std::size_t kLookPoints = 20, kLookVoxels = 12;
+
 VoxelKey block_of(const EvidenceGrid& grid, std::uint32_t voxel) {
     return pack(grid.voxels().corner(grid.voxels().block_of_voxel(voxel)));
 }
@@ -41,6 +47,7 @@ void Objects::update(const Scan& scan, const PointVoxels& voxels, EvidenceGrid& 
     std::vector<Cluster> clusters = describe(found, voxels, grid, labels);
     match(clusters, grid, scan.stamp);
     for (Cluster& cluster : clusters) follow(cluster, grid, scan.stamp, scans);
+    find_displaced(scan, found, clusters, grid);
     for (std::size_t i = 0; i < labels.size(); ++i) {
         if (found.of_points[i] == kNoCluster || labels[i] != Label::static_) continue;
         const auto& id = clusters[found.of_points[i]].track;
@@ -73,6 +80,8 @@ std::vector<Objects::Cluster> Objects::describe(const Clusters& found, const Poi
             if (filled || (dynamic && refilled)) cluster.filled.push_back(e.since);
             if (!cluster.voxels.empty() && cluster.voxels.back() == voxel) continue;
             cluster.voxels.push_back(voxel);
+            cluster.since.push_back(e.since);
+            if (e.moved > config_.share * e.n_own) cluster.moved.push_back(e.since);
             cluster.center += grid[voxel].centroid;
             box.extend(grid[voxel].centroid);
         }
@@ -158,10 +167,26 @@ std::optional<std::uint32_t> Objects::moving_from(const Track& track) const {
     const bool moved =
         track.dynamic_scans >= config_.dynamic_scans && path >= static_cast<float>(config_.gone);
     const bool came = track.arrived_scans >= config_.arrived_scans;
+    if (track.is_displaced) return std::min(track.start, track.there_since);
     if (moved && came) return std::min(track.start, track.arrival);
     if (moved) return track.start;
     if (came) return track.arrival;
     return std::nullopt;
+}
+
+void Objects::begin(Cluster& cluster) {
+    cluster.track = next_++;
+    Track& track = tracks_[*cluster.track];
+    track.start = last_scan_;
+    track.first_center = cluster.center;
+    const auto first_quarter = [](const std::vector<std::uint32_t>& scans) {
+        return value_at_rank(scans, scans.size() / 4);
+    };
+    track.there_since = first_quarter(cluster.since);
+    const double least = config_.dynamic_share * static_cast<double>(cluster.voxels.size());
+    if (static_cast<double>(cluster.moved.size()) >= least) {
+        track.moving_from = first_quarter(cluster.moved);
+    }
 }
 
 /// Continues the track of the cluster, or begins a new one. The cluster stands for `scans` scans.
@@ -170,10 +195,7 @@ void Objects::follow(Cluster& cluster, EvidenceGrid& grid, double stamp, std::ui
         cluster.track.reset();
         return;
     }
-    if (!cluster.track) {
-        cluster.track = next_++;
-        tracks_[*cluster.track] = {.start = last_scan_, .first_center = cluster.center, .seen = {}};
-    }
+    if (!cluster.track) begin(cluster);
     Track& track = tracks_.at(*cluster.track);
     note_arrival(track, cluster);
     if (track.seen.voxels > 0) {
@@ -187,18 +209,62 @@ void Objects::follow(Cluster& cluster, EvidenceGrid& grid, double stamp, std::ui
     for (const std::uint32_t voxel : cluster.voxels) {
         last_there_[block_of(grid, voxel)] = {*cluster.track, stamp};
     }
-    const auto mark = [&](std::uint32_t voxel, std::uint32_t count) {
-        if (came_with(track.moving_from, grid[voxel].evidence)) grid.record_moved(voxel, count);
-    };
     if (track.moving_from) {
-        for (const std::uint32_t voxel : cluster.voxels) mark(voxel, scans);
+        for (const std::uint32_t voxel : cluster.voxels) {
+            if (came_with(track.moving_from, grid[voxel].evidence)) grid.record_moved(voxel, scans);
+        }
         return;
     }
     for (const std::uint32_t voxel : cluster.voxels) track.history[voxel] += scans;
+    use_history(track, grid);
+}
+
+/// If the track is now that of a moving object, so are its points until now. Where the object was
+/// before the track began, without having left in between, so are all points until now.
+void Objects::use_history(Track& track, EvidenceGrid& grid) const {
     track.moving_from = moving_from(track);
     if (!track.moving_from) return;
-    for (const auto& [voxel, count] : track.history) mark(voxel, count);
+    for (const auto& [voxel, scans] : track.history) {
+        const Evidence& e = grid[voxel].evidence;
+        if (!came_with(track.moving_from, e)) continue;
+        const bool is_older = track.is_displaced && e.since < track.start;
+        const std::uint32_t all = e.n_own > e.moved ? e.n_own - e.moved : 0;
+        grid.record_moved(voxel, is_older ? all : scans);
+    }
     track.history = {};
+}
+
+/// Compares the surfaces of the tracks that are not those of moving objects with earlier views.
+void Objects::find_displaced(const Scan& scan, const Clusters& found,
+                             const std::vector<Cluster>& clusters, EvidenceGrid& grid) {
+    if (last_look_ && scan.stamp - *last_look_ < kLookEvery) return;
+    last_look_ = scan.stamp;
+    if (!origin_) origin_ = scan.T_world_sensor.translation();
+    Pose near = scan.T_world_sensor;  // floats hold what is near
+    near.translation() -= *origin_;
+    std::vector<Points> points(clusters.size());
+    for (std::size_t i = 0; i < found.of_points.size(); ++i) {
+        const std::uint32_t c = found.of_points[i];
+        if (c == kNoCluster || !clusters[c].track || scan.points[i].norm() > kLookReach) continue;
+        if (tracks_.at(*clusters[c].track).moving_from) continue;
+        points[c].push_back((near * scan.points[i].cast<double>()).cast<float>());
+    }
+    const Point from = near.translation().cast<float>();
+    std::vector<SteadyWay> ways;
+    std::vector<Id> ids;
+    for (std::size_t c = 0; c < clusters.size(); ++c) {
+        const bool is_small = clusters[c].voxels.size() < kLookVoxels;
+        if (is_small || points[c].size() < kLookPoints) continue;
+        const auto way = tracks_.at(*clusters[c].track).surface.look(scan.stamp, from, points[c]);
+        if (!way) continue;
+        ways.push_back(*way);
+        ids.push_back(*clusters[c].track);
+    }
+    for (const std::size_t i : which_moved(ways, config_.displaced)) {
+        Track& track = tracks_.at(ids[i]);
+        track.is_displaced = true;
+        use_history(track, grid);
+    }
 }
 
 /// Removes the tracks that were not seen for too long.

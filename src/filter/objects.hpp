@@ -12,6 +12,7 @@
 #include <tsl/robin_map.h>
 
 #include "filter/clusters.hpp"
+#include "filter/displacement.hpp"
 #include "filter/evidence_grid.hpp"
 
 namespace dynamic_filter {
@@ -23,7 +24,11 @@ namespace dynamic_filter {
 /// - once its clusters were dynamic in several scans and it has gone some distance; or
 /// - once it came: in several scans, about half of the voxels of its clusters were dynamic, or seen
 ///   free first and occupied ever since. Few of them may be sure by themselves: together they are.
-///   If another track of a moving object ended there, one such scan is enough.
+///   If another track of a moving object ended there, one such scan is enough; or
+/// - once its surface moved steadily. This finds what moves so slowly that its middle part is never
+///   seen to come or go.
+/// A track also is that of a moving object if most of its first voxels are: it is a part of such an
+/// object that comes into view again.
 /// All its points, from the first scan of the track on, or from when it came on, are then points of
 /// a moving object. Each voxel counts the scans in which it held such points (Evidence::moved);
 /// occupancy_of() uses this count.
@@ -33,7 +38,7 @@ namespace dynamic_filter {
 /// before the track came.
 ///
 /// Source: docs/how-it-works.md, "Objects". Single caller. Memory: 8 bytes for each voxel of the
-/// tracks in sight.
+/// tracks in sight, and 5 KB for each track.
 class Objects {
 public:
     explicit Objects(const ScansConfig::Instances& config) : config_(config) {}
@@ -62,6 +67,9 @@ private:
         Point velocity = Point::Zero();      // [m/s]
         Seen seen;
         int dynamic_scans = 0;
+        FollowedSurface surface{};
+        bool is_displaced = false;      // its surface moved
+        std::uint32_t there_since = 0;  // scan since when the voxels of its first scan are occupied
         // Of a moving object: points that were first seen in this scan or later are its points.
         std::optional<std::uint32_t> moving_from{};
         // Per voxel: number of scans; kept until the track is that of a moving object.
@@ -75,6 +83,8 @@ private:
         std::size_t came = 0;     // of those that are dynamic or were filled
         // The scans in which the voxels were filled that were seen free before.
         std::vector<std::uint32_t> filled{};
+        std::vector<std::uint32_t> since{};  // the scans since when the voxels are occupied
+        std::vector<std::uint32_t> moved{};  // the same, of voxels of moving objects
         // A moving object was last seen there; from this scan on it was known to be one.
         std::optional<std::uint32_t> after_moving{};
         std::optional<Id> track{};
@@ -87,6 +97,10 @@ private:
     void note_arrival(Track& track, const Cluster& cluster) const;
     [[nodiscard]] std::optional<std::uint32_t> moving_from(const Track& track) const;
     void follow(Cluster& cluster, EvidenceGrid& grid, double stamp, std::uint32_t scans);
+    void begin(Cluster& cluster);
+    void find_displaced(const Scan& scan, const Clusters& found,
+                        const std::vector<Cluster>& clusters, EvidenceGrid& grid);
+    void use_history(Track& track, EvidenceGrid& grid) const;
     void forget(double stamp);
 
     ScansConfig::Instances config_;
@@ -97,7 +111,8 @@ private:
         double stamp;
     };
     tsl::robin_map<VoxelKey, Place, VoxelHash> last_there_;  // per block of voxels
-    std::optional<double> last_stamp_;
+    std::optional<double> last_stamp_, last_look_;
+    std::optional<Eigen::Vector3d> origin_;  // [m, world frame] of the compared surfaces
     std::uint32_t last_scan_ = 0;
 };
 

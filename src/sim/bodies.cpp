@@ -77,6 +77,10 @@ Vector2d half_footprint(VehicleKind kind) {
             return {6.0, 1.25};
         case VehicleKind::wagon:
             return {wagon_half_length, wagon_half_width};
+        case VehicleKind::gate:
+            return gate_size / 2.0;
+        case VehicleKind::load:
+            return load_size / 2.0;
         case VehicleKind::cyclist:
             break;
     }
@@ -109,6 +113,10 @@ std::vector<Part> vehicle_parts(const Vehicle& vehicle) {
             return {{index_of(Prototype::wagon), b},
                     {index_of(Prototype::fore_doors), 0.7F * b},
                     {index_of(Prototype::aft_doors), 0.7F * b}};
+        case VehicleKind::gate:
+            return {{index_of(Prototype::gate), b}};
+        case VehicleKind::load:
+            return {{index_of(Prototype::load), b}};
         case VehicleKind::cyclist:
             break;
     }

@@ -11,7 +11,7 @@
 
 namespace dynamic_filter::sim {
 
-enum class VehicleKind { car, van, bus, cyclist, wagon };
+enum class VehicleKind { car, van, bus, cyclist, wagon, gate, load };
 
 struct Vehicle {
     VehicleKind kind = VehicleKind::car;

@@ -58,7 +58,7 @@ std::uint64_t block_seed(std::uint64_t seed, const Block& block);
 constexpr int house_bays[] = {3, 6};  ///< least and most
 constexpr int houses_of_a_size = 6, trees = 8, planters = 3;
 enum Thing : std::size_t {
-    slab = static_cast<std::size_t>(Prototype::aft_doors) + 1,
+    slab = static_cast<std::size_t>(Prototype::load) + 1,
     house,
     tree = house + static_cast<std::size_t>(houses_of_a_size * (house_bays[1] - house_bays[0] + 1)),
     planter = tree + static_cast<std::size_t>(trees),

@@ -184,6 +184,30 @@ Mesh bus_mesh() {
     return mesh;
 }
 
+Mesh gate_mesh() {
+    Mesh mesh;
+    const double x = 0.5 * gate_size.x(), y = 0.5 * gate_size.y();
+    const auto box = [&](const Vector3d& low, const Vector3d& high) {
+        add_box(mesh, Affine3d::Identity(), {low, high}, metal);
+    };
+    box({-x, -y, 0.1}, {x, y, 0.9});
+    box({-x, -y, 1.8}, {x, y, 1.95});
+    for (int i = 0; i <= 10; ++i) {
+        const double bar = -x + 0.04 + i * (2.0 * x - 0.08) / 10.0;
+        box({bar - 0.04, -0.04, 0.9}, {bar + 0.04, 0.04, 1.8});
+    }
+    return mesh;
+}
+
+Mesh load_mesh() {
+    Mesh mesh;
+    const double x = 0.5 * load_size.x(), y = 0.5 * load_size.y();
+    add_box(mesh, Affine3d::Identity(), {Vector3d(-x, -y, 0.3), Vector3d(x, y, 1.6)}, paint);
+    for (const double side : {-1.0, 1.0})
+        add_capsule(mesh, {side * x, 0.0, 1.6}, {0.0, 0.0, 6.0}, 0.02, metal);
+    return mesh;
+}
+
 std::vector<Mesh> prototypes() {
     return {torso(false),
             torso(true),
@@ -198,7 +222,9 @@ std::vector<Mesh> prototypes() {
             suitcase(),
             wagon_mesh(),
             doors_mesh(1.0),
-            doors_mesh(-1.0)};
+            doors_mesh(-1.0),
+            gate_mesh(),
+            load_mesh()};
 }
 
 }  // namespace dynamic_filter::sim

@@ -10,6 +10,7 @@ Scene hall_scene(int pedestrians, std::uint64_t seed);
 Scene jam_scene(int pedestrians, std::uint64_t seed);
 Scene queue_scene(int pedestrians, std::uint64_t seed);
 Scene platform_scene(int pedestrians, std::uint64_t seed);
+Scene slow_scene(int pedestrians, std::uint64_t seed);
 Scene city_scene(int pedestrians, std::uint64_t seed);
 Scene city_scene(int pedestrians, std::uint64_t seed, const Trip& trip);
 
@@ -22,6 +23,7 @@ const std::vector<SceneEntry>& scene_table() {
         {.name = "jam", .pedestrians = 60, .rate_hz = 10.0, .make = jam_scene},
         {.name = "queue", .pedestrians = 30, .rate_hz = 10.0, .make = queue_scene},
         {.name = "platform", .pedestrians = 80, .rate_hz = 10.0, .make = platform_scene},
+        {.name = "slow", .pedestrians = 20, .rate_hz = 10.0, .make = slow_scene},
         {.name = "city",
          .pedestrians = 14,
          .rate_hz = 10.0,

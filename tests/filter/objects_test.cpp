@@ -174,6 +174,50 @@ TEST(Objects, WhatStandsWhereATrackEndedIsKnownAtOnce) {
     }
 }
 
+// A box of 4 m creeps at 0.1 m/s. The middle of its place stays occupied, and no verdict of a voxel
+// tells that it moves.
+TEST(Objects, WhatCreepsIsFoundByItsSurface) {
+    const auto at = [](int i, float speed) {
+        Glance glance(0.2 * i);
+        const float x = 1.0F + speed * 0.2F * static_cast<float>(i);
+        // The sides that the sensor sees.
+        glance.add_box({x, 4.0F, -1.8F}, {x + 4.0F, 4.0F, -0.4F}, glance.person);
+        glance.add_box({x, 4.0F, -1.8F}, {x, 5.6F, -0.4F}, glance.person);
+        for (const float still : {-5.0F, -2.0F}) {
+            glance.add_box({still, 6.0F, -1.8F}, {still + 1.5F, 6.0F, -0.6F}, glance.bench);
+            glance.add_box({-6.0F, still, -1.8F}, {-6.0F, still + 1.5F, -0.6F}, glance.bench);
+        }
+        return glance;
+    };
+    for (const float speed : {0.0F, 0.1F}) {
+        Followed f;
+        for (int i = 0; i < 30; ++i) f.see(at(i, speed), false);
+        const Glance last = at(30, speed);
+        f.see(last, false);
+        const auto all = std::count(last.person.begin(), last.person.end(), true);
+        if (speed > 0.0F) {
+            EXPECT_GT(10 * dynamic_points(f, last.person), 7 * all);
+            EXPECT_GT(f.moved(last, last.person).first, 0.7F);
+        } else {
+            EXPECT_EQ(dynamic_points(f, last.person), 0);
+        }
+        EXPECT_EQ(dynamic_points(f, last.bench), 0);
+        EXPECT_EQ(f.moved(last, last.bench).second, 0.0F);
+    }
+}
+
+// Something hides the object until its track is lost; only an end of it comes into view again.
+TEST(Objects, APartOfAMovingObjectIsKnownWhenItComesIntoViewAgain) {
+    Followed f;
+    for (int i = 0; i < 8; ++i) f.see({0.2 * i, -4.0F + 0.3F * static_cast<float>(i)}, true);
+    for (int i = 8; i < 12; ++i) f.see({0.2 * i, -1.9F}, false);
+    f.see(Glance(4.0), false);
+    Glance part(6.0);
+    part.add_box({-1.9F, 3.05F, -1.8F}, {-1.4F, 3.25F, -0.4F}, part.person);
+    f.see(part, false);
+    EXPECT_GT(dynamic_points(f, part.person), 0);
+}
+
 TEST(Objects, SurviveThatVoxelsAreForgotten) {
     Followed whole, cut;
     const auto walk = [](int i) { return -4.0F + 0.3F * static_cast<float>(i); };

@@ -88,8 +88,8 @@ TEST(Bodies, KindFollowsTheSpeed) {
 
 TEST(Bodies, HaltedVehiclesAndCyclistsAreVehicles) {
     const Path path = smooth_path({{0, 0}, {50, 0}, {100, 0}}, false);
-    for (const auto kind :
-         {VehicleKind::car, VehicleKind::van, VehicleKind::bus, VehicleKind::cyclist}) {
+    for (const auto kind : {VehicleKind::car, VehicleKind::van, VehicleKind::bus,
+                            VehicleKind::cyclist, VehicleKind::gate, VehicleKind::load}) {
         Placements placements;
         place_vehicle({.kind = kind, .ride = {.path = path, .speed = 0.0}}, 1.0, placements);
         for (const Placement& placement : placements) EXPECT_EQ(placement.kind, Kind::vehicle);

@@ -17,7 +17,7 @@ Eigen::AlignedBox3f bounds(const Mesh& mesh) {
 
 TEST(Prototypes, OneMeshForEachValue) {
     const auto all = prototypes();
-    ASSERT_EQ(all.size(), static_cast<std::size_t>(Prototype::aft_doors) + 1);
+    ASSERT_EQ(all.size(), static_cast<std::size_t>(Prototype::load) + 1);
     for (const Mesh& mesh : all) {
         EXPECT_FALSE(mesh.triangles.empty());
         EXPECT_EQ(mesh.triangles.size(), mesh.materials.size());
@@ -47,6 +47,14 @@ TEST(Prototypes, DoorsCloseTheDoorwaysOfTheWagon) {
     EXPECT_NEAR(fore.max().x(), static_cast<float>(wagon_doors[2] + door_leaf), 1e-4F);
     EXPECT_NEAR(aft.min().x(), static_cast<float>(wagon_doors[0] - door_leaf), 1e-4F);
     EXPECT_NEAR(fore.min().x(), static_cast<float>(wagon_doors[0]), 1e-4F);
+}
+
+TEST(Prototypes, GateAndLoadHaveTheirSize) {
+    const Eigen::Vector3f gate = bounds(gate_mesh()).sizes(), load = bounds(load_mesh()).sizes();
+    EXPECT_TRUE(gate.head<2>().cast<double>().isApprox(gate_size, 1e-4));
+    EXPECT_NEAR(load.x(), static_cast<float>(load_size.x()), 0.05F);  // and the ropes
+    EXPECT_NEAR(load.y(), static_cast<float>(load_size.y()), 1e-4F);
+    EXPECT_GT(bounds(load_mesh()).min().z(), 0.2F);  // it hangs
 }
 
 TEST(Prototypes, PersonReaches175Centimetres) {

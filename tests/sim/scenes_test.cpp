@@ -29,6 +29,7 @@ TEST(Scenes, NamesAreUniqueAndAllCanBeMade) {
     EXPECT_TRUE(names.contains("jam"));
     EXPECT_TRUE(names.contains("queue"));
     EXPECT_TRUE(names.contains("platform"));
+    EXPECT_TRUE(names.contains("slow"));
     EXPECT_TRUE(names.contains("city"));
 }
 

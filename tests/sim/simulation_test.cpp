@@ -139,13 +139,14 @@ TEST(Simulation, EveryKindIsSeenWhereItIs) {
     EXPECT_EQ(seen["jam"].size(), kind_names.size() - 1);
     EXPECT_EQ(seen["queue"].size(), kind_names.size() - 1);
     EXPECT_EQ(seen["platform"].size(), kind_names.size() - 2);  // nothing grows
+    EXPECT_EQ(seen["slow"].size(), kind_names.size() - 1);
     EXPECT_EQ(seen["city"].size(), kind_names.size());
 }
 
 TEST(Simulation, GroundIsAtTheGroundAndOthersMostlyAreNot) {
     const std::map<std::string, double> highest = {
-        {"crowd", 0.0}, {"street", 0.15}, {"square", 0.8},   {"hall", 4.0},
-        {"jam", 0.15},  {"queue", 0.15},  {"platform", 2.4}, {"city", 0.15}};
+        {"crowd", 0.0},  {"street", 0.15},  {"square", 0.8}, {"hall", 4.0}, {"jam", 0.15},
+        {"queue", 0.15}, {"platform", 2.4}, {"slow", 0.0},   {"city", 0.15}};
     const auto lowest = [](const std::string& scene) { return scene == "platform" ? -1.1 : 0.0; };
     for (const auto& scene : scene_names()) {
         Simulation simulation(short_run(scene));
