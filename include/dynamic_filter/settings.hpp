@@ -159,6 +159,11 @@ struct ScansConfig {
         double alignment_gain = 0.15;
     } sight;
 
+    /// Where a pane or a mirror reflects beams; see filter/mirrors.hpp.
+    struct Mirrors {
+        double matched = 0.8;
+    } mirrors;
+
     /// How the counters of a voxel give its score; see filter/evidence.hpp.
     struct Evidence {
         double flicker = 0.3;
@@ -313,6 +318,11 @@ void visit_scans(C& scans, F&& f) {
           "that lowers their misfit by at least this share: poses of GPS drift by decimeters; 1 "
           "turns this off",
           0, 1, s.alignment_gain);
+
+    field("scans.mirrors.matched", "1",
+          "a pane reflects where at least this share of what is seen behind it has its like in "
+          "front of it, as far behind as before; 1 turns this off",
+          0, 1, scans.mirrors.matched);
 
     auto& e = scans.evidence;
     field("scans.evidence.flicker", "1",

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Simulated scenes with exact labels: a crowd (Sec. IV-A), a street, a square, a hall, a traffic
-/// jam, a street with a queue, a platform, a yard where things move slowly, and a city for long
-/// drives on several days. Embree casts the rays. Each point knows the kind of object on which it
-/// lies; errors are tabulated by kind.
+/// jam, a street with a queue, a platform, a yard where things move slowly, a hall with mirrors,
+/// and a city for long drives on several days. Embree casts the rays. Each point knows the kind of
+/// object on which it lies; errors are tabulated by kind.
 ///
 /// - Units: [m], [s], [deg].
 /// - Frames: points in the sensor frame, poses T_world_sensor; the z axis of the world points up.
@@ -35,14 +35,17 @@ enum class Kind : std::uint8_t {
     walking,     ///< people on foot who move at that moment
     standing,    ///< people on foot who stand still at that moment
     vehicle,     ///< vehicles and cyclists that move, or that halt on their way
-    temporary  ///< what rests during a drive, but is absent from another: parked cars, site fences
+    temporary,  ///< what rests during a drive, but is absent from another: parked cars, site fences
+    reflection  ///< what was seen in a mirror: the point lies behind it, where nothing is
 };
 
 /// Names of the kinds, indexed by the value of Kind.
-constexpr std::array<std::string_view, 8> kind_names = {
-    "ground", "structure", "thin", "vegetation", "walking", "standing", "vehicle", "temporary"};
+constexpr std::array<std::string_view, 9> kind_names = {"ground",     "structure", "thin",
+                                                        "vegetation", "walking",   "standing",
+                                                        "vehicle",    "temporary", "reflection"};
 
-/// True for the kinds whose points are labelled dynamic; all other points are labelled static.
+/// True for the kinds whose points are labelled dynamic, because they do not belong into the static
+/// map; all other points are labelled static.
 constexpr bool is_dynamic(Kind kind) { return kind >= Kind::walking; }
 
 /// Options of a simulation.
@@ -83,9 +86,9 @@ struct SimulatedScan {
     std::vector<float> intensity;  ///< 0..1, parallel to the points
     Labels labels;                 ///< exact ground truth, parallel: static or dynamic
     std::vector<Kind> kinds;       ///< parallel
-    /// Parallel: number of the person or vehicle, from 1; 0: neither. A thing of Kind::temporary
-    /// has the same number in all drives; those that move are numbered on their own, for each
-    /// drive.
+    /// Parallel: number of the person or vehicle, from 1; 0: neither. A reflection has the number
+    /// of what is seen in the mirror. A thing of Kind::temporary has the same number in all drives;
+    /// those that move are numbered on their own, for each drive.
     std::vector<std::uint16_t> instances;
     Pose T_world_sensor;  ///< as a SLAM system would report it (with pose noise, if asked for)
     double stamp = 0.0;   ///< [s] since the scene began; the sweep begins at this time

@@ -186,7 +186,7 @@ void bind_programs(py::module_& module) {
         py::arg("knowable") = false, py::arg("overwrite") = false, py::arg("quiet") = true,
         R"(Simulates a recording with exact labels, and writes it in KITTI's layout to the folder `output`.
 
-scene: crowd, street, square, hall, jam, queue, platform, slow or city. The drives of a city become recordings in
+scene: crowd, street, square, hall, jam, queue, platform, slow, mirrors or city. The drives of a city become recordings in
 `output`: drive_1 and so on.
 sensor: see `dynamicfilter simulate --help`.
 pedestrians: number of people; -1: the default of the scene.

@@ -21,5 +21,6 @@ MECHANISMS = {
     "poses aligned where scans disagree": ["scans.sight.alignment_gain=1"],
     "margins grow with range": ["scans.sight.per_metre=0"],
     "new voxels ask earlier keyframes": ["scans.max_keyframes=1"],
+    "mirrors": ["scans.mirrors.matched=1"],
     "contact": ["scans.contact.lowest=1"],  # nothing rises so far over its own surface
 }

@@ -83,6 +83,15 @@ bool record(Evidence& e, const Observation& o, unsigned longest_run) {
     return !have_same_score(before, e);
 }
 
+Evidence without_observations(const Evidence& evidence) {
+    Evidence out;
+    out.n_own = evidence.n_own;
+    out.since = evidence.since;
+    out.first_owner = evidence.first_owner;
+    out.last_owner = evidence.last_owner;
+    return out;
+}
+
 void record_owner(Evidence& evidence, std::uint32_t scan) {
     if (evidence.n_own > 0 && evidence.last_owner == scan) return;
     make_room(evidence, 1);

@@ -52,6 +52,10 @@ struct Observation {
 /// Returns false if the score cannot have changed.
 bool record(Evidence& evidence, const Observation& observation, unsigned longest_run);
 
+/// The evidence as if no keyframe had observed the voxel yet, and nothing had moved there: what
+/// moved was found by what keyframes observed.
+Evidence without_observations(const Evidence& evidence);
+
 /// Records that a scan has a point in the voxel; `scan` counts in the order of the scans. Call it
 /// once per scan.
 void record_owner(Evidence& evidence, std::uint32_t scan);

@@ -47,6 +47,15 @@ public:
     /// scan. Returns true if update_score() would change the score.
     bool record(std::uint32_t voxel, Sight sight, unsigned weight, bool newest);
     void update_score(std::uint32_t voxel);
+    /// See without_observations() in evidence.hpp.
+    void forget_observations(std::uint32_t voxel) {
+        states_[voxel].evidence = without_observations(states_[voxel].evidence);
+    }
+    /// As record(), for a keyframe of long ago: a return at the place counts as a point in it.
+    void record_again(std::uint32_t voxel, Sight sight) {
+        const bool hit = sight == Sight::occupied;
+        dynamic_filter::record(states_[voxel].evidence, {sight, 1, hit}, longest_run_);
+    }
 
     /// See record_moved() in evidence.hpp.
     void record_moved(std::uint32_t voxel, unsigned scans) {

@@ -76,6 +76,7 @@ PointVoxels EvidenceMap::insert(const Scan& scan, StageTimes& times) {
         });
     });
     indices_.push_back(scan.index);
+    sensors_.push_back(scan.T_world_sensor.translation().cast<float>());
     timed(times, "alignment", [&] { align(scan); });
     timed(times, "visibility_check", [&] {
         if (is_due_) check_known(grid_.blocks_touched(true));
@@ -275,10 +276,10 @@ std::vector<std::size_t> EvidenceMap::blocks_in_sight(std::span<const std::uint3
 }
 
 /// The observation of each of the places.
-std::vector<Sight> EvidenceMap::look(const Keyframe& keyframe, const Points& centroids) const {
+std::vector<Sight> EvidenceMap::look(const Keyframe& keyframe, const Points& places) const {
     const SightMargins margins = margins_for(keyframe);
     Directions seen;
-    to_spherical(centroids, keyframe.T_sensor_map, seen);
+    to_spherical(places, keyframe.T_sensor_map, seen);
     std::vector<Sight> sights;
     check_lines_of_sight(keyframe.image, seen, margins, sights);
     return sights;
@@ -331,6 +332,26 @@ std::vector<std::vector<std::size_t>> EvidenceMap::free_keyframes(
         }
     }
     return result;
+}
+
+void EvidenceMap::observe_again(std::span<const std::uint32_t> voxels,
+                                const std::function<bool(const Keyframe&, const Point&)>& may_see) {
+    parallel_for(voxels.size(), 1024, [&](std::size_t begin, std::size_t end) {
+        const auto some = voxels.subspan(begin, end - begin);
+        Points centroids;
+        for (const std::uint32_t v : some) {
+            centroids.push_back(grid_[v].centroid);
+            grid_.forget_observations(v);
+        }
+        for (const Keyframe& keyframe : keyframes_.kept()) {
+            const std::vector<Sight> sights = look(keyframe, centroids);
+            for (std::size_t i = 0; i < some.size(); ++i) {
+                if (sights[i] == Sight::unknown || !may_see(keyframe, centroids[i])) continue;
+                grid_.record_again(some[i], sights[i]);
+            }
+        }
+        for (const std::uint32_t v : some) grid_.update_score(v);
+    });
 }
 
 }  // namespace dynamic_filter

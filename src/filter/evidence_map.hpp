@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -59,6 +60,13 @@ public:
     [[nodiscard]] std::vector<std::vector<std::size_t>> free_keyframes(
         std::span<const std::uint32_t> voxels) const;
 
+    /// What the keyframe observes of each of the places [m].
+    [[nodiscard]] std::vector<Sight> look(const Keyframe& keyframe, const Points& places) const;
+
+    /// Lets the kept keyframes observe the voxels anew, each place only if `may_see` is true.
+    void observe_again(std::span<const std::uint32_t> voxels,
+                       const std::function<bool(const Keyframe&, const Point&)>& may_see);
+
     /// [m] By how much the poses of two scans disagree, on average: by the motions that align them,
     /// and 0 for those that need none.
     [[nodiscard]] float disagreement() const {
@@ -68,6 +76,10 @@ public:
 
     /// Scan::index of an owner (Evidence::first_owner or last_owner).
     [[nodiscard]] std::size_t index_of_owner(std::uint32_t owner) const { return indices_[owner]; }
+    /// [m] Where the sensor was in the scan of an owner.
+    [[nodiscard]] const Point& sensor_of_owner(std::uint32_t owner) const {
+        return sensors_[owner];
+    }
     [[nodiscard]] const EvidenceGrid& grid() const { return grid_; }
     [[nodiscard]] EvidenceGrid& grid() { return grid_; }
     [[nodiscard]] const Keyframes& keyframes() const { return keyframes_; }
@@ -88,7 +100,6 @@ private:
                                                            const Keyframe& keyframe,
                                                            const Eigen::Isometry3f& aligned,
                                                            float slack) const;
-    [[nodiscard]] std::vector<Sight> look(const Keyframe& keyframe, const Points& centroids) const;
     [[nodiscard]] std::vector<Sight> look(const Keyframe& keyframe, const Places& places,
                                           const Eigen::Isometry3f& aligned) const;
 
@@ -116,6 +127,7 @@ private:
     float moved_by_ = 0.0F;              // [m] by these motions, at most
     double disagreement_ = 0.0;          // [m] sum over the scans
     std::vector<std::size_t> indices_;   // Scan::index in the order of the scans
+    Points sensors_;                     // [m] place of the sensor, in the same order
     std::uint32_t known_ = 0;            // number of voxels before the newest scan
     bool is_due_ = false;                // true if observe_elsewhere() is due
 };

@@ -9,6 +9,7 @@
 #include "dynamic_filter/error.hpp"
 #include "filter/evidence_map.hpp"
 #include "filter/label.hpp"
+#include "filter/mirrors.hpp"
 #include "filter/objects.hpp"
 #include "geometry/beam_axis.hpp"
 #include "geometry/map_frame.hpp"
@@ -51,6 +52,7 @@ struct DynamicFilter::Impl {
     }
     [[nodiscard]] std::vector<bool> what_stays(std::size_t index, const PointVoxels& voxels) const;
     [[nodiscard]] std::vector<StaticVoxel> in_world(std::span<const VoxelOccupancy> voxels) const;
+    void judge_mirrors();
     [[nodiscard]] Label label_of_voxel(std::uint32_t voxel) const {
         return label_of(decided[voxel].probability, config.map.occupancy_threshold);
     }
@@ -62,6 +64,7 @@ struct DynamicFilter::Impl {
     InstantLabels instant;
     Objects objects;
     bool finished = false;
+    std::vector<Mirror> mirrors;         // after finish()
     std::vector<VoxelDecision> decided;  // per voxel, after finish()
     /// Per voxel, only with `map.time` = latest: see occupied_since().
     std::vector<std::optional<std::uint32_t>> since;
@@ -136,8 +139,13 @@ void DynamicFilter::finish() {
     // Poses that disagree lift points above the ground by as much.
     double& height = config.scans.contact.height;
     height = std::max(height, static_cast<double>(impl_->map.disagreement()));
+    timed(impl_->times, "mirrors", [&] {
+        impl_->mirrors = find_mirrors(impl_->map, config.scans.mirrors);
+        if (!impl_->mirrors.empty()) observe_behind(impl_->mirrors, impl_->map);
+    });
     timed(impl_->times, "finish", [&] {
         impl_->decided = decide_voxels(impl_->map.grid(), config);
+        impl_->judge_mirrors();
         if (config.map.time == MapTime::latest) {
             impl_->since = occupied_since(impl_->decided, impl_->map.grid(), config);
         }
@@ -160,6 +168,24 @@ Verdict DynamicFilter::verdict(const Scan& scan, std::vector<std::uint32_t>& vox
     verdict.stays = impl_->what_stays(scan.index, located.voxels);
     voxels = std::move(located.voxels);
     return verdict;
+}
+
+/// A voxel that was hardly seen but in a mirror is no part of the static map; the mirror itself is.
+void DynamicFilter::Impl::judge_mirrors() {
+    if (mirrors.empty()) return;
+    const EvidenceGrid& grid = map.grid();
+    for (std::uint32_t v = 0; v < decided.size(); ++v) {
+        const auto& [centroid, score, e] = grid[v];
+        const auto is_seen_in = [&, at = centroid](std::uint32_t owner) {
+            return is_reflected(mirrors, map.sensor_of_owner(owner), at);
+        };
+        constexpr unsigned kFewOf = 4;  // of its scans, keyframes that saw it directly
+        if (is_seen_in(e.first_owner) && (is_seen_in(e.last_owner) || kFewOf * e.n_occ < e.n_own)) {
+            decided[v] = {.probability = 0.0F, .contact = {}};
+        } else if (is_on(mirrors, centroid)) {
+            decided[v] = {.probability = 1.0F, .contact = {}};
+        }
+    }
 }
 
 /// See Verdict::stays.

@@ -156,7 +156,7 @@ void Objects::note_arrival(Track& track, const Cluster& cluster) const {
     if (!is_first) return;
     track.arrival = value_at_rank(cluster.filled, cluster.filled.size() / 4);
     const bool is_new = track.seen.voxels == 0;
-    if (!is_new || !cluster.after_moving) return;
+    if (!is_new || !cluster.after_moving || weight < 1.0) return;
     track.arrived_scans = config_.arrived_scans;
     track.arrival = std::min(track.arrival, *cluster.after_moving);
 }

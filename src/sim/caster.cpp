@@ -111,6 +111,7 @@ Hit Caster::cast(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction
     if (query.hit.instID[0] == 0) {
         hit.reflectivity = still_materials_[query.hit.primID].reflectivity;
         hit.kind = still_materials_[query.hit.primID].kind;
+        hit.gloss = still_materials_[query.hit.primID].gloss;
     } else {
         const std::size_t i = query.hit.instID[0] - 1;
         normal = normal_to_world_[i] * normal;
@@ -120,7 +121,8 @@ Hit Caster::cast(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction
         hit.kind = parts_[i].is_still ? material.kind : kinds_[i];
         hit.instance = parts_[i].instance;
     }
-    hit.cosine = std::abs(normal.normalized().dot(direction));
+    hit.normal = normal.normalized();
+    hit.cosine = std::abs(hit.normal.dot(direction));
     return hit;
 }
 

@@ -33,6 +33,8 @@ struct Hit {
     float reflectivity = 0.0F;
     Kind kind = Kind::structure;
     std::uint16_t instance = 0;  ///< 0: static
+    Gloss gloss = {};
+    Eigen::Vector3f normal = Eigen::Vector3f::UnitZ();  ///< unit vector, to either side
     bool found = false;
 };
 

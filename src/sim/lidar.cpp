@@ -8,6 +8,7 @@
 #include "dynamic_filter/parallel.hpp"
 #include "sim/portable.hpp"
 #include "sim/random.hpp"
+#include "sim/strongest_return.hpp"
 
 namespace dynamic_filter::sim {
 namespace {
@@ -63,7 +64,7 @@ void Shot::cast(std::size_t first, std::size_t last, const SweepPose& T_world_se
             const Pose pose = T_world_sensor(share_of(first + i));
             const Eigen::Vector3f origin = pose.translation().cast<float>();
             const Eigen::Vector3f ray = pose.linear().cast<float>() * directions[first + i];
-            echoes[i] = measure(caster.cast(origin, ray, reach), sensor,
+            echoes[i] = measure(strongest_return(caster, origin, ray, reach), sensor,
                                 hash(hash(seed, 0x11da2), scan, first + i));
         }
     });

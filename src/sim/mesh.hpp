@@ -10,12 +10,21 @@
 
 namespace dynamic_filter::sim {
 
+/// What a smooth surface does with the light that it does not scatter: shares 0..1 at normal
+/// incidence. Towards grazing incidence, it reflects more and more (Schlick 1994).
+struct Gloss {
+    float reflects = 0.0F;  ///< as a mirror
+    float transmits = 0.0F;
+};
+
 /// Material of a surface. A reflectivity (0..1) alone means a structure. The kind of moving parts
 /// comes from their placement instead.
 struct Material {
-    constexpr Material(float r, Kind k = Kind::structure) : reflectivity(r), kind(k) {}
+    constexpr Material(float r, Kind k = Kind::structure, Gloss g = {})
+        : reflectivity(r), kind(k), gloss(g) {}
     float reflectivity;
     Kind kind;
+    Gloss gloss;
 };
 
 struct Mesh {

@@ -11,6 +11,7 @@ Scene jam_scene(int pedestrians, std::uint64_t seed);
 Scene queue_scene(int pedestrians, std::uint64_t seed);
 Scene platform_scene(int pedestrians, std::uint64_t seed);
 Scene slow_scene(int pedestrians, std::uint64_t seed);
+Scene mirrors_scene(int pedestrians, std::uint64_t seed);
 Scene city_scene(int pedestrians, std::uint64_t seed);
 Scene city_scene(int pedestrians, std::uint64_t seed, const Trip& trip);
 
@@ -24,6 +25,7 @@ const std::vector<SceneEntry>& scene_table() {
         {.name = "queue", .pedestrians = 30, .rate_hz = 10.0, .make = queue_scene},
         {.name = "platform", .pedestrians = 80, .rate_hz = 10.0, .make = platform_scene},
         {.name = "slow", .pedestrians = 20, .rate_hz = 10.0, .make = slow_scene},
+        {.name = "mirrors", .pedestrians = 25, .rate_hz = 10.0, .make = mirrors_scene},
         {.name = "city",
          .pedestrians = 14,
          .rate_hz = 10.0,

@@ -16,11 +16,15 @@
 
 namespace dynamic_filter::sim {
 
-/// Tells the person or vehicle of a point from all others; 0: static. Things of Kind::temporary are
-/// numbered on their own.
+/// Tells the person or vehicle of a point from all others; 0: static, or the reflection of
+/// something static, which is no thing. Things of Kind::temporary are numbered on their own, and so
+/// are reflections.
 inline std::uint32_t thing_of(Kind kind, std::uint16_t instance) {
     if (!is_dynamic(kind)) return 0;
-    return instance | (kind == Kind::temporary ? 1U << 16U : 0U);
+    const bool is_reflected_still = kind == Kind::reflection && instance == 0;
+    if (is_reflected_still) return 0;
+    const std::uint32_t more = kind == Kind::temporary ? 1U : kind == Kind::reflection ? 2U : 0U;
+    return instance | more << 16U;
 }
 
 /// What is seen of a thing in a scan, from above.

@@ -75,7 +75,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Case{"square", "hdl32", 60, 0.0, "default", 0.937, 0.899},
                       Case{"square", "hdl32", 60, 0.0, "paper", 0.914, 0.866},
                       Case{"jam", "vlp16", 360, 2.0, "default", 0.953, 0.894},
-                      Case{"platform", "vlp16", 420, 2.0, "default", 0.985, 0.915}),
+                      Case{"platform", "vlp16", 420, 2.0, "default", 0.985, 0.915},
+                      Case{"mirrors", "vlp16", 96, 2.0, "default", 0.80, 0.80}),
     [](const auto& test) { return test.param.scene + "_" + test.param.preset; });
 
 }  // namespace floors_test

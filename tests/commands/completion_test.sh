@@ -24,7 +24,7 @@ offers "auto on off" run data --refine ""
 offers "inverse mm" check data --pose-fix ""
 offers "bag nuscenes kitti-360 kitti-raw apollo mulran pairs glim hdl kitti benchmark folder" check data --format ""
 offers "map.voxel_size=" run data --set map.v
-offers "crowd street square hall jam queue platform slow city" simulate ""
+offers "crowd street square hall jam queue platform slow mirrors city" simulate ""
 offers "vlp16 os64" simulate crowd --sensor ""
 offers "--knowable" simulate crowd --know
 offers "erasor mos" eval --protocol ""

@@ -21,7 +21,7 @@ TEST(Prototypes, OneMeshForEachValue) {
     for (const Mesh& mesh : all) {
         EXPECT_FALSE(mesh.triangles.empty());
         EXPECT_EQ(mesh.triangles.size(), mesh.materials.size());
-        for (const auto& [r, kind] : mesh.materials) {
+        for (const auto& [r, kind, gloss] : mesh.materials) {
             EXPECT_GT(r, 0.0F);
             EXPECT_LE(r, 1.0F);
         }

@@ -30,6 +30,7 @@ TEST(Scenes, NamesAreUniqueAndAllCanBeMade) {
     EXPECT_TRUE(names.contains("queue"));
     EXPECT_TRUE(names.contains("platform"));
     EXPECT_TRUE(names.contains("slow"));
+    EXPECT_TRUE(names.contains("mirrors"));
     EXPECT_TRUE(names.contains("city"));
 }
 

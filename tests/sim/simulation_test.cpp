@@ -93,9 +93,10 @@ TEST(Simulation, KindsAgreeWithLabels) {
         const SimulatedScan scan = simulation.scan(1);
         ASSERT_EQ(scan.kinds.size(), scan.points.size());
         for (std::size_t i = 0; i < scan.kinds.size(); ++i) {
-            const bool dynamic = scan.kinds[i] == Kind::walking ||
-                                 scan.kinds[i] == Kind::standing ||
-                                 scan.kinds[i] == Kind::vehicle || scan.kinds[i] == Kind::temporary;
+            const bool dynamic =
+                scan.kinds[i] == Kind::walking || scan.kinds[i] == Kind::standing ||
+                scan.kinds[i] == Kind::vehicle || scan.kinds[i] == Kind::temporary ||
+                scan.kinds[i] == Kind::reflection;
             EXPECT_EQ(scan.labels[i], dynamic ? Label::dynamic : Label::static_) << scene;
         }
     }
@@ -108,6 +109,7 @@ TEST(Simulation, PointsOfOnePersonLieTogether) {
         ASSERT_EQ(scan.instances.size(), scan.points.size());
         std::map<std::uint16_t, Eigen::AlignedBox3f> people;
         for (std::size_t i = 0; i < scan.points.size(); ++i) {
+            if (scan.kinds[i] == Kind::reflection) continue;  // also of static things
             EXPECT_EQ(scan.instances[i] > 0, is_dynamic(scan.kinds[i])) << scene;
             if (scan.kinds[i] == Kind::walking || scan.kinds[i] == Kind::standing) {
                 people[scan.instances[i]].extend(scan.points[i]);
@@ -130,23 +132,26 @@ TEST(Simulation, EveryKindIsSeenWhereItIs) {
         }
     }
     EXPECT_EQ(seen["crowd"].count(Kind::vehicle), 0U);
-    for (const auto& [scene, kinds] : seen)  // only the city has several drives
+    for (const auto& [scene, kinds] : seen) {  // only the city has several drives
         EXPECT_EQ(kinds.count(Kind::temporary), scene == "city" ? 1U : 0U) << scene;
-    EXPECT_EQ(seen["crowd"].size(), kind_names.size() - 2);
-    EXPECT_EQ(seen["street"].size(), kind_names.size() - 1);
-    EXPECT_EQ(seen["square"].size(), kind_names.size() - 1);
-    EXPECT_EQ(seen["hall"].size(), kind_names.size() - 2);  // no vehicles
-    EXPECT_EQ(seen["jam"].size(), kind_names.size() - 1);
-    EXPECT_EQ(seen["queue"].size(), kind_names.size() - 1);
-    EXPECT_EQ(seen["platform"].size(), kind_names.size() - 2);  // nothing grows
-    EXPECT_EQ(seen["slow"].size(), kind_names.size() - 1);
-    EXPECT_EQ(seen["city"].size(), kind_names.size());
+        EXPECT_EQ(kinds.count(Kind::reflection), scene == "mirrors" ? 1U : 0U) << scene;
+    }
+    EXPECT_EQ(seen["crowd"].size(), kind_names.size() - 3);
+    EXPECT_EQ(seen["street"].size(), kind_names.size() - 2);
+    EXPECT_EQ(seen["square"].size(), kind_names.size() - 2);
+    EXPECT_EQ(seen["hall"].size(), kind_names.size() - 3);  // no vehicles
+    EXPECT_EQ(seen["jam"].size(), kind_names.size() - 2);
+    EXPECT_EQ(seen["queue"].size(), kind_names.size() - 2);
+    EXPECT_EQ(seen["platform"].size(), kind_names.size() - 3);  // nothing grows
+    EXPECT_EQ(seen["slow"].size(), kind_names.size() - 2);
+    EXPECT_EQ(seen["mirrors"].size(), kind_names.size() - 2);  // no vehicles
+    EXPECT_EQ(seen["city"].size(), kind_names.size() - 1);
 }
 
 TEST(Simulation, GroundIsAtTheGroundAndOthersMostlyAreNot) {
     const std::map<std::string, double> highest = {
-        {"crowd", 0.0},  {"street", 0.15},  {"square", 0.8}, {"hall", 4.0}, {"jam", 0.15},
-        {"queue", 0.15}, {"platform", 2.4}, {"slow", 0.0},   {"city", 0.15}};
+        {"crowd", 0.0},  {"street", 0.15},  {"square", 0.8}, {"hall", 4.0},    {"jam", 0.15},
+        {"queue", 0.15}, {"platform", 2.4}, {"slow", 0.0},   {"mirrors", 0.0}, {"city", 0.15}};
     const auto lowest = [](const std::string& scene) { return scene == "platform" ? -1.1 : 0.0; };
     for (const auto& scene : scene_names()) {
         Simulation simulation(short_run(scene));
@@ -154,6 +159,7 @@ TEST(Simulation, GroundIsAtTheGroundAndOthersMostlyAreNot) {
         std::size_t low = 0, others = 0;
         for (std::size_t i = 0; i < scan.points.size(); ++i) {
             const double z = (scan.T_world_sensor * scan.points[i].cast<double>()).z() - 0.05;
+            if (scan.kinds[i] == Kind::reflection) continue;  // also of the ground
             if (scan.kinds[i] == Kind::ground) {
                 EXPECT_GT(z, lowest(scene) - 0.1) << scene;
                 EXPECT_LT(z, highest.at(scene) + 0.1) << scene;
@@ -336,8 +342,9 @@ TEST(Simulation, WrongOptionsAreNamed) {
     };
     SimulationOptions options;
     options.scene = "moon";
-    EXPECT_NE(message(options).find("crowd, street, square, hall, jam, queue, platform"),
-              std::string::npos);
+    EXPECT_NE(
+        message(options).find("crowd, street, square, hall, jam, queue, platform, slow, mirrors"),
+        std::string::npos);
     options = {};
     options.sensor = "eye";
     EXPECT_NE(message(options).find("vlp16"), std::string::npos);
