@@ -174,6 +174,67 @@ TEST(Objects, WhatStandsWhereATrackEndedIsKnownAtOnce) {
     }
 }
 
+// Its front stood there before the rest of it came into view.
+TEST(Objects, ANewPartOfAMovingObjectIsDynamicSinceItMoved) {
+    Followed f;
+    const auto with_front = [](int i) {
+        Glance sight(0.2 * i);
+        const float x = -6.0F + 0.3F * static_cast<float>(std::min(i, 7));
+        sight.add_box({x, 3.0F, -1.5F}, {x + 0.3F, 3.3F, -1.2F}, sight.person);
+        return sight;
+    };
+    for (int i = 0; i < 11; ++i) f.see(with_front(i), i < 8, true);
+    const Glance front = with_front(10);
+    const PointVoxels of_front = f.voxels;
+    for (int i = 11; i < 30; ++i) {
+        Glance whole(0.2 * i);
+        whole.add_box({-5.4F, 3.0F, -1.5F}, {-3.6F, 4.2F, -0.4F}, whole.person);
+        f.see(whole, false, true);
+    }
+    f.voxels = of_front;
+    float least = 1.0F;
+    for (std::size_t i = 0; i < of_front.size(); ++i) {
+        if (!front.person[i]) continue;
+        const Evidence& e = f.grid[of_front[i]].evidence;
+        least = std::min(least, static_cast<float>(e.moved) / static_cast<float>(e.n_own));
+    }
+    EXPECT_GT(least, 0.8F);
+}
+
+// Two fifths of its voxels were seen free before: too few in one scan, and enough in many.
+TEST(Objects, WeakSignsOfAnArrivalAddUp) {
+    for (const bool seen_free : {false, true}) {
+        Followed f;
+        f.see(Glance(0.0), false);
+        for (int i = 1; i < 30; ++i) {
+            Glance sight(0.2 * i);
+            sight.add_box({-5.4F, 3.0F, -1.5F}, {-4.8F, 4.2F, -0.4F}, sight.person);
+            sight.add_box({-4.7F, 3.0F, -1.5F}, {-3.9F, 4.2F, -0.4F}, sight.bench);
+            f.see(sight, false, seen_free);
+            const bool is_known = dynamic_points(f, sight.bench) > 0;
+            if (i <= 6 || i == 29) {
+                EXPECT_EQ(is_known, seen_free && i == 29) << i;
+            }
+        }
+    }
+}
+
+// The middle of a bus moves by more than that of two objects that touch may.
+TEST(Objects, ABusIsFollowedAsMoreOfItComesIntoView) {
+    for (const float step : {1.5F, 6.0F}) {  // [m] that the middle moves by
+        Followed f;
+        Glance sight(0.0);
+        for (int i = 0; i < 20; ++i) {
+            sight = Glance(0.2 * i);
+            const float front = -6.0F + 0.4F * static_cast<float>(std::min(i, 8));
+            const float length = i < 12 ? 8.0F : 8.0F + 2.0F * step;
+            sight.add_box({front, 3.0F, -1.5F}, {front + length, 3.2F, 0.5F}, sight.person);
+            f.see(sight, i < 9);
+        }
+        EXPECT_EQ(dynamic_points(f, sight.person) > 0, step < 2.0F) << step;
+    }
+}
+
 // A box of 4 m creeps at 0.1 m/s. The middle of its place stays occupied, and no verdict of a voxel
 // tells that it moves.
 TEST(Objects, WhatCreepsIsFoundByItsSurface) {
