@@ -31,6 +31,7 @@ can tell what was in force; there is no need to tune them.
 PARTS = {
     "method": "The method", "map": "The map", "odometry": "Poses that are found or refined", "keyframe": "Keyframes",
     "scans": "Method `scans`", "scans.observers": "Method `scans`: which keyframes are asked", "scans.sight": "Method `scans`: lines of sight",
+    "scans.mirrors": "Method `scans`: mirrors",
     "scans.evidence": "Method `scans`: evidence of a voxel", "scans.vote": "Method `scans`: neighbours", "scans.instances": "Method `scans`: instances",
     "scans.contact": "Method `scans`: feet on the ground",
     "submap": "Method `submaps`: submaps", "front_end": "Method `submaps`: front-end", "back_end": "Method `submaps`: back-end",
