@@ -80,8 +80,6 @@ std::vector<Objects::Cluster> Objects::describe(const Clusters& found, const Poi
             if (filled || (dynamic && refilled)) cluster.filled.push_back(e.since);
             if (!cluster.voxels.empty() && cluster.voxels.back() == voxel) continue;
             cluster.voxels.push_back(voxel);
-            cluster.since.push_back(e.since);
-            if (e.moved > config_.share * e.n_own) cluster.moved.push_back(e.since);
             cluster.center += grid[voxel].centroid;
             box.extend(grid[voxel].centroid);
         }
@@ -174,7 +172,7 @@ std::optional<std::uint32_t> Objects::moving_from(const Track& track) const {
     return std::nullopt;
 }
 
-void Objects::begin(Cluster& cluster) {
+void Objects::begin(Cluster& cluster, const EvidenceGrid& grid) {
     cluster.track = next_++;
     Track& track = tracks_[*cluster.track];
     track.start = last_scan_;
@@ -182,10 +180,16 @@ void Objects::begin(Cluster& cluster) {
     const auto first_quarter = [](const std::vector<std::uint32_t>& scans) {
         return value_at_rank(scans, scans.size() / 4);
     };
-    track.there_since = first_quarter(cluster.since);
+    std::vector<std::uint32_t> since, moved;  // of all voxels, and of those of moving objects
+    for (const std::uint32_t voxel : cluster.voxels) {
+        const Evidence& e = grid[voxel].evidence;
+        since.push_back(e.since);
+        if (e.moved > config_.share * e.n_own) moved.push_back(e.since);
+    }
+    track.there_since = first_quarter(since);
     const double least = config_.dynamic_share * static_cast<double>(cluster.voxels.size());
-    if (static_cast<double>(cluster.moved.size()) >= least) {
-        track.moving_from = first_quarter(cluster.moved);
+    if (static_cast<double>(moved.size()) >= least) {
+        track.moving_from = first_quarter(moved);
     }
 }
 
@@ -195,7 +199,7 @@ void Objects::follow(Cluster& cluster, EvidenceGrid& grid, double stamp, std::ui
         cluster.track.reset();
         return;
     }
-    if (!cluster.track) begin(cluster);
+    if (!cluster.track) begin(cluster, grid);
     Track& track = tracks_.at(*cluster.track);
     note_arrival(track, cluster);
     if (track.seen.voxels > 0) {

@@ -83,8 +83,6 @@ private:
         std::size_t came = 0;     // of those that are dynamic or were filled
         // The scans in which the voxels were filled that were seen free before.
         std::vector<std::uint32_t> filled{};
-        std::vector<std::uint32_t> since{};  // the scans since when the voxels are occupied
-        std::vector<std::uint32_t> moved{};  // the same, of voxels of moving objects
         // A moving object was last seen there; from this scan on it was known to be one.
         std::optional<std::uint32_t> after_moving{};
         std::optional<Id> track{};
@@ -97,7 +95,7 @@ private:
     void note_arrival(Track& track, const Cluster& cluster) const;
     [[nodiscard]] std::optional<std::uint32_t> moving_from(const Track& track) const;
     void follow(Cluster& cluster, EvidenceGrid& grid, double stamp, std::uint32_t scans);
-    void begin(Cluster& cluster);
+    void begin(Cluster& cluster, const EvidenceGrid& grid);
     void find_displaced(const Scan& scan, const Clusters& found,
                         const std::vector<Cluster>& clusters, EvidenceGrid& grid);
     void use_history(Track& track, EvidenceGrid& grid) const;
