@@ -11,7 +11,6 @@ namespace dynamic_filter {
 
 namespace {
 
-constexpr float kBehind = kBehindMirror;
 constexpr float kDeep = 31.0F;           // [m] behind the plane
 constexpr float kControl = 1.0F;         // [m] off the place in the mirror
 constexpr std::size_t kMostPlanes = 16;  // that are tried
@@ -357,7 +356,7 @@ bool is_real_behind(const Mirror& mirror, const EvidenceMap& map,
     std::vector<const Keyframe*> behind;
     for (const Keyframe& k : map.keyframes().kept()) {
         const Point sensor = map.sensor_of_owner(k.owner);
-        if (mirror.plane.height(sensor.head<2>()) < -kBehind) behind.push_back(&k);
+        if (mirror.plane.height(sensor.head<2>()) < -kBehindMirror) behind.push_back(&k);
     }
     const std::size_t stride = behind.size() / kMostKeyframes + 1;
     int occupied = 0, free = 0;
@@ -409,7 +408,7 @@ std::optional<std::size_t> Mirror::cell(float along, float z, int angle) const {
 std::optional<Crossing> crossing(const UprightPlane& plane, const Point& sensor, const Point& point,
                                  float least) {
     const float front = plane.height(sensor.head<2>()), behind = -plane.height(point.head<2>());
-    if (front < kBehind || behind < least || behind > kDeep) return std::nullopt;
+    if (front < kBehindMirror || behind < least || behind > kDeep) return std::nullopt;
     const Point way = point - sensor;
     const Point at = sensor + front / (front + behind) * way;
     const float cosine = (front + behind) / way.norm();
