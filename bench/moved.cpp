@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: MIT
-/// Counts the points of people and vehicles that are found, apart for those that move at that
-/// moment, those that rest and were seen to move before, and those that rest and were not.
+/// Counts the points of people and vehicles that are found at once, after two seconds (settled),
+/// and in the end, apart for those that move at that moment, those that rest and were seen to move
+/// before, and those that rest and were not.
 ///   moved SCENE SENSOR SEED FRAMES RATE [THINGS]
 /// Simulates a scene, filters it, and prints a Markdown table with a row for each of these and one
 /// for what is static; with THINGS, also a row for each of so many things that cost most points.
+/// The last rows are the intersection over union of what moves, without what rests, and the number
+/// of times that a verdict on a thing was taken back: at least half of 20 or more points were
+/// dynamic in a scan, and less than half in the next.
 /// A thing moves if both ends of what is seen of it go on by more than 0.5 m/s, over half a second
 /// around the scan. It was seen to move if it did so in an earlier scan with at least 20 points of
 /// it. Points between 1 and 60 m from the sensor count.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -27,7 +32,10 @@ using namespace dynamic_filter;
 
 constexpr float kNearest = 1.0F, kFarthest = 60.0F;  // [m]
 
+constexpr double kSettledAfter = 2.0;  // [s]
+
 constexpr std::array kNames{"moves", "rests, was seen to move", "rests, not yet moved", "static"};
+constexpr std::array kVerdicts{"instant", "settled", "final"};
 
 struct Simulated {
     std::vector<Scan> scans;
@@ -74,49 +82,108 @@ std::size_t row_of(ThingState state) {
 }
 
 struct Count {
-    std::size_t points = 0, instant = 0, final = 0;
-    [[nodiscard]] std::size_t missed() const { return points - final; }
+    std::size_t points = 0;
+    std::array<std::size_t, kVerdicts.size()> dynamic{};
+    [[nodiscard]] std::size_t missed() const { return points - dynamic.back(); }
+    [[nodiscard]] double share(std::size_t verdict) const {
+        return static_cast<double>(dynamic[verdict]) / static_cast<double>(points);
+    }
 };
 
 void print(std::string_view name, const Count& count) {
-    const auto share = [&](std::size_t n) {
-        return 100.0 * static_cast<double>(n) / static_cast<double>(count.points);
+    fmt::print("| {} | {} |", name, count.points);
+    for (std::size_t v = 0; v < kVerdicts.size(); ++v) {
+        fmt::print(" {:.2f} % |", 100.0 * count.share(v));
+    }
+    fmt::print("\n");
+}
+
+/// Labels of all scans by each verdict.
+std::array<std::vector<Labels>, kVerdicts.size()> filtered(const Simulated& all) {
+    DynamicFilter filter(preset("default"));
+    std::array<std::vector<Labels>, kVerdicts.size()> labels;
+    auto& [instant, settled, final] = labels;
+    const auto settle = [&](double until) {
+        while (settled.size() < instant.size()) {
+            const Scan& scan = all.scans[settled.size()];
+            if (scan.stamp > until) break;
+            settled.push_back(filter.settled(scan).labels);
+        }
     };
-    fmt::print("| {} | {} | {:.1f} % | {:.1f} % |\n", name, count.points, share(count.instant),
-               share(count.final));
+    for (const Scan& scan : all.scans) {
+        instant.push_back(filter.push(scan).labels);
+        settle(scan.stamp - kSettledAfter);
+    }
+    settle(all.scans.back().stamp);
+    filter.finish();
+    for (const Scan& scan : all.scans) final.push_back(filter.verdict(scan).labels);
+    return labels;
+}
+
+using Counts = std::map<std::uint32_t, Count>;  // by thing
+
+/// How often less than half of a thing is dynamic after at least half of it was.
+std::size_t taken_back(const std::vector<Counts>& scans, std::size_t verdict) {
+    constexpr std::size_t kFewest = 20;  // points
+    std::size_t count = 0;
+    for (std::size_t i = 1; i < scans.size(); ++i) {
+        for (const auto& [thing, now] : scans[i]) {
+            const auto before = scans[i - 1].find(thing);
+            if (before == scans[i - 1].end()) continue;
+            if (now.points < kFewest || before->second.points < kFewest) continue;
+            if (before->second.share(verdict) >= 0.5 && now.share(verdict) < 0.5) ++count;
+        }
+    }
+    return count;
 }
 
 void measure(const Simulated& all, std::size_t things) {
-    DynamicFilter filter(preset("default"));
-    std::vector<Labels> instant;
-    for (const Scan& scan : all.scans) instant.push_back(filter.push(scan).labels);
-    filter.finish();
+    const auto labels = filtered(all);
     std::array<Count, kNames.size()> counts;
-    std::map<std::uint32_t, Count> of_things;
+    Count from_third;  // scan in which a thing is seen
+    Counts of_things;
+    std::map<std::uint32_t, int> views;
+    std::vector<Counts> of_scans;
     for (std::size_t i = 0; i < all.scans.size(); ++i) {
-        const Labels final = filter.verdict(all.scans[i]).labels;
-        for (std::size_t k = 0; k < final.size(); ++k) {
+        of_scans.emplace_back();
+        for (const auto& [thing, state] : all.states[i]) ++views[thing];
+        for (std::size_t k = 0; k < all.things[i].size(); ++k) {
             const float range = all.scans[i].points[k].norm();
             if (!(range > kNearest && range < kFarthest)) continue;
             const std::uint32_t thing = all.things[i][k];
             const ThingState state = thing == 0 ? ThingState::still : all.states[i].at(thing).state;
             const auto add = [&](Count& count) {
                 ++count.points;
-                count.instant += instant[i][k] == Label::dynamic ? 1U : 0U;
-                count.final += final[k] == Label::dynamic ? 1U : 0U;
+                for (std::size_t v = 0; v < kVerdicts.size(); ++v) {
+                    count.dynamic[v] += labels[v][i][k] == Label::dynamic ? 1U : 0U;
+                }
             };
             add(counts[row_of(state)]);
-            if (thing != 0) add(of_things[thing]);
+            if (thing != 0) add(of_things[thing]), add(of_scans.back()[thing]);
+            if (state == ThingState::moves && views[thing] >= 3) add(from_third);
         }
     }
-    fmt::print("| share called dynamic | points | instant | final |\n|---|---|---|---|\n");
+    fmt::print("| share called dynamic | points | {} |\n|---|---|---|---|---|\n",
+               fmt::join(kVerdicts, " | "));
     for (std::size_t s = 0; s < counts.size(); ++s) print(kNames[s], counts[s]);
+    print("moves, from its third scan on", from_third);
     std::vector<std::pair<std::uint32_t, Count>> worst(of_things.begin(), of_things.end());
     std::sort(worst.begin(), worst.end(),
               [](const auto& a, const auto& b) { return a.second.missed() > b.second.missed(); });
     for (std::size_t k = 0; k < std::min(things, worst.size()); ++k) {
         print(fmt::format("thing {}", worst[k].first), worst[k].second);
     }
+    const auto& [moving, moved, not_yet, still] = counts;
+    fmt::print("| IoU of what moves | |");
+    for (std::size_t v = 0; v < kVerdicts.size(); ++v) {
+        fmt::print(" {:.3f} |", static_cast<double>(moving.dynamic[v]) /
+                                    static_cast<double>(moving.points + still.dynamic[v]));
+    }
+    fmt::print("\n| verdicts on things that were taken back | |");
+    for (std::size_t v = 0; v < kVerdicts.size(); ++v) {
+        fmt::print(" {} |", taken_back(of_scans, v));
+    }
+    fmt::print("\n");
 }
 
 }  // namespace

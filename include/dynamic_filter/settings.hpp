@@ -194,7 +194,7 @@ struct ScansConfig {
     /// Clusters of a scan and their tracks over time; see filter/clusters.hpp and
     /// filter/objects.hpp.
     struct Instances {
-        double every = 0.15;
+        double every = 0.04;
         double reach = 60.0;
         double cell = 0.3;
         double ground_cell = 1.2;

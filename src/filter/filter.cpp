@@ -53,6 +53,12 @@ struct DynamicFilter::Impl {
     [[nodiscard]] std::vector<bool> what_stays(std::size_t index, const PointVoxels& voxels) const;
     [[nodiscard]] std::vector<StaticVoxel> in_world(std::span<const VoxelOccupancy> voxels) const;
     void judge_mirrors();
+    /// Poses that disagree lift points above the ground by as much.
+    [[nodiscard]] ScansConfig::Contact contact() const {
+        ScansConfig::Contact contact = config.scans.contact;
+        contact.height = std::max(contact.height, static_cast<double>(map.disagreement()));
+        return contact;
+    }
     [[nodiscard]] Label label_of_voxel(std::uint32_t voxel) const {
         return label_of(decided[voxel].probability, config.map.occupancy_threshold);
     }
@@ -91,14 +97,16 @@ Verdict DynamicFilter::judge(Scan scan) { return impl_->judge(impl_->place(std::
 
 /// The points go into voxels; if the scan is a keyframe, it observes the voxels around its points;
 /// earlier keyframes observe the new voxels. Then each voxel of the scan gets a label from its own
-/// evidence and that of its neighbors, and objects that are followed get theirs as a whole.
+/// evidence and that of its neighbors, and objects that are followed get theirs as a whole, down to
+/// the ground.
 Verdict DynamicFilter::Impl::judge(const Scan& scan) {
     return timed(times, "judge", [&] {
         const PointVoxels voxels = map.insert(scan, times);
         Verdict verdict = timed(times, "instant_verdict",
                                 [&] { return instant.label(scan.index, voxels, map.grid()); });
-        timed(times, "instances",
-              [&] { objects.update(scan, voxels, map.grid(), verdict.labels); });
+        timed(times, "instances", [&] { objects.update(scan, voxels, map, verdict.labels); });
+        timed(times, "contact",
+              [&] { instant.find_contacts(scan, voxels, map.grid(), contact(), verdict.labels); });
         return verdict;
     });
 }
@@ -136,9 +144,7 @@ void DynamicFilter::look_again(std::size_t drive, Scan scan) {
 void DynamicFilter::finish() {
     if (std::exchange(impl_->finished, true)) return;
     Config& config = impl_->config;
-    // Poses that disagree lift points above the ground by as much.
-    double& height = config.scans.contact.height;
-    height = std::max(height, static_cast<double>(impl_->map.disagreement()));
+    config.scans.contact = impl_->contact();
     timed(impl_->times, "mirrors", [&] {
         impl_->mirrors = find_mirrors(impl_->map, config.scans.mirrors);
         if (!impl_->mirrors.empty()) observe_behind(impl_->mirrors, impl_->map);

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <utility>
 
+#include <tsl/robin_map.h>
+
 #include "dynamic_filter/parallel.hpp"
 #include "filter/vote.hpp"
 
@@ -20,13 +22,11 @@ void each_within(const EvidenceGrid& grid, int cells, std::uint32_t voxel, const
     grid.neighbors().each_within(grid.voxels(), cells, voxel, use);
 }
 
-std::optional<ContactSurface> contact_of(std::uint32_t voxel,
-                                         const std::vector<VoxelDecision>& decided,
-                                         const EvidenceGrid& grid, const Config& config) {
-    const auto label = [&](std::uint32_t v) {
-        return label_of(decided[v].probability, config.map.occupancy_threshold);
-    };
-    if (label(voxel) != Label::static_) return std::nullopt;
+/// The static surface in a voxel that touches a dynamic one; `label` gives the label of a voxel.
+template <class LabelOf>
+std::optional<ContactSurface> contact_of(std::uint32_t voxel, const LabelOf& label,
+                                         const EvidenceGrid& grid,
+                                         const ScansConfig::Contact& config) {
     bool touches_dynamic = false;
     each_within(grid, 1, voxel,
                 [&](std::uint32_t v, int) { touches_dynamic |= label(v) == Label::dynamic; });
@@ -35,7 +35,13 @@ std::optional<ContactSurface> contact_of(std::uint32_t voxel,
     each_within(grid, 2, voxel, [&](std::uint32_t v, int distance) {
         around.push_back({grid[v].centroid, label(v), distance});
     });
-    return contact_surface(around, config.scans.contact);
+    return contact_surface(around, config);
+}
+
+bool is_above(const ContactSurface& surface, const Point& p, const ScansConfig::Contact& config) {
+    const float least = std::max(static_cast<float>(config.height),
+                                 static_cast<float>(config.roughness) * surface.roughness);
+    return surface.height(p) > least;
 }
 
 /// Indices of points of static voxels that lie above the surface of their voxel.
@@ -47,9 +53,7 @@ std::vector<std::size_t> points_above(const LocatedScan& scan,
         if (labels[i] != Label::static_) continue;
         const auto& contact = decided[scan.voxels[i]].contact;
         if (!contact) continue;
-        const float least = std::max(static_cast<float>(config.height),
-                                     static_cast<float>(config.roughness) * contact->roughness);
-        if (contact->height(scan.in_map.points[i]) > least) above.push_back(i);
+        if (is_above(*contact, scan.in_map.points[i], config)) above.push_back(i);
     }
     return above;
 }
@@ -76,7 +80,7 @@ Verdict InstantLabels::label(std::size_t index, const PointVoxels& voxels,
         const std::uint32_t voxel = voxels[i];
         if (voxel == kNoVoxel || !is_due(said_[voxel], grid[voxel])) continue;
         // Temporary label, so that the voxel is listed only once.
-        said_[voxel] = {grid[voxel].score, Label::static_, 0};
+        said_[voxel] = {grid[voxel].score, Label::static_, 0, Role::none};
         due.push_back(voxel);
     }
     const auto occupancy = occupancy_of(grid, due, config_);
@@ -96,11 +100,66 @@ Verdict InstantLabels::label(std::size_t index, const PointVoxels& voxels,
     return verdict;
 }
 
+/// The voxels of the scan that hold dynamic points, and those that touch them.
+std::vector<std::uint32_t> InstantLabels::find_touched(const PointVoxels& voxels,
+                                                       const Labels& labels,
+                                                       const EvidenceGrid& grid) {
+    for (const std::uint32_t voxel : in_roles_) said_[voxel].role = Role::none;
+    in_roles_.clear();
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        if (labels[i] != Label::dynamic || said_[voxels[i]].role != Role::none) continue;
+        said_[voxels[i]].role = Role::moving;
+        in_roles_.push_back(voxels[i]);
+    }
+    const std::size_t moving = in_roles_.size();
+    for (std::size_t m = 0; m < moving; ++m) {
+        each_within(grid, 1, in_roles_[m], [&](std::uint32_t v, int) {
+            const bool is_seen = grid[v].evidence.last_owner + 1 == grid.scans();
+            if (!is_seen || said_[v].role != Role::none) return;
+            said_[v].role = Role::touched;
+            in_roles_.push_back(v);
+        });
+    }
+    return {in_roles_.begin() + static_cast<std::ptrdiff_t>(moving), in_roles_.end()};
+}
+
+void InstantLabels::find_contacts(const Scan& scan, const PointVoxels& voxels,
+                                  const EvidenceGrid& grid, const ScansConfig::Contact& config,
+                                  Labels& labels) {
+    const std::vector<std::uint32_t> touched = find_touched(voxels, labels, grid);
+    // What moved elsewhere in the past is neither the surface nor on it now.
+    const auto label = [&](std::uint32_t v) {
+        if (said_[v].role == Role::moving) return Label::dynamic;
+        return said_[v].label == Label::static_ ? Label::static_ : Label::unknown;
+    };
+    std::vector<std::optional<ContactSurface>> surfaces(touched.size());
+    parallel_for(touched.size(), 64, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t t = begin; t < end; ++t) {
+            surfaces[t] = contact_of(touched[t], label, grid, config);
+        }
+    });
+    tsl::robin_map<std::uint32_t, ContactSurface> surface_of;
+    for (std::size_t t = 0; t < touched.size(); ++t) {
+        if (surfaces[t]) surface_of[touched[t]] = *surfaces[t];
+    }
+    const Eigen::Isometry3f T_map_sensor = scan.T_world_sensor.cast<float>();
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        if (voxels[i] == kNoVoxel || said_[voxels[i]].role != Role::touched) continue;
+        const auto surface = surface_of.find(voxels[i]);
+        if (surface == surface_of.end()) continue;
+        if (is_above(surface->second, T_map_sensor * scan.points[i], config)) {
+            labels[i] = Label::dynamic;
+        }
+    }
+}
+
 void InstantLabels::keep(std::span<const std::uint32_t> kept) {
     std::vector<Said> said;
     said.reserve(kept.size());
     for (const std::uint32_t v : kept) said.push_back(said_[v]);
     said_ = std::move(said);
+    for (Said& s : said_) s.role = Role::none;
+    in_roles_.clear();
 }
 
 void settle_points(const LocatedScan& scan, const EvidenceGrid& grid, const Config& config,
@@ -137,9 +196,13 @@ std::vector<VoxelDecision> decide_voxels(const EvidenceGrid& grid, const Config&
     const auto occupancy = occupancy_of(grid, all, config.scans);
     std::vector<VoxelDecision> decided(all.size());
     for (std::size_t v = 0; v < all.size(); ++v) decided[v].probability = occupancy[v];
+    const auto label = [&](std::size_t v) {
+        return label_of(decided[v].probability, config.map.occupancy_threshold);
+    };
     parallel_for(all.size(), 1024, [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v) {
-            decided[v].contact = contact_of(all[v], decided, grid, config);
+            if (label(v) != Label::static_) continue;
+            decided[v].contact = contact_of(all[v], label, grid, config.scans.contact);
         }
     });
     return decided;

@@ -42,21 +42,32 @@ public:
     /// The verdict on the scan that was last added to the grid; `voxels` are those of its points.
     Verdict label(std::size_t index, const PointVoxels& voxels, const EvidenceGrid& grid);
 
+    /// Points of the scan that was last labelled become dynamic if they lie above the static
+    /// surface of their voxel, and if the voxel touches one with dynamic points: feet and wheels.
+    void find_contacts(const Scan& scan, const PointVoxels& voxels, const EvidenceGrid& grid,
+                       const ScansConfig::Contact& config, Labels& labels);
+
     /// Renumbers the voxels: only those with the old numbers `kept` remain, in that order.
     void keep(std::span<const std::uint32_t> kept);
 
 private:
+    /// In the newest scan: the voxel holds dynamic points, or touches one that does.
+    enum class Role : std::uint8_t { none, moving, touched };
     struct Said {
         // Score at the latest label; 2 is above all scores, so it means "never judged".
         float score = 2.0F;
         Label label = Label::unknown;
         std::uint8_t probability = 0;  // of being occupied, in 1/255
+        Role role = Role::none;
     };
+    std::vector<std::uint32_t> find_touched(const PointVoxels& voxels, const Labels& labels,
+                                            const EvidenceGrid& grid);
     [[nodiscard]] bool is_due(const Said& said, const EvidenceGrid::State& state) const;
 
     ScansConfig config_;
     double threshold_;
-    std::vector<Said> said_;  // by voxel
+    std::vector<Said> said_;               // by voxel
+    std::vector<std::uint32_t> in_roles_;  // voxels with a role
 };
 
 /// Settled labels: writes them, and the probabilities, into `verdict`, which must be all unknown.

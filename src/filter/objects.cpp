@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "base/numbers.hpp"
 
@@ -16,6 +15,10 @@ namespace {
 constexpr double kLookEvery = 0.4;   // [s]
 constexpr float kLookReach = 30.0F;  // [m]
 constexpr std::size_t kLookPoints = 20, kLookVoxels = 12;
+// Share of the last place of an object that is seen empty once it has left. The rest may be hidden,
+// often by the object itself.
+constexpr double kLeft = 0.4;
+constexpr int kLeavingScans = 2;
 
 VoxelKey block_of(const EvidenceGrid& grid, std::uint32_t voxel) {
     return pack(grid.voxels().corner(grid.voxels().block_of_voxel(voxel)));
@@ -32,24 +35,52 @@ bool was_filled(const Evidence& e) {
     return e.n_free > 0 && e.n_switch <= 1 && e.last == Sight::occupied;
 }
 
+/// Notes whether the keyframe sees that the object has left its last place, and that it goes on in
+/// the same direction: errors of poses make things seem to jump to and fro.
+void note_leaving(Track& track, const Cluster& cluster, const Keyframe& keyframe,
+                  const EvidenceMap& map) {
+    const std::vector<Sight> sights = map.look(keyframe, track.seen.places);
+    const auto empty = std::count_if(sights.begin(), sights.end(), is_free);
+    const bool has_left = static_cast<double>(empty) >= kLeft * static_cast<double>(sights.size());
+    const Point way = track.seen.center - track.left, step = cluster.center - track.seen.center;
+    const bool goes_on = track.leaving_scans > 0 && step.dot(way) > 0.0F;
+    if (!has_left) {
+        track.leaving_scans = 0;
+    } else if (goes_on) {
+        ++track.leaving_scans;
+    } else {
+        track.leaving_scans = 1;
+        track.left = track.seen.center;
+    }
+}
+
 }  // namespace
 
-void Objects::update(const Scan& scan, const PointVoxels& voxels, EvidenceGrid& grid,
+void Objects::update(const Scan& scan, const PointVoxels& voxels, EvidenceMap& map,
                      Labels& labels) {
-    if (last_stamp_ && scan.stamp - *last_stamp_ < config_.every) return;
+    const double elapsed = last_stamp_ ? scan.stamp - *last_stamp_ : config_.every;
+    if (elapsed < config_.every) return;
+    EvidenceGrid& grid = map.grid();
     const std::uint32_t newest = grid.scans() - 1;
     // Number of scans for which this one stands.
     const std::uint32_t scans = last_stamp_ ? newest - last_scan_ : 1;
+    const Point sensor = scan.T_world_sensor.translation().cast<float>();
+    Point sensor_velocity = Point::Zero();
+    if (last_stamp_) sensor_velocity = (sensor - last_sensor_) / static_cast<float>(elapsed);
     last_stamp_ = scan.stamp;
+    last_sensor_ = sensor;
     last_scan_ = newest;
     forget(scan.stamp);
     const Clusters found = find_clusters(scan.points, voxels, config_);
     std::vector<Cluster> clusters = describe(found, voxels, grid, labels);
-    match(clusters, grid, scan.stamp);
-    for (Cluster& cluster : clusters) follow(cluster, grid, scan.stamp, scans);
+    match(clusters, tracks_, scan.stamp, sensor_velocity, config_);
+    const auto& keyframes = map.keyframes().kept();
+    const bool is_keyframe = !keyframes.empty() && keyframes.back().index == scan.index;
+    const Keyframe* const seen_by = is_keyframe ? &keyframes.back() : nullptr;
+    for (Cluster& cluster : clusters) follow(cluster, seen_by, map, scan.stamp, scans);
     find_displaced(scan, found, clusters, grid);
     for (std::size_t i = 0; i < labels.size(); ++i) {
-        if (found.of_points[i] == kNoCluster || labels[i] != Label::static_) continue;
+        if (found.of_points[i] == kNoCluster || labels[i] == Label::dynamic) continue;
         const auto& id = clusters[found.of_points[i]].track;
         if (!id) continue;
         if (came_with(tracks_.at(*id).moving_from, grid[voxels[i]].evidence)) {
@@ -58,9 +89,8 @@ void Objects::update(const Scan& scan, const PointVoxels& voxels, EvidenceGrid& 
     }
 }
 
-std::vector<Objects::Cluster> Objects::describe(const Clusters& found, const PointVoxels& voxels,
-                                                const EvidenceGrid& grid,
-                                                const Labels& labels) const {
+std::vector<Cluster> Objects::describe(const Clusters& found, const PointVoxels& voxels,
+                                       const EvidenceGrid& grid, const Labels& labels) const {
     std::vector<std::vector<std::pair<std::uint32_t, bool>>> members(found.count);
     for (std::size_t i = 0; i < voxels.size(); ++i) {
         if (found.of_points[i] == kNoCluster) continue;
@@ -71,7 +101,6 @@ std::vector<Objects::Cluster> Objects::describe(const Clusters& found, const Poi
         std::sort(members[c].begin(), members[c].end());
         members[c].erase(std::unique(members[c].begin(), members[c].end()), members[c].end());
         Cluster& cluster = clusters[c];
-        Eigen::AlignedBox3f box;
         for (const auto& [voxel, dynamic] : members[c]) {
             const Evidence& e = grid[voxel].evidence;
             const bool filled = was_filled(e), refilled = e.since > e.first_owner;
@@ -81,63 +110,27 @@ std::vector<Objects::Cluster> Objects::describe(const Clusters& found, const Poi
             if (!cluster.voxels.empty() && cluster.voxels.back() == voxel) continue;
             cluster.voxels.push_back(voxel);
             cluster.center += grid[voxel].centroid;
-            box.extend(grid[voxel].centroid);
+            cluster.box.extend(grid[voxel].centroid);
+            const auto place = last_there_.find(block_of(grid, voxel));
+            if (place != last_there_.end()) ++cluster.shared[place->second.track];
         }
         cluster.center /= static_cast<float>(cluster.voxels.size());
-        cluster.length = box.sizes().maxCoeff();
     }
     return clusters;
 }
 
-/// True if the cluster may be the object of the track: its size is similar, and its center is near
-/// the last or the expected center of the track. Without this test, the track of an object would
-/// continue with another object that it touches.
-bool Objects::fits(const Track& track, const Cluster& cluster, double stamp) const {
-    const auto elapsed = static_cast<float>(stamp - track.seen.stamp);
-    const Point expected = track.seen.center + elapsed * track.velocity;
-    const float jump =
-        std::min((cluster.center - expected).norm(), (cluster.center - track.seen.center).norm());
-    const auto now = static_cast<double>(cluster.voxels.size());
-    const auto before = static_cast<double>(track.seen.voxels);
-    const double least = config_.fewest;  // tolerance for small clusters, whose size varies
-    const float length = std::min(cluster.length, track.seen.length);
-    const float most =
-        std::max(static_cast<float>(config_.jump), static_cast<float>(config_.jump_share) * length);
-    return jump <= most && now <= config_.growth * before + least &&
-           before <= config_.growth * now + least;
-}
-
-/// Gives each cluster the track that it overlaps most. Each track is given to at most one cluster.
-void Objects::match(std::vector<Cluster>& clusters, const EvidenceGrid& grid, double stamp) const {
-    std::vector<std::tuple<std::size_t, std::size_t, Id>> matches;  // shared voxels, cluster, track
-    for (std::size_t c = 0; c < clusters.size(); ++c) {
-        std::map<Id, std::size_t> shared;
-        for (const std::uint32_t voxel : clusters[c].voxels) {
-            const auto place = last_there_.find(block_of(grid, voxel));
-            if (place != last_there_.end()) ++shared[place->second.track];
-        }
-        const double least = config_.overlap * static_cast<double>(clusters[c].voxels.size());
-        for (const auto& [id, count] : shared) {
-            if (static_cast<double>(count) < least) continue;
-            const auto& since = tracks_.at(id).moving_from;
-            if (since) {
-                clusters[c].after_moving =
-                    std::min(clusters[c].after_moving.value_or(*since), *since);
-            }
-            if (fits(tracks_.at(id), clusters[c], stamp)) matches.emplace_back(count, c, id);
+/// If moving objects were last seen where the cluster is: the scan since when the first of them was
+/// known.
+std::optional<std::uint32_t> Objects::after_moving(const Cluster& cluster) const {
+    const double least = config_.overlap * static_cast<double>(cluster.voxels.size());
+    std::optional<std::uint32_t> first;
+    for (const auto& [id, count] : cluster.shared) {
+        const auto& since = tracks_.at(id).moving_from;
+        if (since && static_cast<double>(count) >= least) {
+            first = std::min(first.value_or(*since), *since);
         }
     }
-    std::sort(matches.begin(), matches.end(), [](const auto& a, const auto& b) {
-        const auto& [shared_a, cluster_a, id_a] = a;
-        const auto& [shared_b, cluster_b, id_b] = b;
-        return std::tie(shared_b, cluster_a, id_a) < std::tie(shared_a, cluster_b, id_b);
-    });
-    std::map<Id, bool> taken;
-    for (const auto& [shared, c, id] : matches) {
-        if (clusters[c].track || taken[id]) continue;
-        clusters[c].track = id;
-        taken[id] = true;
-    }
+    return first;
 }
 
 /// Adds what the cluster shows of whether its object came to where it is: a scan counts fully if
@@ -153,19 +146,26 @@ void Objects::note_arrival(Track& track, const Cluster& cluster) const {
     track.arrived_scans += weight;
     if (!is_first) return;
     track.arrival = value_at_rank(cluster.filled, cluster.filled.size() / 4);
-    const bool is_new = track.seen.voxels == 0;
-    if (!is_new || !cluster.after_moving || weight < 1.0) return;
-    track.arrived_scans = config_.arrived_scans;
-    track.arrival = std::min(track.arrival, *cluster.after_moving);
+    if (track.views > 0 || weight < 1.0) return;
+    if (const auto since = after_moving(cluster)) {
+        track.arrived_scans = config_.arrived_scans;
+        track.arrival = std::min(track.arrival, *since);
+    }
+}
+
+/// True if the object was seen to go some distance.
+bool Objects::has_moved(const Track& track) const {
+    const auto is_far = [&](const Point& from) {
+        return (track.seen.center - from).norm() >= static_cast<float>(config_.gone);
+    };
+    return (track.dynamic_scans >= config_.dynamic_scans && is_far(track.first_center)) ||
+           (track.leaving_scans >= kLeavingScans && is_far(track.left));
 }
 
 /// Empty: the track is not that of a moving object so far.
 std::optional<std::uint32_t> Objects::moving_from(const Track& track) const {
-    const float path = (track.seen.center - track.first_center).norm();
-    const bool moved =
-        track.dynamic_scans >= config_.dynamic_scans && path >= static_cast<float>(config_.gone);
-    const bool came = track.arrived_scans >= config_.arrived_scans;
     if (track.is_displaced) return std::min(track.start, track.there_since);
+    const bool moved = has_moved(track), came = track.arrived_scans >= config_.arrived_scans;
     if (moved && came) return std::min(track.start, track.arrival);
     if (moved) return track.start;
     if (came) return track.arrival;
@@ -193,8 +193,11 @@ void Objects::begin(Cluster& cluster, const EvidenceGrid& grid) {
     }
 }
 
-/// Continues the track of the cluster, or begins a new one. The cluster stands for `scans` scans.
-void Objects::follow(Cluster& cluster, EvidenceGrid& grid, double stamp, std::uint32_t scans) {
+/// Continues the track of the cluster, or begins a new one. The cluster stands for `scans` scans;
+/// `seen_by` is the keyframe of the newest of them, if that is one.
+void Objects::follow(Cluster& cluster, const Keyframe* seen_by, EvidenceMap& map, double stamp,
+                     std::uint32_t scans) {
+    EvidenceGrid& grid = map.grid();
     if (cluster.voxels.size() < static_cast<std::size_t>(config_.fewest)) {
         cluster.track.reset();
         return;
@@ -202,17 +205,20 @@ void Objects::follow(Cluster& cluster, EvidenceGrid& grid, double stamp, std::ui
     if (!cluster.track) begin(cluster, grid);
     Track& track = tracks_.at(*cluster.track);
     note_arrival(track, cluster);
-    if (track.seen.voxels > 0) {
-        const Point step = cluster.center - track.seen.center;
-        const auto elapsed = static_cast<float>(stamp - track.seen.stamp);
-        track.velocity = 0.5F * (track.velocity + step / elapsed);
-    }
-    track.seen = {stamp, cluster.center, cluster.voxels.size(), cluster.length};
     const double least = config_.dynamic_share * static_cast<double>(cluster.voxels.size());
     if (static_cast<double>(cluster.dynamic) >= least) ++track.dynamic_scans;
-    for (const std::uint32_t voxel : cluster.voxels) {
-        last_there_[block_of(grid, voxel)] = {*cluster.track, stamp};
+    if (track.views > 0) {
+        if (!track.moving_from && seen_by) note_leaving(track, cluster, *seen_by, map);
+        const Point step = cluster.center - track.seen.center;
+        const Point velocity = step / static_cast<float>(stamp - track.seen.stamp);
+        track.velocity = track.views == 1 ? velocity : Point(0.5F * (track.velocity + velocity));
     }
+    ++track.views;
+    track.seen = {stamp, cluster.center, cluster.box, {}};
+    for (const std::uint32_t voxel : cluster.voxels) {
+        track.seen.places.push_back(grid[voxel].centroid);
+    }
+    for (const std::uint32_t voxel : cluster.voxels) occupy(block_of(grid, voxel), *cluster.track);
     if (track.moving_from) {
         for (const std::uint32_t voxel : cluster.voxels) {
             if (came_with(track.moving_from, grid[voxel].evidence)) grid.record_moved(voxel, scans);
@@ -221,6 +227,17 @@ void Objects::follow(Cluster& cluster, EvidenceGrid& grid, double stamp, std::ui
     }
     for (const std::uint32_t voxel : cluster.voxels) track.history[voxel] += scans;
     use_history(track, grid);
+}
+
+/// The track was seen in the block of voxels. What moves takes no places from what rests there: it
+/// may pass so close that both are one cluster for a while.
+void Objects::occupy(VoxelKey block, TrackId track) {
+    const auto [place, is_new] = last_there_.insert({block, {track, *last_stamp_}});
+    if (is_new) return;
+    const auto before = tracks_.find(place->second.track);
+    const bool rests = before != tracks_.end() && !before->second.seems_to_move();
+    if (!rests || !tracks_.at(track).seems_to_move()) place.value().track = track;
+    place.value().stamp = *last_stamp_;
 }
 
 /// If the track is now that of a moving object, so are its points until now. Where the object was
@@ -255,7 +272,7 @@ void Objects::find_displaced(const Scan& scan, const Clusters& found,
     }
     const Point from = near.translation().cast<float>();
     std::vector<SteadyWay> ways;
-    std::vector<Id> ids;
+    std::vector<TrackId> ids;
     for (std::size_t c = 0; c < clusters.size(); ++c) {
         const bool is_small = clusters[c].voxels.size() < kLookVoxels;
         if (is_small || points[c].size() < kLookPoints) continue;

@@ -12,16 +12,19 @@
 #include <tsl/robin_map.h>
 
 #include "filter/clusters.hpp"
-#include "filter/displacement.hpp"
-#include "filter/evidence_grid.hpp"
+#include "filter/evidence_map.hpp"
+#include "filter/tracks.hpp"
 
 namespace dynamic_filter {
 
 /// Tracks clusters over scans. A person who stops at a kerb, or a car that waits in a queue, may
 /// stand there until the recording ends; no beam then shows that the place is free. But earlier
-/// scans saw the object move there. So clusters are linked to tracks by overlap. A track is that of
-/// a moving object
+/// scans saw the object move there. So clusters are linked to tracks (tracks.hpp). A track is that
+/// of a moving object
 /// - once its clusters were dynamic in several scans and it has gone some distance; or
+/// - once two scans in a row saw empty the place where it was just before, and it has gone some
+///   distance in one direction. This finds what drives ahead of the sensor: it covers all places
+///   before it gets there, so they are never seen free; but it leaves them; or
 /// - once it came: in several scans, about half of the voxels of its clusters were dynamic, or seen
 ///   free first and occupied ever since. Few of them may be sure by themselves: together they are.
 ///   If another track of a moving object ended there, one such scan is enough; or
@@ -45,71 +48,38 @@ public:
 
     /// Uses the scan that was last added to the grid. `labels` are its instant verdicts; points of
     /// moving objects become dynamic there. Scans that follow sooner than `every` are skipped.
-    void update(const Scan& scan, const PointVoxels& voxels, EvidenceGrid& grid, Labels& labels);
+    void update(const Scan& scan, const PointVoxels& voxels, EvidenceMap& map, Labels& labels);
 
     /// Renumbers the voxels: only those with the old numbers `kept` remain, in that order.
     void keep(std::span<const std::uint32_t> kept);
 
 private:
-    using Id = std::uint32_t;
-    /// State of a track when it was last seen.
-    struct Seen {
-        double stamp = 0.0;  // [s]
-        Point center = Point::Zero();
-        std::size_t voxels = 0;
-        float length = 0.0F;  // [m] longest side of its bounding box
-    };
-    struct Track {
-        std::uint32_t start = 0;             // number of its first scan
-        std::uint32_t arrival = 0;           // scan in which it came, if that was seen
-        double arrived_scans = 0.0;          // in which it stood where it came to, weighted
-        Point first_center = Point::Zero();  // center in its first scan
-        Point velocity = Point::Zero();      // [m/s]
-        Seen seen;
-        int dynamic_scans = 0;
-        FollowedSurface surface{};
-        bool is_displaced = false;      // its surface moved
-        std::uint32_t there_since = 0;  // scan since when the voxels of its first scan are occupied
-        // Of a moving object: points that were first seen in this scan or later are its points.
-        std::optional<std::uint32_t> moving_from{};
-        // Per voxel: number of scans; kept until the track is that of a moving object.
-        tsl::robin_map<std::uint32_t, std::uint32_t> history{};
-    };
-    struct Cluster {
-        std::vector<std::uint32_t> voxels;  // ascending
-        Point center = Point::Zero();
-        float length = 0.0F;      // [m]
-        std::size_t dynamic = 0;  // number of voxels
-        std::size_t came = 0;     // of those that are dynamic or were filled
-        // The scans in which the voxels were filled that were seen free before.
-        std::vector<std::uint32_t> filled{};
-        // A moving object was last seen there; from this scan on it was known to be one.
-        std::optional<std::uint32_t> after_moving{};
-        std::optional<Id> track{};
-    };
     [[nodiscard]] std::vector<Cluster> describe(const Clusters& clusters, const PointVoxels& voxels,
                                                 const EvidenceGrid& grid,
                                                 const Labels& labels) const;
-    void match(std::vector<Cluster>& clusters, const EvidenceGrid& grid, double stamp) const;
-    [[nodiscard]] bool fits(const Track& track, const Cluster& cluster, double stamp) const;
+    [[nodiscard]] std::optional<std::uint32_t> after_moving(const Cluster& cluster) const;
     void note_arrival(Track& track, const Cluster& cluster) const;
+    [[nodiscard]] bool has_moved(const Track& track) const;
     [[nodiscard]] std::optional<std::uint32_t> moving_from(const Track& track) const;
-    void follow(Cluster& cluster, EvidenceGrid& grid, double stamp, std::uint32_t scans);
+    void follow(Cluster& cluster, const Keyframe* seen_by, EvidenceMap& map, double stamp,
+                std::uint32_t scans);
     void begin(Cluster& cluster, const EvidenceGrid& grid);
     void find_displaced(const Scan& scan, const Clusters& found,
                         const std::vector<Cluster>& clusters, EvidenceGrid& grid);
+    void occupy(VoxelKey block, TrackId track);
     void use_history(Track& track, EvidenceGrid& grid) const;
     void forget(double stamp);
 
     ScansConfig::Instances config_;
-    std::map<Id, Track> tracks_;
-    Id next_ = 0;
+    std::map<TrackId, Track> tracks_;
+    TrackId next_ = 0;
     struct Place {
-        Id track;
+        TrackId track;
         double stamp;
     };
     tsl::robin_map<VoxelKey, Place, VoxelHash> last_there_;  // per block of voxels
     std::optional<double> last_stamp_, last_look_;
+    Point last_sensor_ = Point::Zero();      // [m] place of the sensor in the last scan
     std::optional<Eigen::Vector3d> origin_;  // [m, world frame] of the compared surfaces
     std::uint32_t last_scan_ = 0;
 };

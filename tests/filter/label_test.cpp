@@ -110,6 +110,30 @@ struct Street {
     }
 };
 
+TEST(InstantLabels, AFootIsDynamicDownToTheGroundWhileTheLegIsThere) {
+    const Street street;
+    const std::uint32_t under = street.ground[24], away = street.ground[45];  // three voxels away
+    const auto height = static_cast<float>(config.scans.contact.height);
+    const Point foot(0.1F, 0.1F, 0.1F + height + 0.005F);
+    const auto label = [&](const Point& p, std::uint32_t voxel, bool with_leg) {
+        Scan scan{{p}, Pose::Identity(), 0.0, 0, true, {}};
+        PointVoxels voxels{voxel};
+        for (const std::uint32_t v : street.ground) voxels.push_back(v);
+        if (with_leg) voxels.insert(voxels.end(), street.leg.begin(), street.leg.end());
+        for (std::size_t i = 1; i < voxels.size(); ++i) {
+            scan.points.push_back(street.map.grid[voxels[i]].centroid);
+        }
+        InstantLabels instant(config);
+        Labels labels = instant.label(0, voxels, street.map.grid).labels;
+        instant.find_contacts(scan, voxels, street.map.grid, config.scans.contact, labels);
+        return labels[0];
+    };
+    EXPECT_EQ(label(foot, under, true), Label::dynamic);
+    EXPECT_EQ(label(foot - Point(0.0F, 0.0F, 0.01F), under, true), Label::static_);
+    EXPECT_EQ(label(foot + Point(0.6F, 0.0F, 0.0F), away, true), Label::static_);
+    EXPECT_EQ(label(foot, under, false), Label::static_);
+}
+
 TEST(DecideVoxels, GroundIsStaticTheLegIsDynamicAndTheyMeetAtASurface) {
     const Street street;
     const auto decided = decide_voxels(street.map.grid, config);
