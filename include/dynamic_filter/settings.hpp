@@ -447,8 +447,8 @@ void visit_scans(C& scans, F&& f) {
           "one scan is little evidence",
           1, 1000, i.dynamic_scans);
     field("scans.instances.gone", "m",
-          "a track moves only if it has gone at least this far; leaves stay in their place", 0, 100,
-          i.gone);
+          "a track moves only if it has gone at least this far; leaves stay in their place", 0,
+          1000, i.gone);
     field("scans.instances.displaced", "m",
           "a track also moves once its surface has moved at least this far by a steady motion, "
           "however slow; several times what the poses and the scatter of its points explain",

@@ -10,6 +10,8 @@ RECORDINGS = {
     "street, os64": ("street", "os64", 1),
     "square, solid": ("square", "solid", 1),
     "hall, os64": ("hall", "os64", 1),
+    "queue, os64": ("queue", "os64", 1, "--rate", 5, "--frames", 150),
+    "slow, os64": ("slow", "os64", 1, "--rate", 5, "--frames", 150),
 }
 
 

@@ -11,7 +11,7 @@ MECHANISMS = {
     "thin things judged by beams through them": ["scans.evidence.thin_benefit=10"],
     # No track ever moves or comes: that would take more voxels than there are.
     "instances": [
-        "scans.instances.dynamic_scans=1000",
+        "scans.instances.gone=1000",
         "scans.instances.arrived_scans=1000",
         "scans.instances.displaced=1000",
     ],

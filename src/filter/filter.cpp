@@ -208,7 +208,9 @@ std::vector<bool> DynamicFilter::Impl::what_stays(std::size_t index,
 
 Verdict DynamicFilter::settled(const Scan& scan) const {
     Verdict verdict = unknown_verdict(scan);
-    settle_points(impl_->locate(scan), impl_->map.grid(), impl_->config, verdict);
+    Config config = impl_->config;
+    config.scans.contact = impl_->contact();
+    settle_points(impl_->locate(scan), impl_->map.grid(), config, verdict);
     return verdict;
 }
 

@@ -44,6 +44,37 @@ bool is_above(const ContactSurface& surface, const Point& p, const ScansConfig::
     return surface.height(p) > least;
 }
 
+/// The surfaces of those of the voxels that have one. Runs in parallel.
+using Contacts = tsl::robin_map<std::uint32_t, ContactSurface>;
+template <class LabelOf>
+Contacts contacts_of(std::span<const std::uint32_t> voxels, const LabelOf& label,
+                     const EvidenceGrid& grid, const ScansConfig::Contact& config) {
+    std::vector<std::optional<ContactSurface>> surfaces(voxels.size());
+    parallel_for(voxels.size(), 64, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            surfaces[i] = contact_of(voxels[i], label, grid, config);
+        }
+    });
+    Contacts contacts;
+    for (std::size_t i = 0; i < voxels.size(); ++i) {
+        if (surfaces[i]) contacts[voxels[i]] = *surfaces[i];
+    }
+    return contacts;
+}
+
+/// Points above the surface of their voxel become dynamic; `point(i)` is in the map frame.
+template <class PointAt>
+void label_above(const Contacts& contacts, const PointVoxels& voxels,
+                 const ScansConfig::Contact& config, const PointAt& point, Labels& labels) {
+    if (contacts.empty()) return;
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        if (labels[i] == Label::dynamic) continue;
+        const auto surface = contacts.find(voxels[i]);
+        if (surface == contacts.end()) continue;
+        if (is_above(surface->second, point(i), config)) labels[i] = Label::dynamic;
+    }
+}
+
 /// Indices of points of static voxels that lie above the surface of their voxel.
 std::vector<std::size_t> points_above(const LocatedScan& scan,
                                       const std::vector<VoxelDecision>& decided,
@@ -132,25 +163,10 @@ void InstantLabels::find_contacts(const Scan& scan, const PointVoxels& voxels,
         if (said_[v].role == Role::moving) return Label::dynamic;
         return said_[v].label == Label::static_ ? Label::static_ : Label::unknown;
     };
-    std::vector<std::optional<ContactSurface>> surfaces(touched.size());
-    parallel_for(touched.size(), 64, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t t = begin; t < end; ++t) {
-            surfaces[t] = contact_of(touched[t], label, grid, config);
-        }
-    });
-    tsl::robin_map<std::uint32_t, ContactSurface> surface_of;
-    for (std::size_t t = 0; t < touched.size(); ++t) {
-        if (surfaces[t]) surface_of[touched[t]] = *surfaces[t];
-    }
     const Eigen::Isometry3f T_map_sensor = scan.T_world_sensor.cast<float>();
-    for (std::size_t i = 0; i < labels.size(); ++i) {
-        if (voxels[i] == kNoVoxel || said_[voxels[i]].role != Role::touched) continue;
-        const auto surface = surface_of.find(voxels[i]);
-        if (surface == surface_of.end()) continue;
-        if (is_above(surface->second, T_map_sensor * scan.points[i], config)) {
-            labels[i] = Label::dynamic;
-        }
-    }
+    label_above(
+        contacts_of(touched, label, grid, config), voxels, config,
+        [&](std::size_t i) { return Point(T_map_sensor * scan.points[i]); }, labels);
 }
 
 void InstantLabels::keep(std::span<const std::uint32_t> kept) {
@@ -160,22 +176,6 @@ void InstantLabels::keep(std::span<const std::uint32_t> kept) {
     said_ = std::move(said);
     for (Said& s : said_) s.role = Role::none;
     in_roles_.clear();
-}
-
-void settle_points(const LocatedScan& scan, const EvidenceGrid& grid, const Config& config,
-                   Verdict& verdict) {
-    PointVoxels own = scan.voxels;
-    std::sort(own.begin(), own.end());
-    own.erase(std::unique(own.begin(), own.end()), own.end());
-    if (!own.empty() && own.back() == kNoVoxel) own.pop_back();
-    const auto occupancy = occupancy_of(grid, own, config.scans);
-    for (std::size_t i = 0; i < scan.voxels.size(); ++i) {
-        if (scan.voxels[i] == kNoVoxel) continue;
-        const auto at = std::lower_bound(own.begin(), own.end(), scan.voxels[i]) - own.begin();
-        const auto& probability = occupancy[static_cast<std::size_t>(at)];
-        verdict.labels[i] = label_of(probability, config.map.occupancy_threshold);
-        verdict.probability[i] = probability.value_or(0.0F);
-    }
 }
 
 std::vector<VoxelOccupancy> static_among(std::span<const std::uint32_t> voxels,
@@ -188,6 +188,66 @@ std::vector<VoxelOccupancy> static_among(std::span<const std::uint32_t> voxels,
         }
     }
     return result;
+}
+
+namespace {
+
+using LabelsOfVoxels = tsl::robin_map<std::uint32_t, Label>;
+
+/// The voxels of a scan that are not dynamic and touch one that is. Adds the labels of the voxels
+/// around them, as far as the contact needs them, to those of the scan.
+std::vector<std::uint32_t> touched_by_dynamic(std::span<const std::uint32_t> own,
+                                              const EvidenceGrid& grid, const Config& config,
+                                              LabelsOfVoxels& labels) {
+    std::vector<std::uint32_t> touched, around;
+    for (const std::uint32_t voxel : own) {
+        if (labels.at(voxel) == Label::dynamic) continue;
+        bool touches = false;
+        each_within(grid, 1, voxel, [&](std::uint32_t v, int) {
+            const auto label = labels.find(v);
+            touches |= label != labels.end() && label->second == Label::dynamic;
+        });
+        if (!touches) continue;
+        touched.push_back(voxel);
+        each_within(grid, 2, voxel, [&](std::uint32_t v, int) {
+            if (!labels.contains(v)) around.push_back(v);
+        });
+    }
+    std::sort(around.begin(), around.end());
+    around.erase(std::unique(around.begin(), around.end()), around.end());
+    for (const VoxelOccupancy& v : static_among(around, grid, config)) {
+        labels[v.voxel] = Label::static_;
+    }
+    return touched;
+}
+
+}  // namespace
+
+void settle_points(const LocatedScan& scan, const EvidenceGrid& grid, const Config& config,
+                   Verdict& verdict) {
+    PointVoxels own = scan.voxels;
+    std::sort(own.begin(), own.end());
+    own.erase(std::unique(own.begin(), own.end()), own.end());
+    if (!own.empty() && own.back() == kNoVoxel) own.pop_back();
+    const auto occupancy = occupancy_of(grid, own, config.scans);
+    LabelsOfVoxels labels;
+    for (std::size_t i = 0; i < own.size(); ++i) {
+        labels[own[i]] = label_of(occupancy[i], config.map.occupancy_threshold);
+    }
+    for (std::size_t i = 0; i < scan.voxels.size(); ++i) {
+        if (scan.voxels[i] == kNoVoxel) continue;
+        const auto at = std::lower_bound(own.begin(), own.end(), scan.voxels[i]) - own.begin();
+        verdict.labels[i] = labels.at(scan.voxels[i]);
+        verdict.probability[i] = occupancy[static_cast<std::size_t>(at)].value_or(0.0F);
+    }
+    const std::vector<std::uint32_t> touched = touched_by_dynamic(own, grid, config, labels);
+    const auto label = [&](std::uint32_t v) {
+        const auto found = labels.find(v);
+        return found == labels.end() ? Label::unknown : found->second;
+    };
+    label_above(
+        contacts_of(touched, label, grid, config.scans.contact), scan.voxels, config.scans.contact,
+        [&](std::size_t i) { return scan.in_map.points[i]; }, verdict.labels);
 }
 
 std::vector<VoxelDecision> decide_voxels(const EvidenceGrid& grid, const Config& config) {

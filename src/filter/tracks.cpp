@@ -104,9 +104,8 @@ void match(std::vector<Cluster>& clusters, const std::map<TrackId, Track>& track
             match_by_motion(clusters, id, track, expected(track), config, moving);
         }
     }
-    std::erase_if(moving, [&](const Match& m) {
-        return is_known_at_rest(clusters[m.cluster], tracks);
-    });
+    std::erase_if(moving,
+                  [&](const Match& m) { return is_known_at_rest(clusters[m.cluster], tracks); });
     give(std::move(moving), clusters);
     match_by_place(clusters, tracks, stamp, sensor_velocity, config, staying);
     give(std::move(staying), clusters);

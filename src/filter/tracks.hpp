@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include <Eigen/Geometry>
 #include <tsl/robin_map.h>
+#include <Eigen/Geometry>
 
 #include "dynamic_filter/settings.hpp"
 #include "dynamic_filter/types.hpp"
@@ -51,7 +51,9 @@ struct Track {
     tsl::robin_map<std::uint32_t, std::uint32_t> history{};
 
     /// True if it moves, as far as is known.
-    [[nodiscard]] bool seems_to_move() const { return moving_from || dynamic_scans > 0 || leaving_scans > 0; }
+    [[nodiscard]] bool seems_to_move() const {
+        return moving_from || dynamic_scans > 0 || leaving_scans > 0;
+    }
 };
 
 /// A cluster of one scan; see find_clusters().

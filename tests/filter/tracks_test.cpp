@@ -100,9 +100,12 @@ TEST(Match, WhatHasAnotherSizeIsAnotherThing) {
     Matching m;
     m.tracks[7] = track_at({0.0F, 0.0F, 0.0F}, 20, {4.0F, 0.0F, 0.0F});
     const Point there(2.0F, 0.0F, 0.0F);
-    for (const auto& [voxels, length, fits] :
-         {std::tuple(63U, 1.0F, true), {64U, 1.0F, false}, {5U, 1.0F, false}, {6U, 1.0F, true},
-          {20U, 1.75F, true}, {20U, 1.85F, false}}) {
+    for (const auto& [voxels, length, fits] : {std::tuple(63U, 1.0F, true),
+                                               {64U, 1.0F, false},
+                                               {5U, 1.0F, false},
+                                               {6U, 1.0F, true},
+                                               {20U, 1.75F, true},
+                                               {20U, 1.85F, false}}) {
         m.clusters = {cluster_at(there, voxels, length)};
         EXPECT_EQ(m.of(0).has_value(), fits) << voxels << ' ' << length;
     }
