@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "bench/parse_number.hpp"
+#include "bench/scene_arguments.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/filter.hpp"
 #include "dynamic_filter/simulation.hpp"
@@ -118,16 +119,12 @@ void measure(const sim::SimulationOptions& options, double radius) {
 int main(int argc, char** argv) {
     try {
         const std::vector<std::string_view> words(argv + 1, argv + argc);
-        if (words.size() < 5 || words.size() > 6) {
+        if (words.size() < kSceneArguments || words.size() > kSceneArguments + 1) {
             throw ConfigError("usage: local_map SCENE SENSOR SEED FRAMES RATE [RADIUS]");
         }
-        sim::SimulationOptions options;
-        options.scene = words[0];
-        options.sensor = words[1];
-        options.seed = parse<std::uint64_t>("SEED", words[2]);
-        options.frames = parse<std::size_t>("FRAMES", words[3]);
-        options.rate_hz = parse<double>("RATE", words[4]);
-        measure(options, words.size() > 5 ? parse<double>("RADIUS", words[5]) : 30.0);
+        measure(scene_of(words), words.size() > kSceneArguments
+                                     ? parse<double>("RADIUS", words[kSceneArguments])
+                                     : 30.0);
     } catch (const Error& error) {
         fmt::print(stderr, "local_map: {}\n", error.what());
         return 2;

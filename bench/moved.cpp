@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "bench/parse_number.hpp"
+#include "bench/scene_arguments.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/filter.hpp"
 #include "dynamic_filter/simulation.hpp"
@@ -191,16 +192,13 @@ void measure(const Simulated& all, std::size_t things) {
 int main(int argc, char** argv) {
     try {
         const std::vector<std::string_view> words(argv + 1, argv + argc);
-        if (words.size() < 5 || words.size() > 6) {
+        if (words.size() < kSceneArguments || words.size() > kSceneArguments + 1) {
             throw ConfigError("usage: moved SCENE SENSOR SEED FRAMES RATE [THINGS]");
         }
-        sim::SimulationOptions options;
-        options.scene = words[0];
-        options.sensor = words[1];
-        options.seed = parse<std::uint64_t>("SEED", words[2]);
-        options.frames = parse<std::size_t>("FRAMES", words[3]);
-        options.rate_hz = parse<double>("RATE", words[4]);
-        measure(simulate(options), words.size() > 5 ? parse<std::size_t>("THINGS", words[5]) : 0);
+        measure(simulate(scene_of(words)),
+                words.size() > kSceneArguments
+                    ? parse<std::size_t>("THINGS", words[kSceneArguments])
+                    : 0);
     } catch (const Error& error) {
         fmt::print(stderr, "moved: {}\n", error.what());
         return 2;
