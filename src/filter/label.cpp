@@ -22,15 +22,20 @@ void each_within(const EvidenceGrid& grid, int cells, std::uint32_t voxel, const
     grid.neighbors().each_within(grid.voxels(), cells, voxel, use);
 }
 
-/// The static surface in a voxel that touches a dynamic one; `label` gives the label of a voxel.
+/// `label` gives the label of a voxel.
+template <class LabelOf>
+bool touches_dynamic(std::uint32_t voxel, const LabelOf& label, const EvidenceGrid& grid) {
+    bool touches = false;
+    each_within(grid, 1, voxel,
+                [&](std::uint32_t v, int) { touches |= label(v) == Label::dynamic; });
+    return touches;
+}
+
+/// The static surface in a voxel that touches a dynamic one.
 template <class LabelOf>
 std::optional<ContactSurface> contact_of(std::uint32_t voxel, const LabelOf& label,
                                          const EvidenceGrid& grid,
                                          const ScansConfig::Contact& config) {
-    bool touches_dynamic = false;
-    each_within(grid, 1, voxel,
-                [&](std::uint32_t v, int) { touches_dynamic |= label(v) == Label::dynamic; });
-    if (!touches_dynamic) return std::nullopt;
     std::vector<VoxelVerdict> around;
     each_within(grid, 2, voxel, [&](std::uint32_t v, int distance) {
         around.push_back({grid[v].centroid, label(v), distance});
@@ -194,20 +199,20 @@ namespace {
 
 using LabelsOfVoxels = tsl::robin_map<std::uint32_t, Label>;
 
+Label label_in(const LabelsOfVoxels& labels, std::uint32_t voxel) {
+    const auto found = labels.find(voxel);
+    return found == labels.end() ? Label::unknown : found->second;
+}
+
 /// The voxels of a scan that are not dynamic and touch one that is. Adds the labels of the voxels
 /// around them, as far as the contact needs them, to those of the scan.
 std::vector<std::uint32_t> touched_by_dynamic(std::span<const std::uint32_t> own,
                                               const EvidenceGrid& grid, const Config& config,
                                               LabelsOfVoxels& labels) {
+    const auto label = [&](std::uint32_t v) { return label_in(labels, v); };
     std::vector<std::uint32_t> touched, around;
     for (const std::uint32_t voxel : own) {
-        if (labels.at(voxel) == Label::dynamic) continue;
-        bool touches = false;
-        each_within(grid, 1, voxel, [&](std::uint32_t v, int) {
-            const auto label = labels.find(v);
-            touches |= label != labels.end() && label->second == Label::dynamic;
-        });
-        if (!touches) continue;
+        if (label(voxel) == Label::dynamic || !touches_dynamic(voxel, label, grid)) continue;
         touched.push_back(voxel);
         each_within(grid, 2, voxel, [&](std::uint32_t v, int) {
             if (!labels.contains(v)) around.push_back(v);
@@ -241,10 +246,7 @@ void settle_points(const LocatedScan& scan, const EvidenceGrid& grid, const Conf
         verdict.probability[i] = occupancy[static_cast<std::size_t>(at)].value_or(0.0F);
     }
     const std::vector<std::uint32_t> touched = touched_by_dynamic(own, grid, config, labels);
-    const auto label = [&](std::uint32_t v) {
-        const auto found = labels.find(v);
-        return found == labels.end() ? Label::unknown : found->second;
-    };
+    const auto label = [&](std::uint32_t v) { return label_in(labels, v); };
     label_above(
         contacts_of(touched, label, grid, config.scans.contact), scan.voxels, config.scans.contact,
         [&](std::size_t i) { return scan.in_map.points[i]; }, verdict.labels);
@@ -261,7 +263,7 @@ std::vector<VoxelDecision> decide_voxels(const EvidenceGrid& grid, const Config&
     };
     parallel_for(all.size(), 1024, [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v) {
-            if (label(v) != Label::static_) continue;
+            if (label(v) != Label::static_ || !touches_dynamic(all[v], label, grid)) continue;
             decided[v].contact = contact_of(all[v], label, grid, config.scans.contact);
         }
     });

@@ -217,8 +217,8 @@ void Objects::follow(Cluster& cluster, const Keyframe* seen_by, EvidenceMap& map
     track.seen = {stamp, cluster.center, cluster.box, {}};
     for (const std::uint32_t voxel : cluster.voxels) {
         track.seen.places.push_back(grid[voxel].centroid);
+        occupy(block_of(grid, voxel), *cluster.track);
     }
-    for (const std::uint32_t voxel : cluster.voxels) occupy(block_of(grid, voxel), *cluster.track);
     if (track.moving_from) {
         for (const std::uint32_t voxel : cluster.voxels) {
             if (came_with(track.moving_from, grid[voxel].evidence)) grid.record_moved(voxel, scans);
@@ -234,8 +234,7 @@ void Objects::follow(Cluster& cluster, const Keyframe* seen_by, EvidenceMap& map
 void Objects::occupy(VoxelKey block, TrackId track) {
     const auto [place, is_new] = last_there_.insert({block, {track, *last_stamp_}});
     if (is_new) return;
-    const auto before = tracks_.find(place->second.track);
-    const bool rests = before != tracks_.end() && !before->second.seems_to_move();
+    const bool rests = !tracks_.at(place->second.track).seems_to_move();
     if (!rests || !tracks_.at(track).seems_to_move()) place.value().track = track;
     place.value().stamp = *last_stamp_;
 }

@@ -10,6 +10,9 @@ namespace dynamic_filter {
 
 namespace {
 
+/// Share of the voxels of a cluster in places of objects at rest, from which on it is one of these.
+constexpr double kAtRest = 0.6;
+
 struct Match {
     double cost;  // the lowest is the best
     std::size_t cluster;

@@ -18,9 +18,6 @@ namespace dynamic_filter {
 
 using TrackId = std::uint32_t;
 
-/// Share of the voxels in places of objects at rest from which on they are taken for these objects.
-constexpr double kAtRest = 0.6;
-
 /// An object over several scans. Lengths [m] in the map frame; scans are numbered in their order.
 struct Track {
     /// How it was last seen.
