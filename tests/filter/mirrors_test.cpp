@@ -12,8 +12,9 @@ using Eigen::AlignedBox3f;
 
 namespace {
 
-/// What is in the part of the wall y = -6 from x = -3 to 3.
-enum class Part { wall, mirror, doorway };
+/// What is in the part of the wall y = -6 from x = -3 to 3. Behind `twin` is a room that looks like
+/// the first one in a mirror.
+enum class Part { wall, mirror, doorway, twin };
 
 const std::vector<AlignedBox3f>& things_before() {
     static const std::vector<AlignedBox3f> things = {
@@ -45,7 +46,12 @@ float until(const AlignedBox3f& box, const Point& from, const Point& way) {
     return enters > 0.0F ? enters : leaves;
 }
 
+Point mirrored(const Point& p) { return {p.x(), -12.0F - p.y(), p.z()}; }
+
 float range(Part part, const Point& from, const Point& way) {
+    if (part == Part::twin && from.y() < -6.0F) {
+        return range(part, mirrored(from), {way.x(), -way.y(), way.z()});
+    }
     const AlignedBox3f before(Point(-10.0F, -6.0F, 0.0F), Point(10.0F, 6.0F, 3.0F));
     const AlignedBox3f behind(Point(-10.0F, -14.0F, 0.0F), Point(10.0F, -6.0F, 3.0F));
     const bool starts_before = from.y() > -6.0F;
@@ -58,20 +64,23 @@ float range(Part part, const Point& from, const Point& way) {
                             std::abs(at.x()) < 3.0F && at.z() > 0.1F && at.z() < 2.6F;
     if (!is_through || part == Part::wall) return nearest;
     Point onward = way;
-    if (part == Part::mirror) onward.y() = -onward.y();
+    const bool looks_mirrored = part != Part::doorway;
+    if (looks_mirrored) onward.y() = -onward.y();
     const Point on = at + 0.01F * onward;
-    return nearest + 0.01F + range(part == Part::mirror ? Part::wall : part, on, onward);
+    return nearest + 0.01F + range(looks_mirrored ? Part::wall : part, on, onward);
 }
 
-EvidenceMap seen(Part part) {
+/// Twelve scans before the wall, then some from behind it.
+EvidenceMap seen(Part part, std::size_t behind = 0) {
     EvidenceMap map(Config{});
     StageTimes times;
-    for (std::size_t i = 0; i < 12; ++i) {
+    for (std::size_t i = 0; i < 12 + behind; ++i) {
         Scan scan;
         scan.index = i;
         scan.stamp = 0.5 * static_cast<double>(i);
         scan.T_world_sensor.setIdentity();
-        const Point sensor(-4.0F + 0.7F * static_cast<float>(i), 0.3F, 1.3F);
+        Point sensor(-4.0F + 0.7F * static_cast<float>(i % 12), 0.3F, 1.3F);
+        if (i >= 12) sensor = mirrored(sensor);
         scan.T_world_sensor.translation() = sensor.cast<double>();
         for (int row = -15; row <= 15; ++row) {
             for (int column = 0; column < 360; ++column) {
@@ -113,6 +122,11 @@ TEST(Mirrors, AMirrorIsFoundAndSoIsWhatIsSeenInIt) {
 
 TEST(Mirrors, ADoorwayIntoAnotherRoomIsNone) {
     EXPECT_TRUE(find_mirrors(seen(Part::doorway), {}).empty());
+}
+
+TEST(Mirrors, ARoomLikeTheFirstOneIsNoneOnceItWasSeenFromWithin) {
+    EXPECT_EQ(find_mirrors(seen(Part::twin), {}).size(), 1U);  // nothing tells it from a mirror yet
+    EXPECT_TRUE(find_mirrors(seen(Part::twin, 6), {}).empty());
 }
 
 TEST(Mirrors, AClosedWallIsNone) { EXPECT_TRUE(find_mirrors(seen(Part::wall), {}).empty()); }
