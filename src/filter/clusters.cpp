@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace dynamic_filter {
 
@@ -38,14 +39,24 @@ struct Raster {
     }
 };
 
-/// Height of the ground in each cell: the lowest point in the cell and in the cells around it.
-std::vector<float> ground_of(const Raster& raster, const Points& points,
-                             const PointVoxels& voxels) {
-    std::vector<float> lowest(raster.cells(), std::numeric_limits<float>::infinity());
+/// For each point, its cell; kNoCluster if it has none.
+std::vector<std::uint32_t> cells_of(const Raster& raster, const Points& points,
+                                    const PointVoxels& voxels) {
+    std::vector<std::uint32_t> cells(points.size(), kNoCluster);
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (voxels[i] == kNoVoxel || !raster.contains(points[i])) continue;
-        float& low = lowest[raster.at(points[i])];
-        low = std::min(low, points[i].z());
+        cells[i] = static_cast<std::uint32_t>(raster.at(points[i]));
+    }
+    return cells;
+}
+
+/// Height of the ground in each cell: the lowest point in the cell and in the cells around it.
+std::vector<float> ground_of(const Raster& raster, const Points& points,
+                             std::span<const std::uint32_t> cells) {
+    std::vector<float> lowest(raster.cells(), std::numeric_limits<float>::infinity());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (cells[i] == kNoCluster) continue;
+        lowest[cells[i]] = std::min(lowest[cells[i]], points[i].z());
     }
     std::vector<float> ground(lowest);
     for (std::size_t cell = 0; cell < lowest.size(); ++cell) {
@@ -97,19 +108,21 @@ Clusters find_clusters(const Points& points, const PointVoxels& voxels,
                        const ScansConfig::Instances& config) {
     const auto reach = static_cast<float>(config.reach), cell = static_cast<float>(config.cell);
     const Raster raster(reach, cell), coarse(reach, static_cast<float>(config.ground_cell));
-    const std::vector<float> ground = ground_of(coarse, points, voxels);
+    // Of the points: first their coarse cells, then their cells, then their clusters.
+    Clusters clusters{cells_of(coarse, points, voxels), 0};
+    const std::vector<float> ground = ground_of(coarse, points, clusters.of_points);
     std::vector<std::uint32_t> cluster_of(raster.cells(), kEmpty);
-    Clusters clusters{std::vector<std::uint32_t>(points.size(), kNoCluster), 0};
     std::vector<std::size_t> filled;
     for (std::size_t i = 0; i < points.size(); ++i) {
-        if (voxels[i] == kNoVoxel || !raster.contains(points[i])) continue;
-        const float height = points[i].z() - ground[coarse.at(points[i])];
+        std::uint32_t& of_point = clusters.of_points[i];
+        if (of_point == kNoCluster) continue;
+        const float height = points[i].z() - ground[of_point];
+        of_point = kNoCluster;
         if (height < static_cast<float>(config.ground) || height > static_cast<float>(config.top)) {
             continue;
         }
         const std::size_t at = raster.at(points[i]);
-        // Temporarily the cell of the point.
-        clusters.of_points[i] = static_cast<std::uint32_t>(at);
+        of_point = static_cast<std::uint32_t>(at);
         if (cluster_of[at] == kWaiting) continue;
         cluster_of[at] = kWaiting;
         filled.push_back(at);

@@ -208,9 +208,7 @@ std::vector<bool> DynamicFilter::Impl::what_stays(std::size_t index,
 
 Verdict DynamicFilter::settled(const Scan& scan) const {
     Verdict verdict = unknown_verdict(scan);
-    Config config = impl_->config;
-    config.scans.contact = impl_->contact();
-    settle_points(impl_->locate(scan), impl_->map.grid(), config, verdict);
+    settle_points(impl_->locate(scan), impl_->map.grid(), impl_->config, impl_->contact(), verdict);
     return verdict;
 }
 

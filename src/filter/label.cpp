@@ -67,13 +67,14 @@ Contacts contacts_of(std::span<const std::uint32_t> voxels, const LabelOf& label
     return contacts;
 }
 
-/// Points above the surface of their voxel become dynamic; `point(i)` is in the map frame.
-template <class PointAt>
-void label_above(const Contacts& contacts, const PointVoxels& voxels,
+/// Points above the surface of their voxel become dynamic; `point(i)` is in the map frame. Voxels
+/// that are not `touched(voxel)` have no surface.
+template <class Touched, class PointAt>
+void label_above(const Contacts& contacts, const PointVoxels& voxels, const Touched& touched,
                  const ScansConfig::Contact& config, const PointAt& point, Labels& labels) {
     if (contacts.empty()) return;
     for (std::size_t i = 0; i < labels.size(); ++i) {
-        if (labels[i] == Label::dynamic) continue;
+        if (labels[i] == Label::dynamic || voxels[i] == kNoVoxel || !touched(voxels[i])) continue;
         const auto surface = contacts.find(voxels[i]);
         if (surface == contacts.end()) continue;
         if (is_above(surface->second, point(i), config)) labels[i] = Label::dynamic;
@@ -170,7 +171,8 @@ void InstantLabels::find_contacts(const Scan& scan, const PointVoxels& voxels,
     };
     const Eigen::Isometry3f T_map_sensor = scan.T_world_sensor.cast<float>();
     label_above(
-        contacts_of(touched, label, grid, config), voxels, config,
+        contacts_of(touched, label, grid, config), voxels,
+        [&](std::uint32_t v) { return said_[v].role == Role::touched; }, config,
         [&](std::size_t i) { return Point(T_map_sensor * scan.points[i]); }, labels);
 }
 
@@ -229,7 +231,7 @@ std::vector<std::uint32_t> touched_by_dynamic(std::span<const std::uint32_t> own
 }  // namespace
 
 void settle_points(const LocatedScan& scan, const EvidenceGrid& grid, const Config& config,
-                   Verdict& verdict) {
+                   const ScansConfig::Contact& contact, Verdict& verdict) {
     PointVoxels own = scan.voxels;
     std::sort(own.begin(), own.end());
     own.erase(std::unique(own.begin(), own.end()), own.end());
@@ -248,8 +250,8 @@ void settle_points(const LocatedScan& scan, const EvidenceGrid& grid, const Conf
     const std::vector<std::uint32_t> touched = touched_by_dynamic(own, grid, config, labels);
     const auto label = [&](std::uint32_t v) { return label_in(labels, v); };
     label_above(
-        contacts_of(touched, label, grid, config.scans.contact), scan.voxels, config.scans.contact,
-        [&](std::size_t i) { return scan.in_map.points[i]; }, verdict.labels);
+        contacts_of(touched, label, grid, contact), scan.voxels, [](std::uint32_t) { return true; },
+        contact, [&](std::size_t i) { return scan.in_map.points[i]; }, verdict.labels);
 }
 
 std::vector<VoxelDecision> decide_voxels(const EvidenceGrid& grid, const Config& config) {

@@ -72,7 +72,7 @@ private:
 
 /// Settled labels: writes them, and the probabilities, into `verdict`, which must be all unknown.
 void settle_points(const LocatedScan& scan, const EvidenceGrid& grid, const Config& config,
-                   Verdict& verdict);
+                   const ScansConfig::Contact& contact, Verdict& verdict);
 
 /// The static ones among the voxels, from the evidence so far.
 std::vector<VoxelOccupancy> static_among(std::span<const std::uint32_t> voxels,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/numbers.hpp"
 
@@ -79,35 +80,44 @@ void Objects::update(const Scan& scan, const PointVoxels& voxels, EvidenceMap& m
     const Keyframe* const seen_by = is_keyframe ? &keyframes.back() : nullptr;
     for (Cluster& cluster : clusters) follow(cluster, seen_by, map, scan.stamp, scans);
     find_displaced(scan, found, clusters, grid);
+    std::vector<std::optional<std::uint32_t>> moving_from(clusters.size());
+    for (std::size_t c = 0; c < clusters.size(); ++c) {
+        if (clusters[c].track) moving_from[c] = tracks_.at(*clusters[c].track).moving_from;
+    }
     for (std::size_t i = 0; i < labels.size(); ++i) {
-        if (found.of_points[i] == kNoCluster || labels[i] == Label::dynamic) continue;
-        const auto& id = clusters[found.of_points[i]].track;
-        if (!id) continue;
-        if (came_with(tracks_.at(*id).moving_from, grid[voxels[i]].evidence)) {
-            labels[i] = Label::dynamic;
-        }
+        const std::uint32_t c = found.of_points[i];
+        if (c == kNoCluster || labels[i] == Label::dynamic) continue;
+        if (came_with(moving_from[c], grid[voxels[i]].evidence)) labels[i] = Label::dynamic;
     }
 }
 
 std::vector<Cluster> Objects::describe(const Clusters& found, const PointVoxels& voxels,
-                                       const EvidenceGrid& grid, const Labels& labels) const {
-    std::vector<std::vector<std::pair<std::uint32_t, bool>>> members(found.count);
+                                       const EvidenceGrid& grid, const Labels& labels) {
+    // Per cluster: twice the number of each voxel, plus one if it is dynamic.
+    std::vector<std::vector<std::uint64_t>> members(found.count);
+    in_cluster_.resize(grid.size(), kNoCluster);
     for (std::size_t i = 0; i < voxels.size(); ++i) {
-        if (found.of_points[i] == kNoCluster) continue;
-        members[found.of_points[i]].emplace_back(voxels[i], labels[i] == Label::dynamic);
+        const std::uint32_t c = found.of_points[i];
+        if (c == kNoCluster || std::exchange(in_cluster_[voxels[i]], c) == c) continue;
+        const bool dynamic = labels[i] == Label::dynamic;
+        members[c].push_back(2 * std::uint64_t{voxels[i]} + (dynamic ? 1 : 0));
     }
     std::vector<Cluster> clusters(found.count);
     for (std::size_t c = 0; c < clusters.size(); ++c) {
+        // A voxel that lies in two clusters may be listed more than once.
         std::sort(members[c].begin(), members[c].end());
         members[c].erase(std::unique(members[c].begin(), members[c].end()), members[c].end());
         Cluster& cluster = clusters[c];
-        for (const auto& [voxel, dynamic] : members[c]) {
+        cluster.voxels.reserve(members[c].size());
+        for (const std::uint64_t member : members[c]) {
+            const auto voxel = static_cast<std::uint32_t>(member / 2);
+            const bool dynamic = member % 2 != 0;
+            in_cluster_[voxel] = kNoCluster;
             const Evidence& e = grid[voxel].evidence;
             const bool filled = was_filled(e), refilled = e.since > e.first_owner;
             cluster.dynamic += dynamic ? 1U : 0U;
             cluster.came += dynamic || filled ? 1U : 0U;
             if (filled || (dynamic && refilled)) cluster.filled.push_back(e.since);
-            if (!cluster.voxels.empty() && cluster.voxels.back() == voxel) continue;
             cluster.voxels.push_back(voxel);
             cluster.center += grid[voxel].centroid;
             cluster.box.extend(grid[voxel].centroid);

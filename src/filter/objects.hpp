@@ -40,8 +40,8 @@ namespace dynamic_filter {
 /// beside a car that passes. So a voxel counts only if it was seen empty, or was not seen at all,
 /// before the track came.
 ///
-/// Source: docs/how-it-works.md, "Objects". Single caller. Memory: 8 bytes for each voxel of the
-/// tracks in sight, and 5 KB for each track.
+/// Source: docs/how-it-works.md, "Objects". Single caller. Memory: 4 bytes for each voxel of the
+/// map, 8 bytes for each voxel of the tracks in sight, and 5 KB for each track.
 class Objects {
 public:
     explicit Objects(const ScansConfig::Instances& config) : config_(config) {}
@@ -55,8 +55,7 @@ public:
 
 private:
     [[nodiscard]] std::vector<Cluster> describe(const Clusters& clusters, const PointVoxels& voxels,
-                                                const EvidenceGrid& grid,
-                                                const Labels& labels) const;
+                                                const EvidenceGrid& grid, const Labels& labels);
     [[nodiscard]] std::optional<std::uint32_t> after_moving(const Cluster& cluster) const;
     void note_arrival(Track& track, const Cluster& cluster) const;
     [[nodiscard]] bool has_moved(const Track& track) const;
@@ -78,6 +77,7 @@ private:
         double stamp;
     };
     tsl::robin_map<VoxelKey, Place, VoxelHash> last_there_;  // per block of voxels
+    std::vector<std::uint32_t> in_cluster_;  // per voxel; kNoCluster between two updates
     std::optional<double> last_stamp_, last_look_;
     Point last_sensor_ = Point::Zero();      // [m] place of the sensor in the last scan
     std::optional<Eigen::Vector3d> origin_;  // [m, world frame] of the compared surfaces
