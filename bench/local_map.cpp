@@ -2,7 +2,7 @@
 /// Scores the local static map at each moment: what a planner sees.
 ///   local_map SCENE SENSOR SEED FRAMES RATE [RADIUS]
 /// Simulates a scene, filters it, and compares the static map around the sensor, within RADIUS (30)
-/// [m], with the truth of that moment. It prints a Markdown table with a row for each ten seconds,
+/// [m], with the truth of that moment. It prints a Markdown table with a row for each two seconds,
 /// and the means. Of the voxels that were seen so far,
 /// - those with static points only should be in the map (PR: the share that is);
 /// - those that people or vehicles have left should not (RR: the share that is not);
@@ -24,7 +24,7 @@ namespace {
 
 using namespace dynamic_filter;
 
-constexpr double kEvery = 1.0, kRow = 10.0;  // [s]
+constexpr double kEvery = 1.0, kRow = 2.0;  // [s]
 
 /// What was seen in a voxel so far.
 struct Truth {

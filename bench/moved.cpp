@@ -2,28 +2,32 @@
 /// Counts the points of people and vehicles that are found at once, after two seconds (settled),
 /// and in the end, apart for those that move at that moment, those that rest and were seen to move
 /// before, and those that rest and were not.
-///   moved SCENE SENSOR SEED FRAMES RATE [THINGS]
+///   moved SCENE SENSOR SEED FRAMES RATE [THINGS] [noise] [odometry] [paper]
 /// Simulates a scene, filters it, and prints a Markdown table with a row for each of these and one
 /// for what is static; with THINGS, also a row for each of so many things that cost most points.
-/// The last rows are the intersection over union of what moves, without what rests, and the number
-/// of times that a verdict on a thing was taken back: at least half of 20 or more points were
-/// dynamic in a scan, and less than half in the next.
-/// A thing moves if both ends of what is seen of it go on by more than 0.5 m/s, over half a second
-/// around the scan. It was seen to move if it did so in an earlier scan with at least 20 points of
-/// it. Points between 1 and 60 m from the sensor count.
+/// "noise" adds 3 cm and 0.2 degrees to each pose, and with "odometry" the filter finds the poses
+/// itself. "paper" is the preset of that name: it judges windows instead of scans, and settles
+/// none. The last rows are the intersection over union of what moves, without what rests, and the
+/// number of times that a verdict on a thing was taken back: at least half of 20 or more points
+/// were dynamic in a scan, and less than half in the next. A thing moves if both ends of what is
+/// seen of it go on by more than 0.5 m/s, over half a second around the scan. It was seen to move
+/// if it did so in an earlier scan with at least 20 points of it. Points between 1 and 60 m from
+/// the sensor count.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
+#include <span>
 #include <string_view>
 #include <vector>
 
 #include "bench/parse_number.hpp"
 #include "bench/scene_arguments.hpp"
 #include "dynamic_filter/error.hpp"
-#include "dynamic_filter/filter.hpp"
+#include "dynamic_filter/online.hpp"
 #include "dynamic_filter/simulation.hpp"
 #include "sim/thing_states.hpp"
 
@@ -53,23 +57,30 @@ std::vector<std::uint32_t> things_of(const sim::SimulatedScan& scan) {
     return things;
 }
 
-std::vector<Eigen::Vector3d> in_world(const sim::SimulatedScan& scan) {
+std::vector<Eigen::Vector3d> in_world(const sim::SimulatedScan& scan, const Pose& T_world_sensor) {
     std::vector<Eigen::Vector3d> world;
-    for (const Point& p : scan.points) world.emplace_back(scan.T_world_sensor * p.cast<double>());
+    for (const Point& p : scan.points) world.emplace_back(T_world_sensor * p.cast<double>());
     return world;
 }
 
-Simulated simulate(const sim::SimulationOptions& options) {
-    sim::Simulation simulation(options);
+sim::SimulationOptions without_noise(sim::SimulationOptions options) {
+    options.pose_noise_m = options.pose_noise_deg = 0.0;
+    return options;
+}
+
+Simulated simulate(const sim::SimulationOptions& options, bool has_poses) {
+    sim::Simulation simulation(options), exact(without_noise(options));
     Simulated all;
     std::vector<sim::SeenThings> seen;
     std::vector<double> stamps;
     for (std::size_t i = 0; i < simulation.size(); ++i) {
         sim::SimulatedScan s = simulation.scan(i);
         all.things.push_back(things_of(s));
-        seen.push_back(sim::seen_things(in_world(s), all.things.back()));
+        const Pose pose =
+            options.pose_noise_m > 0.0 ? exact.scan(i).T_world_sensor : s.T_world_sensor;
+        seen.push_back(sim::seen_things(in_world(s, pose), all.things.back()));
         stamps.push_back(s.stamp);
-        all.scans.push_back({std::move(s.points), s.T_world_sensor, s.stamp, i, true, {}});
+        all.scans.push_back({std::move(s.points), s.T_world_sensor, s.stamp, i, has_poses, {}});
     }
     all.states = sim::states_of(seen, stamps);
     return all;
@@ -99,23 +110,30 @@ void print(std::string_view name, const Count& count) {
     fmt::print("\n");
 }
 
-/// Labels of all scans by each verdict.
-std::array<std::vector<Labels>, kVerdicts.size()> filtered(const Simulated& all) {
-    DynamicFilter filter(preset("default"));
+/// How the scans are filtered.
+struct Way {
+    std::string_view preset = "default";
+    bool odometry = false;
+};
+
+/// Labels of all scans by each verdict; unknown where there is none.
+std::array<std::vector<Labels>, kVerdicts.size()> filtered(const Simulated& all, double rate,
+                                                           const Way& way) {
     std::array<std::vector<Labels>, kVerdicts.size()> labels;
     auto& [instant, settled, final] = labels;
-    const auto settle = [&](double until) {
-        while (settled.size() < instant.size()) {
-            const Scan& scan = all.scans[settled.size()];
-            if (scan.stamp > until) break;
-            settled.push_back(filter.settled(scan).labels);
-        }
-    };
     for (const Scan& scan : all.scans) {
-        instant.push_back(filter.push(scan).labels);
-        settle(scan.stamp - kSettledAfter);
+        instant.emplace_back(scan.points.size(), Label::unknown);
     }
-    settle(all.scans.back().stamp);
+    settled = instant;
+    OnlineOptions options{.overload = Overload::wait, .horizon = 0.0, .max_bytes = 0};
+    OnlineCallbacks callbacks;
+    callbacks.instant = [&](const Verdict& v) { instant[v.index] = v.labels; };
+    if (way.preset == "default") {
+        options.settle_after = static_cast<std::size_t>(std::ceil(kSettledAfter * rate));
+        callbacks.settled = [&](const Verdict& v) { settled[v.index] = v.labels; };
+    }
+    OnlineFilter filter(preset(way.preset), options, callbacks);
+    for (const Scan& scan : all.scans) filter.push(scan);
     filter.finish();
     for (const Scan& scan : all.scans) final.push_back(filter.verdict(scan).labels);
     return labels;
@@ -138,8 +156,9 @@ std::size_t taken_back(const std::vector<Counts>& scans, std::size_t verdict) {
     return count;
 }
 
-void measure(const Simulated& all, std::size_t things) {
-    const auto labels = filtered(all);
+void measure(const sim::SimulationOptions& options, const Way& way, std::size_t things) {
+    const Simulated all = simulate(options, !way.odometry);
+    const auto labels = filtered(all, options.rate_hz, way);
     std::array<Count, kNames.size()> counts;
     Count from_third;  // scan in which a thing is seen
     Counts of_things;
@@ -192,13 +211,25 @@ void measure(const Simulated& all, std::size_t things) {
 int main(int argc, char** argv) {
     try {
         const std::vector<std::string_view> words(argv + 1, argv + argc);
-        if (words.size() < kSceneArguments || words.size() > kSceneArguments + 1) {
-            throw ConfigError("usage: moved SCENE SENSOR SEED FRAMES RATE [THINGS]");
+        if (words.size() < kSceneArguments) {
+            throw ConfigError(
+                "usage: moved SCENE SENSOR SEED FRAMES RATE [THINGS] [noise] [odometry] [paper]");
         }
-        measure(simulate(scene_of(words)),
-                words.size() > kSceneArguments
-                    ? parse<std::size_t>("THINGS", words[kSceneArguments])
-                    : 0);
+        sim::SimulationOptions options = scene_of(words);
+        Way way;
+        std::size_t things = 0;
+        for (const std::string_view word : std::span(words).subspan(kSceneArguments)) {
+            if (word == "noise") {
+                options.pose_noise_m = 0.03, options.pose_noise_deg = 0.2;
+            } else if (word == "odometry") {
+                way.odometry = true;
+            } else if (word == "paper") {
+                way.preset = word;
+            } else {
+                things = parse<std::size_t>("THINGS", word);
+            }
+        }
+        measure(options, way, things);
     } catch (const Error& error) {
         fmt::print(stderr, "moved: {}\n", error.what());
         return 2;
