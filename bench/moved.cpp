@@ -125,9 +125,15 @@ std::array<std::vector<Labels>, kVerdicts.size()> filtered(const Simulated& all,
         instant.emplace_back(scan.points.size(), Label::unknown);
     }
     settled = instant;
+    std::vector<Scan> placed = all.scans;
     OnlineOptions options{.overload = Overload::wait, .horizon = 0.0, .max_bytes = 0};
     OnlineCallbacks callbacks;
-    callbacks.instant = [&](const Verdict& v) { instant[v.index] = v.labels; };
+    callbacks.instant = [&](const Verdict& v) {
+        instant[v.index] = v.labels;
+        if (!v.tracked) return;
+        placed[v.index].T_world_sensor = v.tracked->T_world_sensor;
+        placed[v.index].has_pose = true;
+    };
     if (way.preset == "default") {
         options.settle_after = static_cast<std::size_t>(std::ceil(kSettledAfter * rate));
         callbacks.settled = [&](const Verdict& v) { settled[v.index] = v.labels; };
@@ -135,7 +141,7 @@ std::array<std::vector<Labels>, kVerdicts.size()> filtered(const Simulated& all,
     OnlineFilter filter(preset(way.preset), options, callbacks);
     for (const Scan& scan : all.scans) filter.push(scan);
     filter.finish();
-    for (const Scan& scan : all.scans) final.push_back(filter.verdict(scan).labels);
+    for (const Scan& scan : placed) final.push_back(filter.verdict(scan).labels);
     return labels;
 }
 

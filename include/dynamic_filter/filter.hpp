@@ -154,7 +154,8 @@ public:
     void finish();
 
     /// The final verdict on a scan that was pushed, after finish(). Points that are not measured,
-    /// or that are too far away for a voxel key, are unknown.
+    /// or that are too far away for a voxel key, are unknown. Here and below, throws Error if the
+    /// scan has no pose.
     [[nodiscard]] Verdict verdict(const Scan& scan) const;
     /// The same, and the voxel of each point, as voxels_of() gives it.
     [[nodiscard]] Verdict verdict(const Scan& scan, std::vector<std::uint32_t>& voxels) const;

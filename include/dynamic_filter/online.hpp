@@ -174,8 +174,10 @@ public:
     void finish();
 
     /// After finish(): the final verdict on a scan that was pushed; its index must be the same as
-    /// then. All points are unknown if the part of the map that the scan saw was removed because of
-    /// the horizon or of a break of the trajectory.
+    /// then. If the filter found or refined its pose, give the scan the pose of its instant verdict
+    /// (Verdict::tracked). Here and below, throws Error if the scan has no pose. All points are
+    /// unknown if the part of the map that the scan saw was removed because of the horizon or of a
+    /// break of the trajectory.
     [[nodiscard]] Verdict verdict(const Scan& scan) const;
 
     /// The verdict on a pushed scan from the evidence so far, for the method "scans" only. Waits

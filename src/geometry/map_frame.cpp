@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "geometry/map_frame.hpp"
 
+#include <string>
+
+#include "dynamic_filter/error.hpp"
 #include "geometry/pose.hpp"
 
 namespace dynamic_filter {
@@ -16,6 +19,10 @@ Pose MapFrame::to_map(const Pose& T_world_sensor) const {
 }
 
 LocatedScan MapFrame::locate(const Scan& scan, const VoxelIndex& voxels) const {
+    if (!scan.has_pose) {
+        throw Error("scan " + std::to_string(scan.index) +
+                    " has no pose: give it the one of its instant verdict (Verdict::tracked)");
+    }
     LocatedScan located;
     located.voxels.assign(scan.points.size(), kNoVoxel);
     located.in_map.keys.assign(scan.points.size(), kNoKey);

@@ -26,7 +26,8 @@ struct MapFrame {
     void begin(const Pose& T_world_sensor);
     /// T_map_sensor. Call it after begin().
     [[nodiscard]] Pose to_map(const Pose& T_world_sensor) const;
-    /// The points of a scan in the map. No point has a voxel before begin().
+    /// The points of a scan in the map. No point has a voxel before begin(). Throws Error if the
+    /// scan has no pose.
     [[nodiscard]] LocatedScan locate(const Scan& scan, const VoxelIndex& voxels) const;
     /// [m, world frame] Center of a voxel.
     [[nodiscard]] Eigen::Vector3d center_of(VoxelKey key) const;

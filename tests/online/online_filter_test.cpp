@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <future>
+#include <map>
 #include <mutex>
 #include <thread>
 
@@ -486,6 +487,24 @@ void expect_same_poses(const std::vector<Verdict>& a, const std::vector<Verdict>
         EXPECT_EQ(a[i].tracked->T_world_sensor.matrix(), b[i].tracked->T_world_sensor.matrix());
         EXPECT_EQ(a[i].tracked->velocity, b[i].tracked->velocity);
     }
+}
+
+TEST(OnlineFilter, AFinalVerdictNeedsThePoseThatTheFilterFound) {
+    const std::vector<RoomScan> scans = without_poses(6);
+    std::map<std::size_t, Pose> found;
+    OnlineCallbacks callbacks;
+    callbacks.instant = [&](const Verdict& v) {
+        if (v.tracked) found[v.index] = v.tracked->T_world_sensor;
+    };
+    OnlineFilter filter(every_scan(), nothing_lost(), callbacks);
+    for (const RoomScan& s : scans) filter.push(s.scan);
+    filter.finish();
+    EXPECT_THROW(static_cast<void>(filter.verdict(scans[5].scan)), Error);
+    EXPECT_THROW(static_cast<void>(filter.places_of(scans[5].scan)), Error);
+    Scan placed = scans[5].scan;
+    placed.has_pose = true;
+    placed.T_world_sensor = found.at(placed.index);
+    EXPECT_FALSE(test::all_are({filter.verdict(placed)}, Label::unknown));
 }
 
 TEST(OnlineFilter, WithoutPosesByteForByteTheSameAsOffline) {

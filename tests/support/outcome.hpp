@@ -23,6 +23,16 @@ struct Outcome {
     std::size_t submaps = 0;
 };
 
+/// The scan at the pose that its instant verdict tells, if it does.
+inline Scan placed(Scan scan, const std::vector<Verdict>& instant) {
+    for (const Verdict& v : instant) {
+        if (v.index != scan.index || !v.tracked) continue;
+        scan.T_world_sensor = v.tracked->T_world_sensor;
+        scan.has_pose = true;
+    }
+    return scan;
+}
+
 inline Outcome run(const std::vector<RoomScan>& scans, const Config& config) {
     Maps maps(config, {.horizon = 0.0, .max_bytes = 0});
     Outcome result;
@@ -34,7 +44,9 @@ inline Outcome run(const std::vector<RoomScan>& scans, const Config& config) {
         maps.catch_up();
     }
     add(maps.finish());
-    for (const RoomScan& s : scans) result.final.push_back(maps.verdict(s.scan));
+    for (const RoomScan& s : scans) {
+        result.final.push_back(maps.verdict(placed(s.scan, result.instant)));
+    }
     result.submaps = maps.contents().observers;
     return result;
 }
