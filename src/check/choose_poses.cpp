@@ -107,6 +107,7 @@ std::string doubt_about_poses(MotionLook& look) {
     if (missing > 0) return missing_text(recording, missing);
     const std::string apart = outliers_text(recording);
     if (!apart.empty()) return apart;
+    if (look.poses_are_exact()) return "";
     const MotionQuality& quality = look.quality();
     return quality.has_bad_poses() ? blur_text(quality) : "";
 }

@@ -18,15 +18,21 @@ Piece read_piece(const Recording& recording, std::size_t first, std::size_t in_a
     return piece;
 }
 
-std::vector<Piece> read_pieces(const Recording& recording, std::size_t most, std::size_t in_a_row) {
+std::vector<std::size_t> first_scans(std::size_t scans, std::size_t most, std::size_t in_a_row) {
     constexpr double kGoldenRatio = 0.6180339887498949;
-    std::vector<Piece> pieces;
-    const std::size_t n = recording.size();
-    const std::size_t places = std::clamp<std::size_t>(n / (2 * in_a_row), 1, most);
-    const auto room = static_cast<double>(n > in_a_row ? n - in_a_row : 0);
+    std::vector<std::size_t> first;
+    const std::size_t places = std::clamp<std::size_t>(scans / (2 * in_a_row), 1, most);
+    const auto room = static_cast<double>(scans > in_a_row ? scans - in_a_row : 0);
     for (std::size_t k = 0; k < places; ++k) {
         const double whole = 0.5 + static_cast<double>(k) * kGoldenRatio;
-        const auto first = static_cast<std::size_t>((whole - std::floor(whole)) * room);
+        first.push_back(static_cast<std::size_t>((whole - std::floor(whole)) * room));
+    }
+    return first;
+}
+
+std::vector<Piece> read_pieces(const Recording& recording, std::size_t most, std::size_t in_a_row) {
+    std::vector<Piece> pieces;
+    for (const std::size_t first : first_scans(recording.size(), most, in_a_row)) {
         Piece piece = read_piece(recording, first, in_a_row);
         if (piece.size() > 1) pieces.push_back(std::move(piece));
     }

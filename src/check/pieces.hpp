@@ -13,9 +13,12 @@ namespace dynamic_filter::io {
 /// Consecutive scans as input of the odometry.
 using Piece = std::vector<Scan>;
 
-/// Up to `most` pieces of `in_a_row` scans, which cover at most half of the recording. Their places
-/// are spread irregularly, so that errors with a period do not hide between them. Scans that cannot
-/// be read are left out, and pieces of fewer than two scans.
+/// The first scans of up to `most` pieces of `in_a_row` scans, which cover at most half of the
+/// recording. Their places are spread irregularly, so that errors with a period do not hide between
+/// them.
+std::vector<std::size_t> first_scans(std::size_t scans, std::size_t most, std::size_t in_a_row);
+
+/// The pieces. Scans that cannot be read are left out, and pieces of fewer than two scans.
 std::vector<Piece> read_pieces(const Recording& recording, std::size_t most, std::size_t in_a_row);
 
 /// At most `in_a_row` scans from `first` on; those that cannot be read are left out.

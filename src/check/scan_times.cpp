@@ -31,16 +31,19 @@ bool turns(const Points& points) {
 /// Blur [m] of the recording's scans at its poses, by place.
 using Blurs = std::vector<double>;
 
+constexpr std::size_t kManyPlaces = 5, kFewInARow = 9;
+
+double blur_of(const Piece& piece, const OdometryConfig& config) {
+    std::vector<Pose> poses;
+    for (const Scan& scan : piece) poses.push_back(scan.T_world_sensor);
+    return overlay_blur(piece, poses, config);
+}
+
 Blurs blurs_of(const Recording& recording, const OdometryConfig& config) {
-    constexpr std::size_t kManyPlaces = 5, kFewInARow = 9;
     const std::vector<Piece> pieces = read_pieces(recording, kManyPlaces, kFewInARow);
     Blurs blurs(pieces.size());
     parallel_for(pieces.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k < end; ++k) {
-            std::vector<Pose> poses;
-            for (const Scan& scan : pieces[k]) poses.push_back(scan.T_world_sensor);
-            blurs[k] = overlay_blur(pieces[k], poses, config);
-        }
+        for (std::size_t k = begin; k < end; ++k) blurs[k] = blur_of(pieces[k], config);
     });
     return blurs;
 }
@@ -55,9 +58,11 @@ double mean_of(const Blurs& blurs) {
     return blurs.empty() ? 0.0 : std::exp(sum / static_cast<double>(blurs.size()));
 }
 
+constexpr double kLessSharp = 1.01;  // factor of the blur that counts as clearly less sharp
+
 /// True if scans are sharper as a whole, and nowhere clearly less sharp, so that it is no chance.
 bool is_clearly_sharper(const Blurs& blurs, const Blurs& than) {
-    constexpr double kClearly = 0.99, kLessSharp = 1.01;
+    constexpr double kClearly = 0.99;
     if (blurs.size() != than.size() || !(mean_of(blurs) < kClearly * mean_of(than))) return false;
     for (std::size_t k = 0; k < blurs.size(); ++k) {
         if (blurs[k] > kLessSharp * than[k]) return false;
@@ -120,20 +125,56 @@ std::vector<double> shifts_of(const std::vector<float>& times) {
     return shifts;
 }
 
-/// Distance [m] by which the given motion displaces points at a range of 10 m during a scan.
+/// Distance [m] by which the motion from scan i - 1 to scan i displaces points at a range of 10 m.
+std::optional<double> displacement(const std::vector<Pose>& poses, std::size_t i) {
+    if (!poses[i].matrix().allFinite() || !poses[i - 1].matrix().allFinite()) {
+        return std::nullopt;
+    }
+    const Twist moved = log(poses[i - 1].inverse() * poses[i]);
+    return moved.head<3>().norm() + 10.0 * moved.tail<3>().norm();
+}
+
+/// The same during a scan, as given.
 double given_distortion(const Recording& recording) {
     const std::vector<Pose>& poses = recording.info().T_world_sensor;
     std::vector<double> shifts;
     for (std::size_t i = 1; i < poses.size(); ++i) {
-        if (!poses[i].matrix().allFinite() || !poses[i - 1].matrix().allFinite()) continue;
-        const Twist moved = log(poses[i - 1].inverse() * poses[i]);
-        shifts.push_back(moved.head<3>().norm() + 10.0 * moved.tail<3>().norm());
+        if (const auto shift = displacement(poses, i)) shifts.push_back(*shift);
     }
     if (shifts.empty()) return 0.0;
     // Not the median, because a vehicle may rest for half of the time.
     const auto at = shifts.begin() + static_cast<std::ptrdiff_t>(shifts.size() * 3 / 4);
     std::nth_element(shifts.begin(), at, shifts.end());
     return *at;
+}
+
+/// First scan of the place at which the sensor moves most.
+std::size_t liveliest_place(const Recording& recording) {
+    const std::vector<Pose>& poses = recording.info().T_world_sensor;
+    const auto motion_at = [&](std::size_t first) {
+        double sum = 0.0;
+        const std::size_t end = std::min(first + kFewInARow, poses.size());
+        for (std::size_t i = first + 1; i < end; ++i) sum += displacement(poses, i).value_or(0.0);
+        return sum;
+    };
+    const auto places = first_scans(recording.size(), kManyPlaces, kFewInARow);
+    return *std::max_element(places.begin(), places.end(), [&](std::size_t a, std::size_t b) {
+        return motion_at(a) < motion_at(b);
+    });
+}
+
+/// Leaves the sweeps that may be what happened: with the motion undone by these, scans are not
+/// clearly less sharp where the sensor moves most.
+void leave_possible(std::vector<Sweep>& sweeps, const Recording& recording,
+                    const OdometryConfig& config) {
+    const std::size_t first = liveliest_place(recording);
+    const auto blur_by = [&](const Recording& r) {
+        return blur_of(read_piece(r, first, kFewInARow), config);
+    };
+    const double as_measured = blur_by(recording);
+    std::erase_if(sweeps, [&](const Sweep& sweep) {
+        return blur_by(deskewed(recording, sweep)) > kLessSharp * as_measured;
+    });
 }
 
 std::vector<Tried> try_fields(const Recording& recording, const OdometryConfig& config,
@@ -200,8 +241,11 @@ std::vector<Sweep> possible_sweeps(const Points& points, double duration) {
 TimesChoice choose_times(const Recording& recording, const OdometryConfig& config, bool asks_more) {
     TimesChoice choice;
     const std::vector<float> times = times_in_fields(recording);
-    const std::vector<Sweep> sweeps =
-        times.empty() ? sweeps_to_try(recording, asks_more) : std::vector<Sweep>{};
+    std::vector<Sweep> sweeps;
+    if (times.empty()) {
+        sweeps = sweeps_to_try(recording, asks_more);
+        if (!asks_more && !sweeps.empty()) leave_possible(sweeps, recording, config);
+    }
     if (times.empty() && sweeps.empty()) return choice;
     const Blurs as_measured = blurs_of(recording, config);
     const std::vector<Tried> all = times.empty()
