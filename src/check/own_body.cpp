@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "check/scan_input.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/parallel.hpp"
 #include "dynamic_filter/range_image.hpp"
@@ -64,16 +65,22 @@ struct BodyScan {
     Pose T_world_sensor = Pose::Identity();
 };
 
-BodyScan body_scan_of(const FullScan& full) {
+/// Of the first scan that can be read, because the sensor does not change.
+BeamPattern beams_of(const Recording& recording, const std::vector<BodyPair>& pairs) {
+    for (const auto& [a, b] : pairs) {
+        if (const auto scan = read_scan(recording, a)) return estimate_beam_pattern({&*scan, 1});
+    }
+    return {};
+}
+
+BodyScan body_scan_of(const FullScan& full, const BeamPattern& beams) {
     BodyScan scan;
     for (const Point& p : full.points) {
         if (!is_measured(p)) continue;
         ++scan.measured;
         if (p.norm() < kBodyReach) scan.near.push_back(p);
     }
-    Scan beams;
-    beams.points = full.points;
-    scan.image = BeamImage(full.points, estimate_beam_pattern({&beams, 1}));
+    scan.image = BeamImage(full.points, beams);
     scan.T_world_sensor = full.T_world_sensor;
     return scan;
 }
@@ -206,12 +213,13 @@ Boxes boxes_of(const Body& body) {
 
 OwnBody find_own_body(const Recording& recording) {
     const std::vector<BodyPair> pairs = pairs_apart(recording);
+    const BeamPattern beams = beams_of(recording, pairs);
     std::vector<std::optional<BodyScan>> scans(2 * pairs.size());
     parallel_for(scans.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
             const auto& [a, b] = pairs[k / 2];
             try {
-                scans[k] = body_scan_of(recording.read(k % 2 == 0 ? a : b));
+                scans[k] = body_scan_of(recording.read(k % 2 == 0 ? a : b), beams);
             } catch (const InputError&) {  // is rejected later, with the reason
             }
         }
