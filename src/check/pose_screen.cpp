@@ -91,6 +91,8 @@ bool overlay_is_best(const std::vector<Screened>& scans) {
 }  // namespace
 
 bool poses_are_exact(const Recording& recording, const OdometryConfig& config) {
+    if (recording.info().T_world_sensor.size() != recording.size())
+        return false;  // scans hold them
     const std::size_t in_a_row = kScreened.back() + 1;
     const std::vector<std::size_t> places =
         first_scans(recording.size(), kPlacesToScreen, in_a_row);
