@@ -33,6 +33,7 @@ double f1_of(const std::vector<sim::SimulatedScan>& scans,
         scan.has_pose = T_world_truth.has_value();
         const auto verdict = filter.ask(scan);
         if (!T_world_truth) scan.T_world_sensor = verdict.value().tracked->T_world_sensor;
+        scan.has_pose = true;
     }
     filter.finish();
     std::vector<eval::LabelledScan> judged;
