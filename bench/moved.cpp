@@ -20,6 +20,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -69,15 +70,16 @@ sim::SimulationOptions without_noise(sim::SimulationOptions options) {
 }
 
 Simulated simulate(const sim::SimulationOptions& options, bool has_poses) {
-    sim::Simulation simulation(options), exact(without_noise(options));
+    sim::Simulation simulation(options);
+    std::optional<sim::Simulation> exact;
+    if (options.pose_noise_m > 0.0) exact.emplace(without_noise(options));
     Simulated all;
     std::vector<sim::SeenThings> seen;
     std::vector<double> stamps;
     for (std::size_t i = 0; i < simulation.size(); ++i) {
         sim::SimulatedScan s = simulation.scan(i);
         all.things.push_back(things_of(s));
-        const Pose pose =
-            options.pose_noise_m > 0.0 ? exact.scan(i).T_world_sensor : s.T_world_sensor;
+        const Pose pose = exact ? exact->scan(i).T_world_sensor : s.T_world_sensor;
         seen.push_back(sim::seen_things(in_world(s, pose), all.things.back()));
         stamps.push_back(s.stamp);
         all.scans.push_back({std::move(s.points), s.T_world_sensor, s.stamp, i, has_poses, {}});

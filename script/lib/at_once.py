@@ -1,4 +1,5 @@
 """What is known with the scan, two seconds later, and in the end; and the map around the sensor at each moment."""
+import functools
 import sys
 
 from lib.bench import BUILD, call, table
@@ -16,6 +17,7 @@ LOCAL_MAPS = ["street os64 31 150 5", "square os64 33 150 5", "crowd vlp16 41 15
 COLORS = ["#1f77b4", "#d62728", "#2ca02c"]
 
 
+@functools.cache
 def moved(scene, *words):
     """The rows that `moved` prints, by their first cell: instant, settled, final."""
     print("moved", scene, *words, file=sys.stderr, flush=True)

@@ -10,6 +10,7 @@
 
 #include "check/pose_fit.hpp"
 #include "check/pose_outliers.hpp"
+#include "check/pose_screen.hpp"
 #include "dynamic_filter/check.hpp"
 
 namespace dynamic_filter::io {
@@ -107,7 +108,7 @@ std::string doubt_about_poses(MotionLook& look) {
     if (missing > 0) return missing_text(recording, missing);
     const std::string apart = outliers_text(recording);
     if (!apart.empty()) return apart;
-    if (look.poses_are_exact()) return "";
+    if (poses_are_exact(recording, look.config())) return "";
     const MotionQuality& quality = look.quality();
     return quality.has_bad_poses() ? blur_text(quality) : "";
 }

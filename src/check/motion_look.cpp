@@ -3,7 +3,6 @@
 
 #include <utility>
 
-#include "check/pose_screen.hpp"
 #include "recording/recording_parts.hpp"
 
 namespace dynamic_filter::io {
@@ -23,8 +22,6 @@ const Recording& MotionLook::recording() {
     if (!looked_at_) looked_at_ = deskew_ == "off" ? given_ : with_times(given_, times().sweep);
     return *looked_at_;
 }
-
-bool MotionLook::poses_are_exact() { return io::poses_are_exact(recording(), config_); }
 
 const MotionQuality& MotionLook::quality() {
     if (!quality_) quality_ = measure_motion(recording(), config_);

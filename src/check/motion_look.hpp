@@ -24,8 +24,6 @@ public:
     const TimesChoice& times();
     /// The recording with these times.
     const Recording& recording();
-    /// poses_are_exact() of it.
-    bool poses_are_exact();
     /// measure_motion() of it.
     const MotionQuality& quality();
 

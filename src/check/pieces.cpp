@@ -39,6 +39,12 @@ std::vector<Piece> read_pieces(const Recording& recording, std::size_t most, std
     return pieces;
 }
 
+std::vector<Pose> given_poses(const Piece& piece) {
+    std::vector<Pose> poses;
+    for (const Scan& scan : piece) poses.push_back(scan.T_world_sensor);
+    return poses;
+}
+
 Piece thinned_piece(const Piece& piece, const OdometryConfig& config) {
     Piece thin;
     for (const Scan& scan : piece) thin.push_back(thinned_scan(scan, config));

@@ -24,6 +24,9 @@ std::vector<Piece> read_pieces(const Recording& recording, std::size_t most, std
 /// At most `in_a_row` scans from `first` on; those that cannot be read are left out.
 Piece read_piece(const Recording& recording, std::size_t first, std::size_t in_a_row);
 
+/// The poses that the scans have.
+std::vector<Pose> given_poses(const Piece& piece);
+
 /// See thinned_scan().
 Piece thinned_piece(const Piece& piece, const OdometryConfig& config);
 

@@ -73,16 +73,15 @@ bool scans_stay(const std::vector<Screened>& scans, const OdometryConfig& config
 /// True if upright structures overlay best where they are, not beside. Where a sensor drives along
 /// walls, scans also lie on each other if the poses say that it rests.
 bool overlay_is_best(const std::vector<Screened>& scans) {
-    std::array<Points, 2> upright;
-    const std::array<const Scan*, 2> pair = {&scans[scans.size() - 2].scan, &scans.back().scan};
-    for (std::size_t k = 0; k < 2; ++k) upright[k] = upright_points(pair[k]->points);
-    const Pose T = pair[0]->T_world_sensor.inverse() * pair[1]->T_world_sensor;
-    const double here = upright_overlay(upright[0], upright[1], T);
+    const Scan &a = scans[scans.size() - 2].scan, &b = scans.back().scan;
+    const Points of_a = upright_points(a.points), of_b = upright_points(b.points);
+    const Pose T_a_b = a.T_world_sensor.inverse() * b.T_world_sensor;
+    const double here = upright_overlay(of_a, of_b, T_a_b);
     for (const double far : {0.5, 1.0, 2.0, 4.0, 8.0, 16.0}) {
         for (const auto& [x, y] : {std::pair{1.0, 0.0}, {-1.0, 0.0}, {0.0, 1.0}, {0.0, -1.0}}) {
-            Pose beside = T;
+            Pose beside = T_a_b;
             beside.translation() += far * Eigen::Vector3d(x, y, 0.0);
-            if (upright_overlay(upright[0], upright[1], beside) >= here) return false;
+            if (upright_overlay(of_a, of_b, beside) >= here) return false;
         }
     }
     return true;
@@ -91,8 +90,8 @@ bool overlay_is_best(const std::vector<Screened>& scans) {
 }  // namespace
 
 bool poses_are_exact(const Recording& recording, const OdometryConfig& config) {
-    if (recording.info().T_world_sensor.size() != recording.size())
-        return false;  // scans hold them
+    const bool only_scans_hold_them = recording.info().T_world_sensor.size() != recording.size();
+    if (only_scans_hold_them) return false;
     const std::size_t in_a_row = kScreened.back() + 1;
     const std::vector<std::size_t> places =
         first_scans(recording.size(), kPlacesToScreen, in_a_row);

@@ -92,10 +92,8 @@ Compared compare(Piece piece, const OdometryConfig& config, Compare what = Compa
     const bool has_times = std::all_of(piece.begin(), piece.end(),
                                        [](const Scan& scan) { return !scan.times.empty(); });
     const bool has_poses = piece.front().has_pose;
-    for (const Scan& scan : piece) {
-        compared.stamps.push_back(scan.stamp);
-        compared.given.push_back(scan.T_world_sensor);
-    }
+    compared.given = given_poses(piece);
+    for (const Scan& scan : piece) compared.stamps.push_back(scan.stamp);
     const std::optional<Twist> velocity = velocity_at_first(piece, config);
     if (what == Compare::ways && !has_times) {
         const std::vector<Tracked> tracked = track(thinned_piece(piece, config), config, velocity);
@@ -263,9 +261,7 @@ bool sharpens(const std::vector<Piece>& pieces, const std::vector<std::vector<Po
     double own = 0.0, other = 0.0;
     for (std::size_t k = 0; k < pieces.size(); ++k) {
         const Piece piece = thinned_piece(pieces[k], config);
-        std::vector<Pose> poses;
-        for (const Scan& scan : piece) poses.push_back(scan.T_world_sensor);
-        own += overlay_blur(piece, poses, config);
+        own += overlay_blur(piece, given_poses(piece), config);
         other += overlay_blur(piece, others[k], config);
     }
     return other < own;

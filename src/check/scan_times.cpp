@@ -34,9 +34,7 @@ using Blurs = std::vector<double>;
 constexpr std::size_t kManyPlaces = 5, kFewInARow = 9;
 
 double blur_of(const Piece& piece, const OdometryConfig& config) {
-    std::vector<Pose> poses;
-    for (const Scan& scan : piece) poses.push_back(scan.T_world_sensor);
-    return overlay_blur(piece, poses, config);
+    return overlay_blur(piece, given_poses(piece), config);
 }
 
 Blurs blurs_of(const Recording& recording, const OdometryConfig& config) {
