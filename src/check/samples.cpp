@@ -134,27 +134,31 @@ float typical_range(const Points& points) {
 
 Points upright(const Points& points) {
     constexpr float kColumn = 0.6F, kTall = 0.5F;  // [m]
+    constexpr int kReach = static_cast<int>(kFarthest / kColumn) + 1, kSide = 2 * kReach;
     struct Extent {
-        float low, high;
+        float low = std::numeric_limits<float>::infinity(),
+              high = -std::numeric_limits<float>::infinity();
     };
-    tsl::robin_map<VoxelKey, Extent, VoxelHash> columns;
-    const auto column_of = [&](const Point& p) -> std::optional<VoxelKey> {
-        const bool usable = is_measured(p) && p.norm() > kNearest && p.norm() < kFarthest;
-        const auto cell = usable ? cell_of({p.x(), p.y(), 0.0F}, 1.0F / kColumn) : std::nullopt;
-        return cell ? std::optional(pack(*cell)) : std::nullopt;
+    std::vector<Extent> columns(std::size_t{kSide} * kSide);
+    struct Near {
+        std::uint32_t point, column;
     };
-    for (const Point& p : points) {
-        if (const auto column = column_of(p)) {
-            Extent& e = columns.try_emplace(*column, Extent{p.z(), p.z()}).first.value();
-            e = {std::min(e.low, p.z()), std::max(e.high, p.z())};
-        }
+    std::vector<Near> near;
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+        const Point& p = points[i];
+        if (!is_measured(p) || !(p.norm() > kNearest && p.norm() < kFarthest)) continue;
+        const auto cell = cell_of({p.x(), p.y(), 0.0F}, 1.0F / kColumn);
+        if (!cell) continue;
+        near.push_back(
+            {i, static_cast<std::uint32_t>((cell->x() + kReach) * kSide + cell->y() + kReach)});
+        Extent& e = columns[near.back().column];
+        e = {std::min(e.low, p.z()), std::max(e.high, p.z())};
     }
     Points kept;
-    for (const Point& p : points) {
-        const auto column = column_of(p);
-        if (!column) continue;
-        const Extent& e = columns.at(*column);
-        if (e.high - e.low > kTall && p.z() > e.low + 0.5F * kTall) kept.push_back(p);
+    for (const auto& [i, column] : near) {
+        const Extent& e = columns[column];
+        const float height = points[i].z();
+        if (e.high - e.low > kTall && height > e.low + 0.5F * kTall) kept.push_back(points[i]);
     }
     return kept;
 }

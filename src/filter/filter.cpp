@@ -59,10 +59,6 @@ struct DynamicFilter::Impl {
         contact.height = std::max(contact.height, static_cast<double>(map.disagreement()));
         return contact;
     }
-    [[nodiscard]] Label label_of_voxel(std::uint32_t voxel) const {
-        return label_of(decided[voxel].probability, config.map.occupancy_threshold);
-    }
-
     Config config;
     MapFrame frame;
     Eigen::Index axis = 2;  // see beam_axis(), of the first scan
@@ -70,8 +66,8 @@ struct DynamicFilter::Impl {
     InstantLabels instant;
     Objects objects;
     bool finished = false;
-    std::vector<Mirror> mirrors;         // after finish()
-    std::vector<VoxelDecision> decided;  // per voxel, after finish()
+    std::vector<Mirror> mirrors;  // after finish()
+    VoxelDecisions decided;       // after finish()
     /// Per voxel, only with `map.time` = latest: see occupied_since().
     std::vector<std::optional<std::uint32_t>> since;
     StageTimes times;
@@ -180,16 +176,20 @@ Verdict DynamicFilter::verdict(const Scan& scan, std::vector<std::uint32_t>& vox
 void DynamicFilter::Impl::judge_mirrors() {
     if (mirrors.empty()) return;
     const EvidenceGrid& grid = map.grid();
-    for (std::uint32_t v = 0; v < decided.size(); ++v) {
+    const auto decide = [&](std::uint32_t v, Label label, float probability) {
+        decided.voxels[v] = {.label = label, .has_contact = false};
+        decided.probability[v] = probability;
+    };
+    for (std::uint32_t v = 0; v < decided.voxels.size(); ++v) {
         const auto& [centroid, score, e] = grid[v];
         const auto is_seen_in = [&, at = centroid](std::uint32_t owner) {
             return is_reflected(mirrors, map.sensor_of_owner(owner), at);
         };
         constexpr unsigned kFewOf = 4;  // of its scans, keyframes that saw it directly
         if (is_seen_in(e.first_owner) && (is_seen_in(e.last_owner) || kFewOf * e.n_occ < e.n_own)) {
-            decided[v] = {.probability = 0.0F, .contact = {}};
+            decide(v, Label::dynamic, 0.0F);
         } else if (is_on(mirrors, centroid)) {
-            decided[v] = {.probability = 1.0F, .contact = {}};
+            decide(v, Label::static_, 1.0F);
         }
     }
 }
@@ -223,7 +223,7 @@ std::vector<VoxelHistory> DynamicFilter::histories(std::span<const std::uint32_t
     std::vector<std::size_t> at;
     for (std::size_t i = 0; i < voxels.size(); ++i) {
         const Evidence& e = map.grid()[voxels[i]].evidence;
-        histories[i] = {.probability = impl_->decided[voxels[i]].probability,
+        histories[i] = {.probability = impl_->decided.occupancy(voxels[i]),
                         .n_own = e.n_own,
                         .n_occ = e.n_occ,
                         .n_free = e.n_free,
@@ -235,7 +235,7 @@ std::vector<VoxelHistory> DynamicFilter::histories(std::span<const std::uint32_t
                         .last = map.index_of_owner(e.last_owner),
                         .free_keyframes = {}};
         // Not for voxels that stay in the map: they would need many keyframes and tell little.
-        if (e.n_free == 0 || impl_->label_of_voxel(voxels[i]) != Label::dynamic) continue;
+        if (e.n_free == 0 || impl_->decided.voxels[voxels[i]].label != Label::dynamic) continue;
         seen_through.push_back(voxels[i]);
         at.push_back(i);
     }
@@ -280,9 +280,9 @@ std::vector<StaticVoxel> DynamicFilter::local_static_map(const Pose& T_world_que
 
 std::vector<StaticVoxel> DynamicFilter::static_map() const {
     std::vector<VoxelOccupancy> voxels;
-    for (std::uint32_t v = 0; v < impl_->decided.size(); ++v) {
-        if (impl_->label_of_voxel(v) == Label::static_) {
-            voxels.push_back({v, *impl_->decided[v].probability});
+    for (std::uint32_t v = 0; v < impl_->decided.voxels.size(); ++v) {
+        if (impl_->decided.voxels[v].label == Label::static_) {
+            voxels.push_back({v, impl_->decided.probability[v]});
         } else if (v < impl_->since.size() && impl_->since[v]) {
             voxels.push_back({v, 1.0F});  // seen there until the end of the recording
         }

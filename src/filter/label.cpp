@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include <tsl/robin_map.h>
+#include <tsl/robin_set.h>
 
 #include "dynamic_filter/parallel.hpp"
 #include "filter/vote.hpp"
@@ -50,7 +50,6 @@ bool is_above(const ContactSurface& surface, const Point& p, const ScansConfig::
 }
 
 /// The surfaces of those of the voxels that have one. Runs in parallel.
-using Contacts = tsl::robin_map<std::uint32_t, ContactSurface>;
 template <class LabelOf>
 Contacts contacts_of(std::span<const std::uint32_t> voxels, const LabelOf& label,
                      const EvidenceGrid& grid, const ScansConfig::Contact& config) {
@@ -82,15 +81,13 @@ void label_above(const Contacts& contacts, const PointVoxels& voxels, const Touc
 }
 
 /// Indices of points of static voxels that lie above the surface of their voxel.
-std::vector<std::size_t> points_above(const LocatedScan& scan,
-                                      const std::vector<VoxelDecision>& decided,
+std::vector<std::size_t> points_above(const LocatedScan& scan, const VoxelDecisions& decided,
                                       const Labels& labels, const ScansConfig::Contact& config) {
     std::vector<std::size_t> above;
     for (std::size_t i = 0; i < labels.size(); ++i) {
-        if (labels[i] != Label::static_) continue;
-        const auto& contact = decided[scan.voxels[i]].contact;
-        if (!contact) continue;
-        if (is_above(*contact, scan.in_map.points[i], config)) above.push_back(i);
+        if (labels[i] != Label::static_ || !decided.voxels[scan.voxels[i]].has_contact) continue;
+        const ContactSurface& contact = decided.contacts.at(scan.voxels[i]);
+        if (is_above(contact, scan.in_map.points[i], config)) above.push_back(i);
     }
     return above;
 }
@@ -254,32 +251,35 @@ void settle_points(const LocatedScan& scan, const EvidenceGrid& grid, const Conf
         contact, [&](std::size_t i) { return scan.in_map.points[i]; }, verdict.labels);
 }
 
-std::vector<VoxelDecision> decide_voxels(const EvidenceGrid& grid, const Config& config) {
+VoxelDecisions decide_voxels(const EvidenceGrid& grid, const Config& config) {
     std::vector<std::uint32_t> all(grid.size());
     std::iota(all.begin(), all.end(), 0U);
     const auto occupancy = occupancy_of(grid, all, config.scans);
-    std::vector<VoxelDecision> decided(all.size());
-    for (std::size_t v = 0; v < all.size(); ++v) decided[v].probability = occupancy[v];
-    const auto label = [&](std::size_t v) {
-        return label_of(decided[v].probability, config.map.occupancy_threshold);
-    };
+    VoxelDecisions decided;
+    for (const std::optional<float>& probability : occupancy) {
+        decided.voxels.push_back({label_of(probability, config.map.occupancy_threshold)});
+        decided.probability.push_back(probability.value_or(0.0F));
+    }
+    const auto label = [&](std::size_t v) { return decided.voxels[v].label; };
+    std::vector<std::uint8_t> touches(all.size());
     parallel_for(all.size(), 1024, [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v) {
-            if (label(v) != Label::static_ || !touches_dynamic(all[v], label, grid)) continue;
-            decided[v].contact = contact_of(all[v], label, grid, config.scans.contact);
+            touches[v] = label(v) == Label::static_ && touches_dynamic(all[v], label, grid) ? 1 : 0;
         }
     });
+    std::erase_if(all, [&](std::uint32_t v) { return touches[v] == 0; });
+    decided.contacts = contacts_of(all, label, grid, config.scans.contact);
+    for (const auto& [voxel, surface] : decided.contacts) decided.voxels[voxel].has_contact = true;
     return decided;
 }
 
-std::vector<std::optional<std::uint32_t>> occupied_since(const std::vector<VoxelDecision>& decided,
+std::vector<std::optional<std::uint32_t>> occupied_since(const VoxelDecisions& decided,
                                                          const EvidenceGrid& grid,
                                                          const Config& config) {
     std::vector<std::optional<std::uint32_t>> since(grid.size());
     const auto longest = static_cast<std::uint32_t>(config.scans.evidence.longest_run);
-    for (std::uint32_t v = 0; v < decided.size(); ++v) {
-        const Label label = label_of(decided[v].probability, config.map.occupancy_threshold);
-        if (label != Label::dynamic) continue;
+    for (std::uint32_t v = 0; v < decided.voxels.size(); ++v) {
+        if (decided.voxels[v].label != Label::dynamic) continue;
         const Evidence& e = grid[v].evidence;
         const bool is_seen = e.last == Sight::occupied && e.run >= longest && !e.seen_empty;
         // With fewer scans, the points may only lie near the voxel.
@@ -289,19 +289,20 @@ std::vector<std::optional<std::uint32_t>> occupied_since(const std::vector<Voxel
     return since;
 }
 
-void decide_points(const LocatedScan& scan, const std::vector<VoxelDecision>& decided,
-                   const EvidenceGrid& grid, const Config& config, Verdict& verdict) {
-    std::vector<bool> moving(decided.size());  // dynamic voxels with a point in this scan
+void decide_points(const LocatedScan& scan, const VoxelDecisions& decided, const EvidenceGrid& grid,
+                   const Config& config, Verdict& verdict) {
+    tsl::robin_set<std::uint32_t> moving;  // dynamic voxels with a point in this scan
     for (std::size_t i = 0; i < scan.voxels.size(); ++i) {
-        if (scan.voxels[i] >= decided.size()) continue;  // also for kNoVoxel
-        const auto& probability = decided[scan.voxels[i]].probability;
-        verdict.labels[i] = label_of(probability, config.map.occupancy_threshold);
-        verdict.probability[i] = probability.value_or(0.0F);
-        if (verdict.labels[i] == Label::dynamic) moving[scan.voxels[i]] = true;
+        const std::uint32_t voxel = scan.voxels[i];
+        if (voxel >= decided.voxels.size()) continue;  // also for kNoVoxel
+        verdict.labels[i] = decided.voxels[voxel].label;
+        verdict.probability[i] = decided.probability[voxel];
+        if (verdict.labels[i] == Label::dynamic) moving.insert(voxel);
     }
     for (const std::size_t i : points_above(scan, decided, verdict.labels, config.scans.contact)) {
         bool touches = false;
-        each_within(grid, 2, scan.voxels[i], [&](std::uint32_t v, int) { touches |= moving[v]; });
+        each_within(grid, 2, scan.voxels[i],
+                    [&](std::uint32_t v, int) { touches |= moving.contains(v); });
         if (touches) verdict.labels[i] = Label::dynamic;
     }
 }

@@ -12,6 +12,8 @@
 #include <span>
 #include <vector>
 
+#include <tsl/robin_map.h>
+
 #include "dynamic_filter/filter.hpp"
 #include "dynamic_filter/settings.hpp"
 #include "filter/contact.hpp"
@@ -78,27 +80,41 @@ void settle_points(const LocatedScan& scan, const EvidenceGrid& grid, const Conf
 std::vector<VoxelOccupancy> static_among(std::span<const std::uint32_t> voxels,
                                          const EvidenceGrid& grid, const Config& config);
 
-/// The decision on a voxel in the end.
-struct VoxelDecision {
-    std::optional<float> probability;  ///< probability of being occupied; empty: unknown
-    /// Static surface, if a static voxel touches a dynamic one.
-    std::optional<ContactSurface> contact;
+/// The static surfaces in voxels.
+using Contacts = tsl::robin_map<std::uint32_t, ContactSurface>;
+
+/// The decisions on all voxels in the end. The labels are a table of their own because all points
+/// of a recording are looked up in it, and it fits into the cache.
+struct VoxelDecisions {
+    struct OfVoxel {
+        Label label = Label::unknown;
+        bool has_contact = false;  ///< a static voxel that touches a dynamic one, with a surface
+    };
+    std::vector<OfVoxel> voxels{};
+    std::vector<float> probability{};  ///< of being occupied, by voxel; 0: unknown
+    Contacts contacts{};               ///< of the voxels that have one
+
+    /// Of a voxel; empty: unknown.
+    [[nodiscard]] std::optional<float> occupancy(std::uint32_t voxel) const {
+        if (voxels[voxel].label == Label::unknown) return std::nullopt;
+        return probability[voxel];
+    }
 };
 
 /// Decides every voxel of the grid. Runs in parallel.
-std::vector<VoxelDecision> decide_voxels(const EvidenceGrid& grid, const Config& config);
+VoxelDecisions decide_voxels(const EvidenceGrid& grid, const Config& config);
 
 /// For each dynamic voxel: the scan (in the order of the scans) from which on the voxel is occupied
 /// until the end of the recording. It is empty unless that last run has as many keyframes as are
 /// counted per run (see record()), and points in as many scans. Used for `map.time` = latest.
-std::vector<std::optional<std::uint32_t>> occupied_since(const std::vector<VoxelDecision>& decided,
+std::vector<std::optional<std::uint32_t>> occupied_since(const VoxelDecisions& decided,
                                                          const EvidenceGrid& grid,
                                                          const Config& config);
 
 /// Final labels: writes them, and the probabilities, into `verdict`, which must be all unknown. A
 /// point of a static voxel is dynamic if it lies above the static surface of the voxel, and if a
 /// dynamic voxel nearby has points in the same scan. Thread-safe.
-void decide_points(const LocatedScan& scan, const std::vector<VoxelDecision>& decided,
-                   const EvidenceGrid& grid, const Config& config, Verdict& verdict);
+void decide_points(const LocatedScan& scan, const VoxelDecisions& decided, const EvidenceGrid& grid,
+                   const Config& config, Verdict& verdict);
 
 }  // namespace dynamic_filter

@@ -204,10 +204,8 @@ ScanNote note_of(const Labels& labels, const Labels& instant, const Labels& trut
 
 PageRun view_of(const ViewInput& in) {
     PageRun run;
-    Pose first = Pose::Identity();
-    if (!in.scans.empty()) first.translation() = in.scans.front().position;
-    const Origin origin = nearby_origin(first, 1.0);
-    Shown shown = collect(in, origin);
+    const Shown& shown = in.shown;
+    const Origin& origin = shown.origin;
     const std::vector<ShownPoint> map = shuffled(shown.map.points());
     const Steps steps{&map, &shown.frames};
     add_geometry(steps, origin, run);

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <span>
 #include <vector>
@@ -12,7 +11,7 @@
 #include "dynamic_filter/filter.hpp"
 #include "dynamic_filter/recording.hpp"
 #include "page/page.hpp"
-#include "page/thinned_cloud.hpp"
+#include "page/shown.hpp"
 
 namespace dynamic_filter::app {
 
@@ -33,25 +32,15 @@ ScanNote note_of(const Labels& labels, const Labels& instant, const Labels& trut
 struct ViewInput {
     const io::Recording& recording;
     const std::vector<ScanNote>& scans;  ///< that were used, in order
-    std::filesystem::path labels;        ///< folder of the final verdicts
-    /// The instant verdict on a scan of the recording; empty where it was not kept.
-    std::function<Labels(std::size_t)> instant;
-    // The evidence behind the verdicts.
-    /// For each point of a scan, an identifier of its voxel; kNoVoxelOfPage: no voxel.
-    std::function<std::vector<std::uint64_t>(const Scan&)> voxels_of;
+    Shown shown;                         ///< of these scans
+    /// The evidence behind the verdicts.
     std::function<std::vector<VoxelHistory>(std::span<const std::uint64_t>)> histories;
     std::vector<std::size_t> keyframes;  ///< Scan::index
     bool has_evidence = false;           ///< scans observe, so there are counters
 };
 
-/// See ViewInput::voxels_of.
-inline constexpr std::uint64_t kNoVoxelOfPage = UINT64_MAX;
-
-/// Arrays of the run, and the part of its `info` that goes with them. Reads the scans again.
+/// Arrays of the run, and the part of its `info` that goes with them.
 PageRun view_of(const ViewInput& input);
-
-/// True if the page plays scan `index` of `scans` scans.
-bool is_shown(std::size_t index, std::size_t scans);
 
 /// Arrays of a cloud in the world frame, all points static.
 PageRun view_of(const io::Cloud& cloud);

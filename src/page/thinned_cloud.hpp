@@ -19,6 +19,7 @@ struct ShownPoint {
     std::uint8_t verdict = 0;        ///< bits as viewer/README.md has them
     std::uint64_t place = 0;         ///< OnlineFilter::places_of
 };
+inline constexpr std::uint64_t kNoVoxelOfPage = UINT64_MAX;  ///< a place without points
 
 /// Thins a cloud to a number of points that can be shown. Keeps at most one point of each final
 /// verdict in a cube, and the edge of the cubes grows until the points fit. The first point of a

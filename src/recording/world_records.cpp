@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "recording/world_records.hpp"
 
+#include <cstdint>
 #include <cstring>
+#include <numeric>
 
 namespace dynamic_filter::app {
 
@@ -17,12 +19,38 @@ bool is_coordinate(const io::Field& field) {
     return field.name == "x" || field.name == "y" || field.name == "z";
 }
 
-/// Where a field of a record comes from and goes to.
-struct Column {
+/// Bytes of a record that are copied as they are.
+struct Copied {
     std::size_t from, to, bytes;
-    int axis;  // 0..2: a coordinate; -1: none
+};
+/// Fields that lie beside each other in both records are copied at once.
+std::vector<Copied> copied_bytes(const io::Cloud& cloud, const io::Cloud& layout) {
+    std::vector<Copied> all;
+    for (std::size_t f = 0; f < layout.fields.size(); ++f) {
+        const io::Field &in = cloud.fields[f], &out = layout.fields[f];
+        if (in.type != out.type) continue;  // a coordinate
+        const Copied next{in.offset, out.offset, out.count * io::size_of(out.type)};
+        const bool goes_on = !all.empty() && all.back().from + all.back().bytes == next.from &&
+                             all.back().to + all.back().bytes == next.to;
+        goes_on ? all.back().bytes += next.bytes : (all.push_back(next), 0U);
+    }
+    return all;
+}
+
+/// Where a coordinate goes.
+struct Coordinate {
+    std::size_t to;
+    int axis;
     bool is_double;
 };
+std::vector<Coordinate> coordinates_of(const io::Cloud& layout) {
+    std::vector<Coordinate> all;
+    for (const io::Field& field : layout.fields) {
+        if (!is_coordinate(field)) continue;
+        all.push_back({field.offset, field.name[0] - 'x', field.type == io::FieldType::f64});
+    }
+    return all;
+}
 
 }  // namespace
 
@@ -38,28 +66,26 @@ io::Cloud layout_of(const io::FullScan& scan, bool in_world) {
 }
 
 std::vector<std::byte> world_records(const io::FullScan& scan, const io::Cloud& layout) {
-    const io::Cloud& cloud = scan.cloud;
-    std::vector<std::byte> records(scan.points.size() * layout.point_bytes);
-    std::vector<Column> columns;
-    for (std::size_t f = 0; f < layout.fields.size(); ++f) {
-        const io::Field &in = cloud.fields[f], &out = layout.fields[f];
-        columns.push_back({in.offset, out.offset, out.count * io::size_of(out.type),
-                           is_coordinate(out) ? out.name[0] - 'x' : -1,
-                           out.type == io::FieldType::f64});
-    }
-    for (std::size_t i = 0; i < scan.points.size(); ++i) {
+    std::vector<std::uint32_t> all(scan.points.size());
+    std::iota(all.begin(), all.end(), 0U);
+    return world_records(scan, layout, all);
+}
+
+std::vector<std::byte> world_records(const io::FullScan& scan, const io::Cloud& layout,
+                                     std::span<const std::uint32_t> points) {
+    const std::vector<Copied> copied = copied_bytes(scan.cloud, layout);
+    const std::vector<Coordinate> coordinates = coordinates_of(layout);
+    std::vector<std::byte> records(points.size() * layout.point_bytes);
+    std::byte* to = records.data();
+    for (const std::uint32_t i : points) {
+        const std::byte* const from = scan.cloud.data.data() + i * scan.cloud.point_bytes;
+        for (const Copied& c : copied) std::memcpy(to + c.to, from + c.from, c.bytes);
         const Eigen::Vector3d world = scan.T_world_sensor * scan.points[i].cast<double>();
-        const std::byte* const from = cloud.data.data() + i * cloud.point_bytes;
-        std::byte* const to = records.data() + i * layout.point_bytes;
-        for (const Column& column : columns) {
-            if (column.axis < 0) {
-                std::memcpy(to + column.to, from + column.from, column.bytes);
-                continue;
-            }
-            const double value = world[column.axis];
-            column.is_double ? store<double>(to + column.to, value)
-                             : store<float>(to + column.to, value);
+        for (const Coordinate& c : coordinates) {
+            c.is_double ? store<double>(to + c.to, world[c.axis])
+                        : store<float>(to + c.to, world[c.axis]);
         }
+        to += layout.point_bytes;
     }
     return records;
 }

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "dynamic_filter/recording.hpp"
@@ -15,5 +17,8 @@ io::Cloud layout_of(const io::FullScan& scan, bool in_world);
 
 /// The scan's records in the given layout (same fields, x y z perhaps wider), x y z in the world.
 std::vector<std::byte> world_records(const io::FullScan& scan, const io::Cloud& layout);
+/// The records of these of its points.
+std::vector<std::byte> world_records(const io::FullScan& scan, const io::Cloud& layout,
+                                     std::span<const std::uint32_t> points);
 
 }  // namespace dynamic_filter::app

@@ -50,6 +50,7 @@ struct Whole {
     std::vector<std::optional<Tracked>> tracked{};  ///< by scan; if poses are found or refined
     LabelStore instant{output.path()};              ///< verdicts of scans that are scored or shown
     std::vector<ScanNote> scan_notes{};
+    std::optional<ShownScans> shown{};         ///< if there is a page
     std::optional<eval::ScanScores> scorer{};  ///< of final and instant verdicts, if there is truth
     Eigen::Vector3d scoring_origin = Eigen::Vector3d::Zero();
     std::vector<Notice> notices{};
@@ -207,14 +208,23 @@ void filter_scans(Whole& whole) {
     }
 }
 
-void note(Whole& whole, std::size_t i, const io::FullScan& scan, const Labels& labels,
-          const Labels& instant) {
-    ScanNote note = note_of(labels, instant, scan.truth);
-    note.index = i;
-    note.position = scan.T_world_sensor.translation();
-    note.stamp = scan.stamp;
-    whole.summary.count(labels, scan.truth);
-    whole.scan_notes.push_back(note);
+/// What the page and the scores need of a scan.
+struct SeenScan {
+    Labels instant{};
+    ScanNote note{};
+    ShownScans::Drawn drawn{};
+};
+SeenScan see(const Whole& whole, std::size_t i, const io::FullScan& scan, const Labels& labels) {
+    SeenScan seen{.instant = whole.instant.get(i)};
+    seen.note = note_of(labels, seen.instant, scan.truth);
+    seen.note.index = i;
+    seen.note.position = scan.T_world_sensor.translation();
+    seen.note.stamp = scan.stamp;
+    if (!whole.shown) return seen;
+    const bool has_intensity = !whole.recording.info().intensity_is_truth;
+    seen.drawn = whole.shown->draw(i, scan, labels, seen.instant,
+                                   has_intensity ? intensities(scan.cloud) : std::vector<double>{});
+    return seen;
 }
 
 io::PosesFrom poses_from(const Whole& whole) {
@@ -227,7 +237,9 @@ io::PosesFrom poses_from(const Whole& whole) {
     return whole.job.config.odometry.refine ? io::PosesFrom::refined : io::PosesFrom::found;
 }
 
-/// Second reading: final verdicts, label files, maps.
+bool has_page(const Whole& whole) { return whole.o.report && !viewer_page().empty(); }
+
+/// Second reading: final verdicts, label files, maps, and what the page shows.
 void write_results(Whole& whole) {
     const std::vector<std::size_t> scans = accepted_scans(whole);
     Progress progress("write", scans.size(), whole.o.quiet);
@@ -238,20 +250,29 @@ void write_results(Whole& whole) {
     const auto decide = [&](std::size_t i, const io::FullScan& scan) {
         return whole.maps.verdict({scan.points, scan.T_world_sensor, scan.stamp, i});
     };
+    const auto places_of = [&](const Scan& scan) { return whole.maps.places_of(scan); };
+    if (has_page(whole)) whole.shown.emplace(scans, whole.recording.size(), places_of);
+    std::vector<SeenScan> seen(whole.recording.size());
+    const auto look = [&](std::size_t i, const io::FullScan& scan, const Labels& labels) {
+        seen[i] = see(whole, i, scan, labels);
+    };
     const auto use = [&](std::size_t i, const io::FullScan& scan, const Verdict& verdict) {
-        const Labels instant = whole.instant.get(i);
+        SeenScan of_scan = std::exchange(seen[i], {});
+        if (whole.shown) whole.shown->add(i, std::move(of_scan.drawn));
         if (whole.scorer && !scan.truth.empty()) {
             whole.scorer->add(labelled(scan, whole.scoring_origin),
-                              std::array<const Labels*, 2>{&verdict.labels, &instant});
+                              std::array<const Labels*, 2>{&verdict.labels, &of_scan.instant});
         }
-        note(whole, i, scan, verdict.labels, instant);
+        whole.summary.count(verdict.labels, scan.truth);
+        whole.scan_notes.push_back(of_scan.note);
         if (whole.live) {
             whole.live->feed().corrected(i, scan.points, verdict.labels);
         }
         progress.advance();
     };
-    const WrittenScans written = write_scans(whole.recording, scans, whole.job.config, whole.o.maps,
-                                             whole.output.path(), {.decide = decide, .use = use});
+    const WrittenScans written =
+        write_scans(whole.recording, scans, whole.job.config, whole.o.maps, whole.output.path(),
+                    {.decide = decide, .look = look, .use = use});
     whole.summary.add_watch(written, whole.recording, poses_from(whole), whole.job.config.odometry);
 }
 
@@ -347,20 +368,17 @@ void describe(PageRun& run, const Whole& whole) {
 
 /// The page that explains the result.
 void write_page(Whole& whole, const Json& metrics) {
-    if (!whole.o.report) return;
-    if (viewer_page().empty()) {
+    if (whole.o.report && viewer_page().empty()) {
         whole.summary.remarks.push_back(
             {RemarkKind::note,
              "no report.html: this command was built without the viewer; run script/bootstrap and "
              "script/build"});
-        return;
     }
+    if (!whole.shown) return;
     const Maps& maps = whole.maps;
     PageRun run = view_of({.recording = whole.recording,
                            .scans = whole.scan_notes,
-                           .labels = whole.output.path() / "labels",
-                           .instant = [&](std::size_t scan) { return whole.instant.get(scan); },
-                           .voxels_of = [&](const Scan& scan) { return maps.places_of(scan); },
+                           .shown = whole.shown->take(),
                            .histories = [&](const auto& voxels) { return maps.histories(voxels); },
                            .keyframes = whole.summary.contents.keyframes,
                            .has_evidence = maps.judges_each_scan()});

@@ -8,6 +8,21 @@
 
 namespace dynamic_filter::app {
 
+namespace {
+
+std::vector<std::byte> records_as_they_are(const io::Cloud& cloud,
+                                           const std::vector<std::uint32_t>& points) {
+    std::vector<std::byte> records(points.size() * cloud.point_bytes);
+    std::byte* to = records.data();
+    for (const std::uint32_t i : points) {
+        std::memcpy(to, cloud.data.data() + i * cloud.point_bytes, cloud.point_bytes);
+        to += cloud.point_bytes;
+    }
+    return records;
+}
+
+}  // namespace
+
 void MapFiles::begin(const io::FullScan& first) {
     layout_ = layout_of(first, in_world_);
     still_.emplace(folder_ / "static_map.pcd", layout_.fields, layout_.point_bytes);
@@ -15,20 +30,20 @@ void MapFiles::begin(const io::FullScan& first) {
 }
 
 MapFiles::Records MapFiles::records_of(const io::FullScan& scan, const Verdict& verdict) const {
-    const std::size_t bytes = layout_.point_bytes;
-    const auto all = in_world_ ? scan.cloud.data : world_records(scan, layout_);
-    Records records;
-    records.still.reserve(all.size());
-    for (std::size_t i = 0; i < verdict.labels.size(); ++i) {
+    std::vector<std::uint32_t> still, dynamic;
+    still.reserve(verdict.labels.size());
+    for (std::uint32_t i = 0; i < verdict.labels.size(); ++i) {
         if (!is_measured(scan.points[i])) continue;
-        const auto* const record = all.data() + i * bytes;
         const bool stays = !verdict.stays.empty() && verdict.stays[i];
         const Kept kept = where(verdict.labels[i], stays, keep_unknown_);
         if (kept == Kept::nowhere) continue;
-        auto& records_there = kept == Kept::removed ? records.dynamic : records.still;
-        records_there.insert(records_there.end(), record, record + bytes);
+        (kept == Kept::removed ? dynamic : still).push_back(i);
     }
-    return records;
+    const auto records_at = [&](const std::vector<std::uint32_t>& points) {
+        return in_world_ ? records_as_they_are(scan.cloud, points)
+                         : world_records(scan, layout_, points);
+    };
+    return {records_at(still), records_at(dynamic)};
 }
 
 void MapFiles::append(const Records& records) {

@@ -41,6 +41,7 @@ WrittenScans write_scans(const io::Recording& recording, const std::vector<std::
         verdicts[i] = results.decide(i, scan);
         io::label_own_body(scan.own, verdicts[i].labels);
         const Labels& final = verdicts[i].labels;
+        if (results.look) results.look(i, scan, final);
         watch[i] = io::watch_scan(i, scan.points, scan.T_world_sensor, final);
         gists[i] = io::gist_of(scan.points, scan.T_world_sensor);
         beside[i] = io::dynamic_beside(scan.points, scan.T_world_sensor, final);

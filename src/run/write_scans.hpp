@@ -18,6 +18,8 @@ namespace dynamic_filter::app {
 struct ScanResults {
     /// The final verdict on a scan. Called from several threads.
     std::function<Verdict(std::size_t, const io::FullScan&)> decide;
+    /// Looks at each scan and its final labels; called from several threads. May be empty.
+    std::function<void(std::size_t, const io::FullScan&, const Labels&)> look;
     /// Takes each scan in order, after its labels are written.
     std::function<void(std::size_t, const io::FullScan&, const Verdict&)> use;
 };

@@ -124,8 +124,9 @@ RunSummary write_drive(const Job& job, const Tiles& tiles, std::uint32_t number,
     };
     const DataOptions how = options_of(job.sources, o.data)[number];
     write_placed(folder, placed_of(drive.recording, how, job.fingerprints[number]));
-    const WrittenScans written = write_scans(drive.recording, used_scans(planned), job.config,
-                                             o.maps, folder, {.decide = decide, .use = use});
+    const WrittenScans written =
+        write_scans(drive.recording, used_scans(planned), job.config, o.maps, folder,
+                    {.decide = decide, .look = {}, .use = use});
     summary.add_watch(written, drive.recording, io::PosesFrom::given, job.config.odometry);
     add_scores(tiles, number, summary);
     io::write_file(folder / "metrics.json", text_of(metrics_of(summary)));

@@ -84,11 +84,19 @@ struct Map {
     }
 };
 
-Verdict decide(const Map& map, const std::vector<VoxelDecision>& decided, const Points& points) {
+Verdict decide(const Map& map, const VoxelDecisions& decided, const Points& points) {
     Verdict verdict{0, Labels(points.size(), Label::unknown),
                     std::vector<float>(points.size(), -1.0F)};
     decide_points(map.locate(points), decided, map.grid, config, verdict);
     return verdict;
+}
+
+/// The decision on a map of one voxel.
+VoxelDecisions one(Label label, float probability) {
+    VoxelDecisions decided;
+    decided.voxels.push_back({label, false});
+    decided.probability.push_back(probability);
+    return decided;
 }
 
 /// Ground of 7 x 7 voxels at z = 0.1, and a leg that stands on the one in its middle.
@@ -137,20 +145,25 @@ TEST(InstantLabels, AFootIsDynamicDownToTheGroundWhileTheLegIsThere) {
 TEST(DecideVoxels, GroundIsStaticTheLegIsDynamicAndTheyMeetAtASurface) {
     const Street street;
     const auto decided = decide_voxels(street.map.grid, config);
-    ASSERT_EQ(decided.size(), 54U);
+    ASSERT_EQ(decided.voxels.size(), 54U);
     for (std::size_t i = 0; i < street.ground.size(); ++i) {
-        const VoxelDecision& d = decided[street.ground[i]];
+        const std::uint32_t v = street.ground[i];
         const int x = static_cast<int>(i) / 7 - 3, y = static_cast<int>(i) % 7 - 3;
-        EXPECT_GT(d.probability.value(), 0.5F);
+        EXPECT_EQ(decided.voxels[v].label, Label::static_);
+        EXPECT_GT(decided.occupancy(v).value(), 0.5F);
         // Only the leg's lowest voxel and those beside it touch the leg.
-        EXPECT_EQ(d.contact.has_value(), std::max(std::abs(x), std::abs(y)) <= 1) << x << ' ' << y;
-        if (!d.contact) continue;
-        EXPECT_NEAR(d.contact->height({0.3F, -0.2F, 0.1F + 0.07F}), 0.07F, 1e-3);
-        EXPECT_NEAR(d.contact->roughness, 0.0F, 1e-3);
+        const bool has_contact = decided.voxels[v].has_contact;
+        EXPECT_EQ(has_contact, std::max(std::abs(x), std::abs(y)) <= 1) << x << ' ' << y;
+        EXPECT_EQ(has_contact, decided.contacts.contains(v));
+        if (!has_contact) continue;
+        const ContactSurface& contact = decided.contacts.at(v);
+        EXPECT_NEAR(contact.height({0.3F, -0.2F, 0.1F + 0.07F}), 0.07F, 1e-3);
+        EXPECT_NEAR(contact.roughness, 0.0F, 1e-3);
     }
     for (const std::uint32_t v : street.leg) {
-        EXPECT_LT(decided[v].probability.value(), 0.5F);
-        EXPECT_FALSE(decided[v].contact);
+        EXPECT_EQ(decided.voxels[v].label, Label::dynamic);
+        EXPECT_LT(decided.occupancy(v).value(), 0.5F);
+        EXPECT_FALSE(decided.voxels[v].has_contact);
     }
 }
 
@@ -159,8 +172,8 @@ TEST(DecideVoxels, AVoxelThatNobodyObservedIsUnknown) {
     map.add({middle(0, 0, 0), middle(50, 0, 0)});
     map.see(0, Sight::occupied, 10);
     const auto decided = decide_voxels(map.grid, config);
-    EXPECT_TRUE(decided[0].probability);
-    EXPECT_FALSE(decided[1].probability);
+    EXPECT_TRUE(decided.occupancy(0));
+    EXPECT_FALSE(decided.occupancy(1));
 }
 
 TEST(DecidePoints, AFootIsDynamicOnlyAboveTheSurfaceAndOnlyWhileTheLegIsThere) {
@@ -188,7 +201,11 @@ TEST(DecidePoints, OnARoughSurfaceAPointMustBeHigher) {
     map.add({middle(0, 0, 0), middle(0, 0, 2)});
     const auto roughness = static_cast<float>(config.scans.contact.roughness);
     const ContactSurface rough{Point::UnitZ(), 0.0F, 0.03F};
-    const std::vector<VoxelDecision> decided{{0.9F, rough}, {0.1F, {}}};
+    VoxelDecisions decided = one(Label::static_, 0.9F);
+    decided.voxels.front().has_contact = true;
+    decided.contacts[0] = rough;
+    decided.voxels.push_back({Label::dynamic, false});
+    decided.probability.push_back(0.1F);
     const auto label_at = [&](float height, const Point& leg) {
         return decide(map, decided, {{0.1F, 0.1F, height}, leg}).labels[0];
     };
@@ -201,9 +218,11 @@ TEST(DecidePoints, OnARoughSurfaceAPointMustBeHigher) {
 TEST(DecidePoints, VoxelsThatCameAfterTheDecisionAreLeftOut) {
     Map map;
     map.add({middle(0, 0, 0), middle(5, 0, 0)});
-    const Verdict verdict = decide(map, {{0.5F, {}}}, {middle(0, 0, 0), middle(5, 0, 0)});
+    const Verdict verdict =
+        decide(map, one(Label::static_, 0.5F), {middle(0, 0, 0), middle(5, 0, 0)});
     EXPECT_EQ(verdict.labels, (Labels{Label::static_, Label::unknown}));
-    EXPECT_EQ(decide(map, {{std::nullopt, {}}}, {middle(0, 0, 0)}).probability[0], 0.0F);
+    const VoxelDecisions unknown = one(Label::unknown, 0.0F);
+    EXPECT_EQ(decide(map, unknown, {middle(0, 0, 0)}).probability[0], 0.0F);
 }
 
 /// A car that parked: seen through first, then hit by the scans from number `first` to `last`.
@@ -220,7 +239,9 @@ Map parked(int first, int last) {
 
 TEST(OccupiedSince, BeginsWithTheLastRunIfThatIsLongEnough) {
     const int longest = config.scans.evidence.longest_run;
-    const std::vector<VoxelDecision> dynamic{{0.1F, {}}, {0.9F, {}}};
+    VoxelDecisions dynamic = one(Label::dynamic, 0.1F);
+    dynamic.voxels.push_back({Label::static_, false});
+    dynamic.probability.push_back(0.9F);
     const auto since = [&](const Map& map) { return occupied_since(dynamic, map.grid, config)[0]; };
     EXPECT_EQ(since(parked(7, 6 + longest)), 7U);
     EXPECT_EQ(since(parked(7, 90)), 7U);
@@ -238,8 +259,9 @@ TEST(OccupiedSince, BeginsWithTheLastRunIfThatIsLongEnough) {
     empty.see(0, Sight::occupied, longest);
     EXPECT_FALSE(since(empty));  // no point since it was seen empty
     // A static voxel was always there, and an unknown one is no object.
-    EXPECT_FALSE(occupied_since({{0.9F, {}}}, parked(7, 90).grid, config)[0]);
-    EXPECT_FALSE(occupied_since({{std::nullopt, {}}}, parked(7, 90).grid, config)[0]);
+    for (const Label label : {Label::static_, Label::unknown}) {
+        EXPECT_FALSE(occupied_since(one(label, 0.9F), parked(7, 90).grid, config)[0]);
+    }
 }
 
 }  // namespace label_test

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <numeric>
 
 #include "dynamic_filter/online.hpp"
 #include "dynamic_filter/writers.hpp"
@@ -25,14 +26,6 @@ TEST(ScanNote, CountsVerdictsCorrectionsAndErrors) {
     EXPECT_EQ(note.corrected, 2U);
     EXPECT_EQ(note.scores, (std::array<std::uint32_t, 8>{1, 1, 1, 1, 1, 1, 1, 1}));
     EXPECT_EQ(note_of(final, {}, {}).corrected, UINT32_MAX);
-}
-
-TEST(IsShown, TakesAllOfFewAndSomeOfMany) {
-    std::size_t shown = 0;
-    for (std::size_t i = 0; i < 100'000; ++i) shown += is_shown(i, 100'000) ? 1 : 0;
-    EXPECT_GT(shown, 200U);
-    EXPECT_LE(shown, 400U);
-    for (std::size_t i = 0; i < 400; ++i) EXPECT_TRUE(is_shown(i, 400));
 }
 
 template <class T>
@@ -92,11 +85,18 @@ protected:
         }
     }
     [[nodiscard]] ViewInput input() const {
+        std::vector<std::size_t> all(recording_.size());
+        std::iota(all.begin(), all.end(), std::size_t{0});
+        ShownScans shown(all, recording_.size(),
+                         [this](const Scan& scan) { return filter_.places_of(scan); });
+        for (const std::size_t i : all) {
+            const Labels labels =
+                io::read_labels(folder_ / ("labels_out/" + io::stem(recording_, i) + ".label"));
+            shown.add(i, shown.draw(i, recording_.read(i), labels, instant_.get(i), {}));
+        }
         return {.recording = recording_,
                 .scans = notes_,
-                .labels = folder_ / "labels_out",
-                .instant = [this](std::size_t scan) { return instant_.get(scan); },
-                .voxels_of = [this](const Scan& scan) { return filter_.places_of(scan); },
+                .shown = shown.take(),
                 .histories = [this](const auto& voxels) { return filter_.histories(voxels); },
                 .keyframes = filter_.contents().keyframes,
                 .has_evidence = true};
