@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "dynamic_filter/error.hpp"
+#include "dynamic_filter/parallel.hpp"
 #include "filter/evidence_map.hpp"
 #include "filter/label.hpp"
 #include "filter/mirrors.hpp"
@@ -98,9 +99,17 @@ Verdict DynamicFilter::judge(Scan scan) { return impl_->judge(impl_->place(std::
 Verdict DynamicFilter::Impl::judge(const Scan& scan) {
     return timed(times, "judge", [&] {
         const PointVoxels voxels = map.insert(scan, times);
-        Verdict verdict = timed(times, "instant_verdict",
-                                [&] { return instant.label(scan.index, voxels, map.grid()); });
-        timed(times, "instances", [&] { objects.update(scan, voxels, map, verdict.labels); });
+        Verdict verdict;
+        std::optional<Clusters> clusters;
+        timed(times, "instant_verdict", [&] {  // clusters need no labels
+            parallel_for(2, 1, [&](std::size_t begin, std::size_t end) {
+                if (begin == 0) verdict = instant.label(scan.index, voxels, map.grid());
+                if (end == 2) clusters = objects.clusters_in(scan, voxels);
+            });
+        });
+        timed(times, "instances", [&] {
+            if (clusters) objects.update(scan, voxels, *clusters, map, verdict.labels);
+        });
         timed(times, "contact",
               [&] { instant.find_contacts(scan, voxels, map.grid(), contact(), verdict.labels); });
         return verdict;

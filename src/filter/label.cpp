@@ -15,7 +15,8 @@ namespace dynamic_filter {
 
 namespace {
 
-constexpr float kSteps = 255.0F;  // of a stored probability
+constexpr float kSteps = 255.0F;               // of a stored probability
+constexpr std::size_t kPointsAtATime = 16384;  // number of points that a thread takes at a time
 
 template <class Use>
 void each_within(const EvidenceGrid& grid, int cells, std::uint32_t voxel, const Use& use) {
@@ -72,12 +73,18 @@ template <class Touched, class PointAt>
 void label_above(const Contacts& contacts, const PointVoxels& voxels, const Touched& touched,
                  const ScansConfig::Contact& config, const PointAt& point, Labels& labels) {
     if (contacts.empty()) return;
-    for (std::size_t i = 0; i < labels.size(); ++i) {
-        if (labels[i] == Label::dynamic || voxels[i] == kNoVoxel || !touched(voxels[i])) continue;
+    const auto is_above_its_surface = [&](std::size_t i) {
+        if (labels[i] == Label::dynamic || voxels[i] == kNoVoxel || !touched(voxels[i])) {
+            return false;
+        }
         const auto surface = contacts.find(voxels[i]);
-        if (surface == contacts.end()) continue;
-        if (is_above(surface->second, point(i), config)) labels[i] = Label::dynamic;
-    }
+        return surface != contacts.end() && is_above(surface->second, point(i), config);
+    };
+    parallel_for(labels.size(), kPointsAtATime, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            if (is_above_its_surface(i)) labels[i] = Label::dynamic;
+        }
+    });
 }
 
 /// Indices of points of static voxels that lie above the surface of their voxel.
@@ -125,12 +132,14 @@ Verdict InstantLabels::label(std::size_t index, const PointVoxels& voxels,
     }
     Verdict verdict{index, Labels(voxels.size(), Label::unknown),
                     std::vector<float>(voxels.size(), 0.0F)};
-    for (std::size_t i = 0; i < voxels.size(); ++i) {
-        if (voxels[i] == kNoVoxel) continue;
-        const Said& said = said_[voxels[i]];
-        verdict.labels[i] = said.label;
-        verdict.probability[i] = static_cast<float>(said.probability) / kSteps;
-    }
+    parallel_for(voxels.size(), kPointsAtATime, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            if (voxels[i] == kNoVoxel) continue;
+            const Said& said = said_[voxels[i]];
+            verdict.labels[i] = said.label;
+            verdict.probability[i] = static_cast<float>(said.probability) / kSteps;
+        }
+    });
     return verdict;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/numbers.hpp"
+#include "dynamic_filter/parallel.hpp"
 
 namespace dynamic_filter {
 
@@ -57,10 +58,14 @@ void note_leaving(Track& track, const Cluster& cluster, const Keyframe& keyframe
 
 }  // namespace
 
-void Objects::update(const Scan& scan, const PointVoxels& voxels, EvidenceMap& map,
-                     Labels& labels) {
+std::optional<Clusters> Objects::clusters_in(const Scan& scan, const PointVoxels& voxels) const {
+    if (last_stamp_ && scan.stamp - *last_stamp_ < config_.every) return std::nullopt;
+    return find_clusters(scan.points, voxels, config_);
+}
+
+void Objects::update(const Scan& scan, const PointVoxels& voxels, const Clusters& found,
+                     EvidenceMap& map, Labels& labels) {
     const double elapsed = last_stamp_ ? scan.stamp - *last_stamp_ : config_.every;
-    if (elapsed < config_.every) return;
     EvidenceGrid& grid = map.grid();
     const std::uint32_t newest = grid.scans() - 1;
     // Number of scans for which this one stands.
@@ -72,7 +77,6 @@ void Objects::update(const Scan& scan, const PointVoxels& voxels, EvidenceMap& m
     last_sensor_ = sensor;
     last_scan_ = newest;
     forget(scan.stamp);
-    const Clusters found = find_clusters(scan.points, voxels, config_);
     std::vector<Cluster> clusters = describe(found, voxels, grid, labels);
     match(clusters, tracks_, scan.stamp, sensor_velocity, config_);
     const auto& keyframes = map.keyframes().kept();
@@ -102,31 +106,39 @@ std::vector<Cluster> Objects::describe(const Clusters& found, const PointVoxels&
         const bool dynamic = labels[i] == Label::dynamic;
         members[c].push_back(2 * std::uint64_t{voxels[i]} + (dynamic ? 1 : 0));
     }
-    std::vector<Cluster> clusters(found.count);
-    for (std::size_t c = 0; c < clusters.size(); ++c) {
-        // A voxel that lies in two clusters may be listed more than once.
-        std::sort(members[c].begin(), members[c].end());
-        members[c].erase(std::unique(members[c].begin(), members[c].end()), members[c].end());
-        Cluster& cluster = clusters[c];
-        cluster.voxels.reserve(members[c].size());
-        for (const std::uint64_t member : members[c]) {
-            const auto voxel = static_cast<std::uint32_t>(member / 2);
-            const bool dynamic = member % 2 != 0;
-            in_cluster_[voxel] = kNoCluster;
-            const Evidence& e = grid[voxel].evidence;
-            const bool filled = was_filled(e), refilled = e.since > e.first_owner;
-            cluster.dynamic += dynamic ? 1U : 0U;
-            cluster.came += dynamic || filled ? 1U : 0U;
-            if (filled || (dynamic && refilled)) cluster.filled.push_back(e.since);
-            cluster.voxels.push_back(voxel);
-            cluster.center += grid[voxel].centroid;
-            cluster.box.extend(grid[voxel].centroid);
-            const auto place = last_there_.find(block_of(grid, voxel));
-            if (place != last_there_.end()) ++cluster.shared[place->second.track];
-        }
-        cluster.center /= static_cast<float>(cluster.voxels.size());
+    for (const auto& of_cluster : members) {
+        for (const std::uint64_t member : of_cluster) in_cluster_[member / 2] = kNoCluster;
     }
+    std::vector<Cluster> clusters(found.count);
+    parallel_for(clusters.size(), 8, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = begin; c < end; ++c) clusters[c] = describe(members[c], grid);
+    });
     return clusters;
+}
+
+/// `members`: as in describe() of all. A voxel that lies in two clusters may be listed more than
+/// once.
+Cluster Objects::describe(std::vector<std::uint64_t>& members, const EvidenceGrid& grid) const {
+    std::sort(members.begin(), members.end());
+    members.erase(std::unique(members.begin(), members.end()), members.end());
+    Cluster cluster;
+    cluster.voxels.reserve(members.size());
+    for (const std::uint64_t member : members) {
+        const auto voxel = static_cast<std::uint32_t>(member / 2);
+        const bool dynamic = member % 2 != 0;
+        const Evidence& e = grid[voxel].evidence;
+        const bool filled = was_filled(e), refilled = e.since > e.first_owner;
+        cluster.dynamic += dynamic ? 1U : 0U;
+        cluster.came += dynamic || filled ? 1U : 0U;
+        if (filled || (dynamic && refilled)) cluster.filled.push_back(e.since);
+        cluster.voxels.push_back(voxel);
+        cluster.center += grid[voxel].centroid;
+        cluster.box.extend(grid[voxel].centroid);
+        const auto place = last_there_.find(block_of(grid, voxel));
+        if (place != last_there_.end()) ++cluster.shared[place->second.track];
+    }
+    cluster.center /= static_cast<float>(cluster.voxels.size());
+    return cluster;
 }
 
 /// If moving objects were last seen where the cluster is: the scan since when the first of them was

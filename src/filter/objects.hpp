@@ -46,9 +46,14 @@ class Objects {
 public:
     explicit Objects(const ScansConfig::Instances& config) : config_(config) {}
 
-    /// Uses the scan that was last added to the grid. `labels` are its instant verdicts; points of
-    /// moving objects become dynamic there. Scans that follow sooner than `every` are skipped.
-    void update(const Scan& scan, const PointVoxels& voxels, EvidenceMap& map, Labels& labels);
+    /// The clusters of the scan that was last added to the grid; empty if it follows sooner than
+    /// `every`, because then it is skipped.
+    [[nodiscard]] std::optional<Clusters> clusters_in(const Scan& scan,
+                                                      const PointVoxels& voxels) const;
+    /// Follows the clusters of that scan. `labels` are its instant verdicts; points of moving
+    /// objects become dynamic there.
+    void update(const Scan& scan, const PointVoxels& voxels, const Clusters& clusters,
+                EvidenceMap& map, Labels& labels);
 
     /// Renumbers the voxels: only those with the old numbers `kept` remain, in that order.
     void keep(std::span<const std::uint32_t> kept);
@@ -56,6 +61,8 @@ public:
 private:
     [[nodiscard]] std::vector<Cluster> describe(const Clusters& clusters, const PointVoxels& voxels,
                                                 const EvidenceGrid& grid, const Labels& labels);
+    [[nodiscard]] Cluster describe(std::vector<std::uint64_t>& members,
+                                   const EvidenceGrid& grid) const;
     [[nodiscard]] std::optional<std::uint32_t> after_moving(const Cluster& cluster) const;
     void note_arrival(Track& track, const Cluster& cluster) const;
     [[nodiscard]] bool has_moved(const Track& track) const;

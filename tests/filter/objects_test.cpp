@@ -64,7 +64,8 @@ struct Followed {
         for (std::size_t i = 0; i < labels.size(); ++i) {
             if (sight.person[i] && person_is_dynamic) labels[i] = Label::dynamic;
         }
-        instances.update(sight.scan, voxels, map, labels);
+        const auto clusters = instances.clusters_in(sight.scan, voxels);
+        if (clusters) instances.update(sight.scan, voxels, *clusters, map, labels);
     }
     /// The least and the greatest share of scans in which voxels of the points moved.
     [[nodiscard]] std::pair<float, float> moved(const Glance& sight,
