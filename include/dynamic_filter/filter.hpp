@@ -90,9 +90,11 @@ struct StaticVoxel {
 struct VoxelHistory {
     std::optional<float> probability;  ///< 0..1 of being occupied; empty: unknown
     std::uint32_t n_own = 0;           ///< scans with a point in it
-    std::uint32_t n_occ = 0;           ///< keyframes that saw the voxel occupied
-    std::uint32_t n_free = 0;          ///< keyframes that saw through the voxel
-    std::uint32_t n_switch = 0;        ///< changes between occupied and free, in order of time
+    /// Keyframes that saw the voxel occupied. After 16 in a row that saw the same, every fourth is
+    /// asked and stands for four.
+    std::uint32_t n_occ = 0;
+    std::uint32_t n_free = 0;    ///< keyframes that saw through the voxel, likewise
+    std::uint32_t n_switch = 0;  ///< changes between occupied and free, in order of time
     /// The count n_free in units of sure observations; a weak observation counts an eighth.
     float free = 0.0F;
     /// Value of `free` expected of a static voxel with these counts, in units of sure observations.

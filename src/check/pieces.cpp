@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "check/scan_input.hpp"
+#include "dynamic_filter/parallel.hpp"
 #include "tracking/scan_sample.hpp"
 
 namespace dynamic_filter::io {
@@ -31,11 +32,14 @@ std::vector<std::size_t> first_scans(std::size_t scans, std::size_t most, std::s
 }
 
 std::vector<Piece> read_pieces(const Recording& recording, std::size_t most, std::size_t in_a_row) {
-    std::vector<Piece> pieces;
-    for (const std::size_t first : first_scans(recording.size(), most, in_a_row)) {
-        Piece piece = read_piece(recording, first, in_a_row);
-        if (piece.size() > 1) pieces.push_back(std::move(piece));
-    }
+    const std::vector<std::size_t> first = first_scans(recording.size(), most, in_a_row);
+    std::vector<Piece> pieces(first.size());
+    parallel_for(first.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+            pieces[k] = read_piece(recording, first[k], in_a_row);
+        }
+    });
+    std::erase_if(pieces, [](const Piece& piece) { return piece.size() < 2; });
     return pieces;
 }
 

@@ -105,6 +105,7 @@ void EvidenceGrid::own(std::span<const VoxelKey> keys, std::span<std::uint32_t> 
     voxels_.insert(keys, voxels);
     states_.resize(voxels_.size(), {.evidence = {.first_owner = scans_}});
     touched_.resize(voxels_.blocks());
+    sure_.resize(voxels_.blocks());
     for (const std::uint32_t voxel : voxels) __builtin_prefetch(&states_[voxel]);
     for (const std::uint32_t voxel : voxels) {
         touched_[voxels_.block_of_voxel(voxel)] = scans_;
@@ -182,6 +183,7 @@ std::vector<std::uint32_t> EvidenceGrid::keep_within(const Point& center, float 
         }
         states_.push_back(states[v]);
     }
+    sure_.assign(voxels_.blocks(), 0);
     neighbors_ = {};
     neighbors_.update(voxels_);
     return kept;

@@ -57,6 +57,17 @@ public:
         dynamic_filter::record(states_[voxel].evidence, {sight, 1, hit}, longest_run_);
     }
 
+    /// True if the voxel has been occupied for as many keyframes as count: then another one that
+    /// sees it occupied does not change its score.
+    [[nodiscard]] bool is_sure(std::uint32_t voxel) const {
+        const Evidence& e = states_[voxel].evidence;
+        return e.run >= longest_run_;
+    }
+    /// The voxels of a block that are known to be so, as in VoxelIndex::each_in_block(). It is the
+    /// caller who notes them; different blocks may be noted in several threads.
+    [[nodiscard]] std::uint64_t sure_in(std::uint32_t block) const { return sure_[block]; }
+    void set_sure_in(std::uint32_t block, std::uint64_t places) { sure_[block] = places; }
+
     /// See record_moved() in evidence.hpp.
     void record_moved(std::uint32_t voxel, unsigned scans) {
         dynamic_filter::record_moved(states_[voxel].evidence, scans);
@@ -109,6 +120,7 @@ private:
     VoxelIndex voxels_;
     VoxelNeighbors neighbors_;
     std::vector<std::uint32_t> touched_;  // per block: the newest scan with a point in it
+    std::vector<std::uint64_t> sure_;     // per block: see sure_in()
     std::vector<State> states_;           // per voxel
     std::uint32_t scans_ = 0;
 };

@@ -2,6 +2,7 @@
 #include "filter/evidence_map.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "dynamic_filter/parallel.hpp"
@@ -17,6 +18,18 @@ constexpr std::size_t kBlocksAtATime = 64;  // number of blocks that a thread ta
 /// not fit one of these. After so many scans in a row that fitted all, every eighth is enough.
 constexpr std::size_t kFitting = 8;
 constexpr std::size_t kTestedFirst = 2, kTestedLater = 8;
+
+/// Surely occupied voxels are asked in turn, one of so many by each keyframe. In every plane of a
+/// block, the voxels of a turn are as many as those of the others.
+constexpr unsigned kTurns = 4;
+constexpr std::array<std::uint64_t, kTurns> kInTurn = [] {
+    std::array<std::uint64_t, kTurns> places{};
+    for (unsigned place = 0; place < 64; ++place) {
+        const unsigned x = place >> 4U, y = place >> 2U & 3U, z = place & 3U;
+        places[(x + 2 * y + 3 * z) % kTurns] |= std::uint64_t{1} << place;
+    }
+    return places;
+}();
 
 Config with_one_keyframe(Config config) {
     config.scans.max_keyframes = 1;
@@ -57,8 +70,7 @@ void EvidenceMap::look_again(std::size_t drive, const Scan& scan) {
         again_.blocks = grid_.blocks_from(known);
     }
     if (!may_observe(scan) || !again_.keyframes.add(scan)) return;
-    observe(again_.keyframes.kept().back(), again_.blocks, false,
-            [&](std::uint32_t v) { return v >= known; });
+    observe(again_.keyframes, again_.blocks, false, [&](std::uint32_t v) { return v >= known; });
 }
 
 PointVoxels EvidenceMap::insert(const Scan& scan, StageTimes& times) {
@@ -96,21 +108,46 @@ struct EvidenceMap::Places {
     // For each block, the index of its first voxel below; then the end.
     std::vector<std::size_t> first;
     std::vector<std::uint32_t> voxels;
+    std::vector<std::uint64_t> in_block;  // for each voxel, the bit of its place in the block
     Points centroids;
+};
+
+/// Blocks, and a bit for each place in them that is meant; see VoxelIndex::each_in_block().
+struct EvidenceMap::BlockParts {
+    std::vector<std::uint32_t> blocks{};
+    std::vector<std::uint64_t> parts{};
+
+    void add(std::uint32_t block, std::uint64_t part) {
+        blocks.push_back(block);
+        parts.push_back(part);
+    }
 };
 
 /// The voxels of these blocks for which `wanted` is true.
 template <class Wanted>
 EvidenceMap::Places EvidenceMap::places_in(std::vector<std::uint32_t> blocks,
                                            const Wanted& wanted) const {
-    Places places{.blocks = std::move(blocks), .first = {0}, .voxels = {}, .centroids = {}};
+    BlockParts whole{.blocks = std::move(blocks)};
+    whole.parts.assign(whole.blocks.size(), ~std::uint64_t{0});
+    return places_in(std::move(whole), wanted);
+}
+
+template <class Wanted>
+EvidenceMap::Places EvidenceMap::places_in(BlockParts in, const Wanted& wanted) const {
+    Places places{.blocks = std::move(in.blocks),
+                  .first = {0},
+                  .voxels = {},
+                  .in_block = {},
+                  .centroids = {}};
     for (std::size_t b = 0; b < places.blocks.size(); ++b) {
         constexpr std::size_t kAhead = 4;
         if (b + kAhead < places.blocks.size()) {
             grid_.voxels().prefetch_block(places.blocks[b + kAhead]);
         }
-        grid_.voxels().each_in_block(places.blocks[b], [&](std::uint32_t v) {
-            if (wanted(v)) places.voxels.push_back(v);
+        grid_.voxels().each_in_block(places.blocks[b], in.parts[b], [&](std::uint32_t v, int at) {
+            if (!wanted(v)) return;
+            places.voxels.push_back(v);
+            places.in_block.push_back(std::uint64_t{1} << static_cast<unsigned>(at));
         });
         places.first.push_back(places.voxels.size());
     }
@@ -128,29 +165,58 @@ EvidenceMap::Places EvidenceMap::places_in(std::vector<std::uint32_t> blocks,
 
 /// The newest keyframe observes the voxels that were known before its scan.
 void EvidenceMap::check_known(std::span<const std::uint32_t> blocks) {
-    observe(keyframes_.kept().back(), blocks, true, [&](std::uint32_t v) { return v < known_; });
+    observe(keyframes_, blocks, true, [&](std::uint32_t v) { return v < known_; });
 }
 
-/// The keyframe observes the voxels of these blocks for which `wanted` is true.
+/// The newest of the keyframes observes the voxels of these blocks for which `wanted` is true. Of
+/// the surely occupied ones it asks those whose turn it is, and the others of a block only if one
+/// of these is seen free: then something has left.
 template <class Wanted>
-void EvidenceMap::observe(const Keyframe& keyframe, std::span<const std::uint32_t> blocks,
+void EvidenceMap::observe(const Keyframes& keyframes, std::span<const std::uint32_t> blocks,
                           bool newest, const Wanted& wanted) {
+    const Keyframe& keyframe = keyframes.kept().back();
+    const std::uint64_t turn = kInTurn[keyframes.total() % kTurns];
     parallel_for(blocks.size(), kBlocksAtATime, [&](std::size_t begin, std::size_t end) {
         const auto some = blocks.subspan(begin, end - begin);
-        std::vector<std::uint32_t> in_sight;
         const float slack = newest ? moved_by_ : 0.0F;
+        BlockParts in_sight;
         for (const std::size_t b : blocks_in_sight(some, keyframe, kNotMoved, slack)) {
-            in_sight.push_back(some[b]);
+            in_sight.add(some[b], ~grid_.sure_in(some[b]) | turn);
         }
-        Places places = places_in(std::move(in_sight), wanted);
-        if (newest) move_to_newest(places);
-        const std::vector<Sight> sights = look(keyframe, places.centroids);
-        for (std::size_t i = 0; i < sights.size(); ++i) {
+        const auto ask = [&](BlockParts parts) {
+            Places places = places_in(std::move(parts), wanted);
+            if (newest) move_to_newest(places);
+            return record(places, look(keyframe, places.centroids), newest);
+        };
+        BlockParts left = ask(std::move(in_sight));
+        for (std::uint64_t& part : left.parts) part &= ~turn;
+        ask(std::move(left));
+    });
+}
+
+/// Records what the places are seen as. Returns the blocks in which a surely occupied voxel is seen
+/// free, and the voxels that were surely occupied there.
+EvidenceMap::BlockParts EvidenceMap::record(const Places& places, const std::vector<Sight>& sights,
+                                            bool newest) {
+    BlockParts changed;
+    for (std::size_t b = 0; b < places.blocks.size(); ++b) {
+        const std::uint64_t before = grid_.sure_in(places.blocks[b]);
+        std::uint64_t sure = before;
+        for (std::size_t i = places.first[b]; i < places.first[b + 1]; ++i) {
             if (sights[i] == Sight::unknown) continue;
             const std::uint32_t v = places.voxels[i];
-            if (grid_.record(v, sights[i], 1, newest)) grid_.update_score(v);
+            const bool was_free = grid_[v].evidence.last == Sight::free;
+            const bool changes = is_free(sights[i]) != was_free;
+            const bool stands_for_all = (before & places.in_block[i]) != 0 && !changes;
+            if (grid_.record(v, sights[i], stands_for_all ? kTurns : 1, newest)) {
+                grid_.update_score(v);
+            }
+            sure = grid_.is_sure(v) ? sure | places.in_block[i] : sure & ~places.in_block[i];
         }
-    });
+        grid_.set_sure_in(places.blocks[b], sure);
+        if ((before & ~sure) != 0) changed.add(places.blocks[b], before);
+    }
+    return changed;
 }
 
 /// The earlier keyframes, oldest first, observe the voxels that the newest scan has added. Each

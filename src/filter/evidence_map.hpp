@@ -86,12 +86,16 @@ public:
 
 private:
     struct Places;
+    struct BlockParts;
     template <class Wanted>
     [[nodiscard]] Places places_in(std::vector<std::uint32_t> blocks, const Wanted& wanted) const;
+    template <class Wanted>
+    [[nodiscard]] Places places_in(BlockParts parts, const Wanted& wanted) const;
     void check_known(std::span<const std::uint32_t> blocks);
     template <class Wanted>
-    void observe(const Keyframe& keyframe, std::span<const std::uint32_t> blocks, bool newest,
+    void observe(const Keyframes& keyframes, std::span<const std::uint32_t> blocks, bool newest,
                  const Wanted& wanted);
+    BlockParts record(const Places& places, const std::vector<Sight>& sights, bool newest);
     void check_new();
     void align(const Scan& scan);
     void move_to_newest(Places& places) const;

@@ -10,7 +10,7 @@ namespace dynamic_filter {
 /// In the map of a DynamicFilter: its place in the index and its evidence.
 inline constexpr std::size_t kVoxelBytes = 92;
 /// In addition after finish(): its decision.
-inline constexpr std::size_t kDecidedVoxelBytes = 28;
+inline constexpr std::size_t kDecidedVoxelBytes = 8;
 /// In the map of an OnlineFilter, with the reserve of its containers while it grows. So
 /// OnlineOptions::max_bytes is counted.
 inline constexpr std::size_t kOnlineVoxelBytes = 172;

@@ -11,6 +11,7 @@
 #include "filter/keyframe.hpp"
 #include "filter/vote.hpp"
 #include "support/filled_map.hpp"
+#include "support/rings.hpp"
 
 namespace dynamic_filter {
 namespace evidence_map_test {
@@ -172,6 +173,7 @@ TEST(EvidenceMap, NamesTheKeyframesThatSawThroughAVoxel) {
 TEST(EvidenceMap, AsksUpTo64KeyframesAndThenEverySecond) {
     Config config = every_scan();
     config.scans.observers.images_asked = 1000.0;  // all keyframes observe a new voxel
+    config.scans.evidence.longest_run = 255;       // and none stands for others
     for (const std::size_t count : {64U, 65U}) {
         const EvidenceMap map = filled(drive(count, true), config);
         std::vector<std::uint32_t> all(map.grid().size());
@@ -189,6 +191,48 @@ TEST(EvidenceMap, AsksUpTo64KeyframesAndThenEverySecond) {
             EXPECT_LT(named, counted * 6 / 10);
         }
     }
+}
+
+/// A board 5 m in front of the sensor hides what is behind it.
+Points behind_a_board(Points points) {
+    for (Point& p : points) {
+        const Point at = 5.0F / p.x() * p;
+        if (p.x() > 5.0F && std::abs(at.y()) < 1.5F && at.z() > -1.4F && at.z() < 1.0F) p = at;
+    }
+    return points;
+}
+
+/// Scans of a street with such a board in it, and then one without it.
+EvidenceMap board_that_left(int longest_run) {
+    Config config = every_scan();
+    config.scans.evidence.longest_run = longest_run;
+    std::vector<test::RoomScan> scans(25);
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+        Points points = io::scan_of(64, static_cast<unsigned>(i));
+        if (i + 1 < scans.size()) points = behind_a_board(std::move(points));
+        scans[i].scan = {std::move(points), Pose::Identity(), 0.3 * static_cast<double>(i), i};
+    }
+    return filled(scans, config);
+}
+
+TEST(EvidenceMap, WhatIsSurelyOccupiedIsAskedInTurnAndAllOfItOnceSomethingLeft) {
+    const EvidenceMap all = board_that_left(255), in_turn = board_that_left(16);
+    ASSERT_EQ(all.grid().size(), in_turn.grid().size());
+    double occupied = 0.0, estimated = 0.0;
+    std::size_t left = 0, noticed = 0, only_noticed = 0;
+    for (std::uint32_t v = 0; v < all.grid().size(); ++v) {
+        const Evidence &e = all.grid()[v].evidence, &f = in_turn.grid()[v].evidence;
+        occupied += e.n_occ;
+        estimated += f.n_occ;
+        if (e.n_occ < 20) continue;
+        left += e.n_free > 0 ? 1 : 0;
+        noticed += e.n_free > 0 && f.n_free > 0 ? 1 : 0;
+        only_noticed += e.n_free == 0 && f.n_free > 0 ? 1 : 0;
+    }
+    EXPECT_GT(left, 100U);
+    EXPECT_GE(static_cast<double>(noticed), 0.98 * static_cast<double>(left));
+    EXPECT_EQ(only_noticed, 0U);
+    EXPECT_NEAR(estimated / occupied, 1.0, 0.02);
 }
 
 TEST(EvidenceMap, WithinFindsWhatLiesNear) {
