@@ -4,9 +4,9 @@
 ///
 /// It does in the plainest way, with one thread, what a run cannot do without: it reads the scans,
 /// transforms their points, and writes the labels of RESULT and both maps ("read", "transform",
-/// "write"). Then the least that a filter does: it finds the voxel of each point ("voxels"), makes a
-/// range image of each scan ("image"), and compares every known voxel within reach with the image of
-/// every scan ("questions"). Prints the CPU time of each part in ms a scan as JSON.
+/// "write"). Then the least that a filter does: it finds the voxel of each point ("voxels"), makes
+/// a range image of each scan ("image"), and compares every known voxel within reach with the image
+/// of every scan ("questions"). Prints the CPU time of each part in ms a scan as JSON.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -176,10 +176,10 @@ int main(int argc, char** argv) {
         points += in_sensor.size();
     }
     const auto per_scan = [&](double value) { return value / static_cast<double>(scans.size()); };
-    std::string json = fmt::format(
-        "{{\"points\": {:.0f}, \"asked\": {:.0f}, \"free\": {:.0f}",
-        per_scan(static_cast<double>(points)), per_scan(static_cast<double>(asked)),
-        per_scan(static_cast<double>(free)));
+    std::string json =
+        fmt::format("{{\"points\": {:.0f}, \"asked\": {:.0f}, \"free\": {:.0f}",
+                    per_scan(static_cast<double>(points)), per_scan(static_cast<double>(asked)),
+                    per_scan(static_cast<double>(free)));
     for (const auto& [part, ms] : clock.times) {
         json += fmt::format(", \"{}\": {:.3f}", part, per_scan(ms));
     }

@@ -90,8 +90,6 @@ void Caster::place(const std::vector<Placement>& placements) {
 
 Hit Caster::cast(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
                  float reach) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
     RTCRayHit query{};
     query.ray.org_x = origin.x();
     query.ray.org_y = origin.y();
@@ -103,7 +101,13 @@ Hit Caster::cast(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction
     query.ray.mask = std::numeric_limits<unsigned>::max();
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+#if RTC_VERSION_MAJOR < 4
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
     rtcIntersect1(scene_, &context, &query);
+#else
+    rtcIntersect1(scene_, &query);
+#endif
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
 
     Hit hit{.range = query.ray.tfar, .found = true};

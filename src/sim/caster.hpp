@@ -3,7 +3,11 @@
 /// (Embree: Wald et al., ACM Trans. Graphics 2014).
 #pragma once
 
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
 #include <embree3/rtcore.h>
+#endif
 
 #include <Eigen/Geometry>
 #include <vector>
