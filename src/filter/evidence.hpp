@@ -29,7 +29,7 @@ struct Evidence {
     std::uint16_t passes = 0;
     std::uint16_t n_flicker = 0;       ///< changes between hits and passes
     std::uint16_t moved = 0;           ///< scans in which its points belonged to a moving object
-    std::uint8_t run = 0;              ///< counted keyframes of the present occupied run
+    std::uint8_t run = 0;              ///< counted keyframes of the present run, occupied or free
     Sight last = Sight::unknown;       ///< latest observation: occupied or free
     Sight last_near = Sight::unknown;  ///< latest hit (occupied) or pass (free)
     bool seen_empty = false;           ///< true if it was surely free since its latest point

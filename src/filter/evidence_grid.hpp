@@ -57,14 +57,13 @@ public:
         dynamic_filter::record(states_[voxel].evidence, {sight, 1, hit}, longest_run_);
     }
 
-    /// True if the voxel has been occupied for as many keyframes as count: then another one that
-    /// sees it occupied does not change its score.
+    /// True if as many keyframes in a row as count saw the same, occupied or free: another one that
+    /// sees the voxel occupied again does not change its score.
     [[nodiscard]] bool is_sure(std::uint32_t voxel) const {
-        const Evidence& e = states_[voxel].evidence;
-        return e.run >= longest_run_;
+        return states_[voxel].evidence.run >= longest_run_;
     }
-    /// The voxels of a block that are known to be so, as in VoxelIndex::each_in_block(). It is the
-    /// caller who notes them; different blocks may be noted in several threads.
+    /// The voxels of a block that are noted as sure, as in VoxelIndex::each_in_block(). The caller
+    /// notes them; different blocks may be noted in several threads.
     [[nodiscard]] std::uint64_t sure_in(std::uint32_t block) const { return sure_[block]; }
     void set_sure_in(std::uint32_t block, std::uint64_t places) { sure_[block] = places; }
 

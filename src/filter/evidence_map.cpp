@@ -19,8 +19,8 @@ constexpr std::size_t kBlocksAtATime = 64;  // number of blocks that a thread ta
 constexpr std::size_t kFitting = 8;
 constexpr std::size_t kTestedFirst = 2, kTestedLater = 8;
 
-/// Surely occupied voxels are asked in turn, one of so many by each keyframe. In every plane of a
-/// block, the voxels of a turn are as many as those of the others.
+/// Sure voxels are asked in turn, one of so many by each keyframe. In every plane of a block, the
+/// voxels of a turn are as many as those of the others.
 constexpr unsigned kTurns = 4;
 constexpr std::array<std::uint64_t, kTurns> kInTurn = [] {
     std::array<std::uint64_t, kTurns> places{};
@@ -169,8 +169,8 @@ void EvidenceMap::check_known(std::span<const std::uint32_t> blocks) {
 }
 
 /// The newest of the keyframes observes the voxels of these blocks for which `wanted` is true. Of
-/// the surely occupied ones it asks those whose turn it is, and the others of a block only if one
-/// of these is seen free: then something has left.
+/// the sure ones it asks those whose turn it is, and the others of a block only if one of these is
+/// no longer what it was: then something has come or left.
 template <class Wanted>
 void EvidenceMap::observe(const Keyframes& keyframes, std::span<const std::uint32_t> blocks,
                           bool newest, const Wanted& wanted) {
@@ -194,8 +194,8 @@ void EvidenceMap::observe(const Keyframes& keyframes, std::span<const std::uint3
     });
 }
 
-/// Records what the places are seen as. Returns the blocks in which a surely occupied voxel is seen
-/// free, and the voxels that were surely occupied there.
+/// Records what the places are seen as. Returns the blocks in which a sure voxel is no longer what
+/// it was, and all voxels that were sure there.
 EvidenceMap::BlockParts EvidenceMap::record(const Places& places, const std::vector<Sight>& sights,
                                             bool newest) {
     BlockParts changed;

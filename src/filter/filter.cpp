@@ -60,6 +60,7 @@ struct DynamicFilter::Impl {
         contact.height = std::max(contact.height, static_cast<double>(map.disagreement()));
         return contact;
     }
+
     Config config;
     MapFrame frame;
     Eigen::Index axis = 2;  // see beam_axis(), of the first scan
