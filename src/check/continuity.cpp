@@ -12,6 +12,7 @@
 #include "check/samples.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/parallel.hpp"
+#include "tracking/upright.hpp"
 
 namespace dynamic_filter::io {
 namespace {
@@ -47,7 +48,7 @@ ScanGist gist_of(const Points& points, const Pose& T_world_sensor) {
         ++gist.points;
         if (i % stride == 0) some.push_back(points[i]);
     }
-    gist.upright = upright(some);
+    gist.upright = upright_points(some);
     return gist;
 }
 

@@ -16,6 +16,7 @@
 #include "formats/clouds/time_field.hpp"
 #include "geometry/voxel.hpp"
 #include "recording/recording_parts.hpp"
+#include "tracking/upright.hpp"
 
 namespace dynamic_filter::io {
 namespace {
@@ -110,7 +111,7 @@ double step_of(const Cloud& cloud) {
 
 Sample sample_of(const Recording& recording, const FullScan& scan) {
     const Point said = scan.T_world_sensor.translation().cast<float>();
-    return {upright(scan.points),
+    return {upright_points(scan.points),
             scan.T_world_sensor,
             scan.T_world_sensor,
             share_of_doubles(as_measured(recording, scan)),
@@ -130,37 +131,6 @@ float typical_range(const Points& points) {
         if (is_measured(p)) ranges.push_back(p.norm());
     }
     return median(std::move(ranges));
-}
-
-Points upright(const Points& points) {
-    constexpr float kColumn = 0.6F, kTall = 0.5F;  // [m]
-    constexpr int kReach = static_cast<int>(kFarthest / kColumn) + 1, kSide = 2 * kReach;
-    struct Extent {
-        float low = std::numeric_limits<float>::infinity(),
-              high = -std::numeric_limits<float>::infinity();
-    };
-    std::vector<Extent> columns(std::size_t{kSide} * kSide);
-    struct Near {
-        std::uint32_t point, column;
-    };
-    std::vector<Near> near;
-    for (std::uint32_t i = 0; i < points.size(); ++i) {
-        const Point& p = points[i];
-        if (!is_measured(p) || !(p.norm() > kNearest && p.norm() < kFarthest)) continue;
-        const auto cell = cell_of({p.x(), p.y(), 0.0F}, 1.0F / kColumn);
-        if (!cell) continue;
-        near.push_back(
-            {i, static_cast<std::uint32_t>((cell->x() + kReach) * kSide + cell->y() + kReach)});
-        Extent& e = columns[near.back().column];
-        e = {std::min(e.low, p.z()), std::max(e.high, p.z())};
-    }
-    Points kept;
-    for (const auto& [i, column] : near) {
-        const Extent& e = columns[column];
-        const float height = points[i].z();
-        if (e.high - e.low > kTall && height > e.low + 0.5F * kTall) kept.push_back(points[i]);
-    }
-    return kept;
 }
 
 std::vector<Pair> choose_pairs(std::size_t scans, std::size_t places) {

@@ -13,15 +13,11 @@
 
 namespace dynamic_filter::io {
 
-/// Points of upright structures within 30 m. The ground is left out, because its rings look the
-/// same from everywhere, as if the sensor had not moved.
-Points upright(const Points& points);
-
 /// [m] Median distance of the points from the sensor; 0 if none is measured.
 float typical_range(const Points& points);
 
 struct Sample {
-    Points upright;  ///< sensor frame; upright structures within 30 m
+    Points upright;  ///< sensor frame; see upright_points()
     Pose T_world_sensor = Pose::Identity();
     Pose T_world_chained = Pose::Identity();  ///< if poses are motions from scan to scan
     /// Share of pairs of points in nearly the same direction that have different ranges; 0 if there

@@ -265,6 +265,8 @@ VoxelDecisions decide_voxels(const EvidenceGrid& grid, const Config& config) {
     std::iota(all.begin(), all.end(), 0U);
     const auto occupancy = occupancy_of(grid, all, config.scans);
     VoxelDecisions decided;
+    decided.voxels.reserve(all.size());
+    decided.probability.reserve(all.size());
     for (const std::optional<float>& probability : occupancy) {
         decided.voxels.push_back({label_of(probability, config.map.occupancy_threshold)});
         decided.probability.push_back(probability.value_or(0.0F));

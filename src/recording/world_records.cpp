@@ -32,7 +32,11 @@ std::vector<Copied> copied_bytes(const io::Cloud& cloud, const io::Cloud& layout
         const Copied next{in.offset, out.offset, out.count * io::size_of(out.type)};
         const bool goes_on = !all.empty() && all.back().from + all.back().bytes == next.from &&
                              all.back().to + all.back().bytes == next.to;
-        goes_on ? all.back().bytes += next.bytes : (all.push_back(next), 0U);
+        if (goes_on) {
+            all.back().bytes += next.bytes;
+        } else {
+            all.push_back(next);
+        }
     }
     return all;
 }

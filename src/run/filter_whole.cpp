@@ -237,8 +237,6 @@ io::PosesFrom poses_from(const Whole& whole) {
     return whole.job.config.odometry.refine ? io::PosesFrom::refined : io::PosesFrom::found;
 }
 
-bool has_page(const Whole& whole) { return whole.o.report && !viewer_page().empty(); }
-
 /// Second reading: final verdicts, label files, maps, and what the page shows.
 void write_results(Whole& whole) {
     const std::vector<std::size_t> scans = accepted_scans(whole);
@@ -251,7 +249,9 @@ void write_results(Whole& whole) {
         return whole.maps.verdict({scan.points, scan.T_world_sensor, scan.stamp, i});
     };
     const auto places_of = [&](const Scan& scan) { return whole.maps.places_of(scan); };
-    if (has_page(whole)) whole.shown.emplace(scans, whole.recording.size(), places_of);
+    if (whole.o.report && !viewer_page().empty()) {
+        whole.shown.emplace(scans, whole.recording.size(), places_of);
+    }
     std::vector<SeenScan> seen(whole.recording.size());
     const auto look = [&](std::size_t i, const io::FullScan& scan, const Labels& labels) {
         seen[i] = see(whole, i, scan, labels);
@@ -368,13 +368,14 @@ void describe(PageRun& run, const Whole& whole) {
 
 /// The page that explains the result.
 void write_page(Whole& whole, const Json& metrics) {
-    if (whole.o.report && viewer_page().empty()) {
+    if (!whole.o.report) return;
+    if (!whole.shown) {
         whole.summary.remarks.push_back(
             {RemarkKind::note,
              "no report.html: this command was built without the viewer; run script/bootstrap and "
              "script/build"});
+        return;
     }
-    if (!whole.shown) return;
     const Maps& maps = whole.maps;
     PageRun run = view_of({.recording = whole.recording,
                            .scans = whole.scan_notes,

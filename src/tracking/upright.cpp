@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "tracking/upright.hpp"
 
-#include <tsl/robin_map.h>
 #include <tsl/robin_set.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
+#include <vector>
 
 #include "dynamic_filter/motion.hpp"
 #include "geometry/beam_axis.hpp"
@@ -60,26 +61,33 @@ Eigen::Matrix3d upright_rotation(const Points& points) {
 Points upright_points(const Points& points) {
     constexpr float kNearest = 2.0F, kFarthest = 30.0F;  // [m]
     constexpr float kColumn = 0.6F, kUpright = 0.5F;     // [m]
+    constexpr int kReach = static_cast<int>(kFarthest / kColumn) + 1, kSide = 2 * kReach;
     struct Extent {
-        float low, high;
+        float low = std::numeric_limits<float>::infinity(),
+              high = -std::numeric_limits<float>::infinity();
     };
-    tsl::robin_map<VoxelKey, Extent, VoxelHash> columns;
-    const auto column = [&](const Point& p) {
-        const bool usable = is_measured(p) && p.norm() > kNearest && p.norm() < kFarthest;
-        return usable ? column_of(p, kColumn) : std::nullopt;
+    std::vector<Extent> columns(std::size_t{kSide} * kSide);
+    struct Near {
+        std::uint32_t point, column;
     };
-    for (const Point& p : points) {
-        if (const auto key = column(p)) {
-            Extent& e = columns.try_emplace(*key, Extent{p.z(), p.z()}).first.value();
-            e = {std::min(e.low, p.z()), std::max(e.high, p.z())};
-        }
+    std::vector<Near> near;
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+        const Point& p = points[i];
+        if (!is_measured(p) || !(p.norm() > kNearest && p.norm() < kFarthest)) continue;
+        const auto cell = cell_of({p.x(), p.y(), 0.0F}, 1.0F / kColumn);
+        if (!cell) continue;
+        near.push_back(
+            {i, static_cast<std::uint32_t>((cell->x() + kReach) * kSide + cell->y() + kReach)});
+        Extent& e = columns[near.back().column];
+        e = {std::min(e.low, p.z()), std::max(e.high, p.z())};
     }
     Points kept;
-    for (const Point& p : points) {
-        const auto key = column(p);
-        if (!key) continue;
-        const Extent& e = columns.at(*key);
-        if (e.high - e.low > kUpright && p.z() > e.low + 0.5F * kUpright) kept.push_back(p);
+    for (const auto& [i, column] : near) {
+        const Extent& e = columns[column];
+        const float height = points[i].z();
+        if (e.high - e.low > kUpright && height > e.low + 0.5F * kUpright) {
+            kept.push_back(points[i]);
+        }
     }
     return kept;
 }

@@ -65,7 +65,6 @@ protected:
         }
         folder_.put("poses.txt", text);
         folder_.put("times.txt", times);
-        std::filesystem::create_directories(folder_ / "labels_out");
         recording_ = io::open_recording(folder_.path());
         for (std::size_t i = 0; i < recording_.size(); ++i) {
             io::FullScan full = recording_.read(i);
@@ -74,11 +73,9 @@ protected:
         filter_.finish();
         for (std::size_t i = 0; i < recording_.size(); ++i) {
             const io::FullScan full = recording_.read(i);
-            const Labels labels =
-                filter_.verdict({full.points, full.T_world_sensor, full.stamp, i}).labels;
-            io::write_labels(folder_ / ("labels_out/" + io::stem(recording_, i) + ".label"),
-                             labels);
-            ScanNote note = note_of(labels, instant_.get(i), {});
+            labels_.push_back(
+                filter_.verdict({full.points, full.T_world_sensor, full.stamp, i}).labels);
+            ScanNote note = note_of(labels_[i], instant_.get(i), {});
             note.index = i;
             note.position = full.T_world_sensor.translation();
             notes_.push_back(note);
@@ -90,9 +87,7 @@ protected:
         ShownScans shown(all, recording_.size(),
                          [this](const Scan& scan) { return filter_.places_of(scan); });
         for (const std::size_t i : all) {
-            const Labels labels =
-                io::read_labels(folder_ / ("labels_out/" + io::stem(recording_, i) + ".label"));
-            shown.add(i, shown.draw(i, recording_.read(i), labels, instant_.get(i), {}));
+            shown.add(i, shown.draw(i, recording_.read(i), labels_[i], instant_.get(i), {}));
         }
         return {.recording = recording_,
                 .scans = notes_,
@@ -110,6 +105,7 @@ protected:
                          {.instant = [this](const Verdict& v) { instant_.put(v.index, v.labels); },
                           .settled = {},
                           .notice = {}}};
+    std::vector<Labels> labels_;  // final, by scan
     std::vector<ScanNote> notes_;
 };
 
@@ -127,8 +123,7 @@ TEST_F(RunView, HoldsEveryPointWhereThereIsRoom) {
     const double step = run.info["step"];
     for (std::size_t s = 0; s < scans_.size(); ++s) {
         const Scan& scan = scans_[s].scan;
-        const Labels labels =
-            io::read_labels(folder_ / ("labels_out/" + io::stem(recording_, s) + ".label"));
+        const Labels& labels = labels_[s];
         for (std::size_t i = 0; i < scan.points.size(); ++i) {
             const Eigen::Vector3d world = scan.T_world_sensor * scan.points[i].cast<double>();
             for (std::size_t axis = 0; axis < 3; ++axis) {
