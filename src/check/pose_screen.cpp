@@ -18,11 +18,14 @@ namespace {
 
 constexpr std::size_t kPlacesToScreen = 5;
 constexpr std::array<std::size_t, 4> kScreened = {0, 7, 14, 20};  // of the scans in a row
-constexpr double kStays = 0.03;           // [m] by which registration may move a scan
-constexpr double kSameDirection = 0.002;  // [rad]
-constexpr double kMapped = 0.3;           // least share of the points where there are surfaces
-constexpr double kMostLie = 0.75;         // least share of these that lie on the surfaces
-constexpr double kReach = 0.5;            // [m]
+constexpr double kMapped = 0.3;   // least share of the points where there are surfaces
+constexpr double kMostLie = 0.7;  // least share of these that lie on the surfaces
+constexpr double kReach = 0.5;    // [m]
+// Registration may move a scan by this much [m], [rad]; or, among people, whose surfaces move as
+// well, by more, if the points hardly lie better afterwards.
+constexpr double kStays = 0.03, kStaysAtMost = 0.1;
+constexpr double kTurns = 0.002, kTurnsAtMost = 0.02;
+constexpr double kAsSharp = 1.015;  // blur of the points where they are, by that afterwards
 
 /// A scan, and how the sensor moved during it.
 struct Screened {
@@ -49,6 +52,15 @@ std::vector<Screened> read_place(const Recording& recording, std::size_t first) 
     return scans;
 }
 
+/// True if the points lie on the map as well as at the pose that registration leads to.
+bool stays(const SurfaceMap& map, const Points& points, const Pose& given, const Pose& found) {
+    const Twist off = log(given.inverse() * found);
+    const double shift = off.head<3>().norm(), turn = off.tail<3>().norm();
+    if (shift < kStays && turn < kTurns) return true;
+    if (shift > kStaysAtMost || turn > kTurnsAtMost) return false;
+    return blur_on_map(map, points, given) < kAsSharp * blur_on_map(map, points, found);
+}
+
 /// True if the scans lie on each other where they are.
 bool scans_stay(const std::vector<Screened>& scans, const OdometryConfig& config) {
     SurfaceMap map(config.voxel);
@@ -59,11 +71,8 @@ bool scans_stay(const std::vector<Screened>& scans, const OdometryConfig& config
         if (!map.empty()) {
             const Points few = sample_for_registration(sample, config).at_stamp(velocity);
             const Registration found = register_points(map, few, given, {}, kReach);
-            const Twist off = log(given.inverse() * found.T_map_sensor);
-            const bool stays =
-                off.head<3>().norm() < kStays && off.tail<3>().norm() < kSameDirection;
             const bool lie = found.mapped > kMapped && found.inliers > kMostLie * found.mapped;
-            if (!stays || !lie) return false;
+            if (!lie || !stays(map, few, given, found.T_map_sensor)) return false;
         }
         map.insert(moved(sample.at_stamp(velocity), given));
     }

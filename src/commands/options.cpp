@@ -274,6 +274,11 @@ void Command::action(std::function<int()> work) {
     app_->callback([work = std::move(work), chosen = chosen_] { *chosen = work; });
 }
 
+void Command::left_out(const std::string& why) {
+    app_->allow_extras();
+    action([why]() -> int { throw ConfigError(why); });
+}
+
 Program::Program(const char* name, const char* what)
     : app_(std::make_unique<CLI::App>(what, name)) {
     app_->set_version_flag("--version", DYNAMIC_FILTER_VERSION);

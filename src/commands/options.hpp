@@ -73,6 +73,8 @@ public:
 
     /// Does the command; returns the exit code.
     void action(std::function<int()> work);
+    /// The program has not got the command: whatever its options are, ConfigError says why.
+    void left_out(const std::string& why);
 
 private:
     template <class T>

@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "sim/caster.hpp"
 
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
 #include <cmath>
 #include <cstring>
 #include <limits>

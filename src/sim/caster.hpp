@@ -3,16 +3,13 @@
 /// (Embree: Wald et al., ACM Trans. Graphics 2014).
 #pragma once
 
-#if __has_include(<embree4/rtcore.h>)
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
-
 #include <Eigen/Geometry>
 #include <vector>
 
 #include "sim/mesh.hpp"
+
+struct RTCDeviceTy;  // Embree's; its header is included by caster.cpp alone
+struct RTCSceneTy;
 
 namespace dynamic_filter::sim {
 
@@ -67,10 +64,10 @@ private:
     std::vector<Kind> kinds_;  // one per part
     // One per part: inverse transpose of its linear map.
     std::vector<Eigen::Matrix3f> normal_to_world_;
-    RTCDevice device_ = nullptr;
-    RTCScene scene_ = nullptr;
-    RTCScene still_scene_ = nullptr;
-    std::vector<RTCScene> prototype_scenes_;
+    RTCDeviceTy* device_ = nullptr;
+    RTCSceneTy* scene_ = nullptr;
+    RTCSceneTy* still_scene_ = nullptr;
+    std::vector<RTCSceneTy*> prototype_scenes_;
 };
 
 }  // namespace dynamic_filter::sim

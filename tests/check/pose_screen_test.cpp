@@ -21,6 +21,36 @@ TEST_F(PoseScreen, TruePosesAreExact) {
     EXPECT_TRUE(poses_are_exact(open(), {}));
 }
 
+/// A hall full of people, with 16 beams; the poses are exact, or have noise of 3 cm.
+test::Drive crowd(double noise) {
+    sim::SimulationOptions options;
+    options.scene = "crowd";
+    options.pedestrians = 150;
+    options.seed = 37;
+    options.rate_hz = 2.5;
+    options.pose_noise_m = noise;
+    sim::Simulation simulation(options);
+    test::Drive drive;
+    for (std::size_t i = 0; i < kStreetScans; ++i) {
+        sim::SimulatedScan s = simulation.scan(i);
+        drive.truth.push_back(s.T_world_sensor);
+        drive.scans.push_back({std::move(s.points), Pose::Identity(), s.stamp, i, false});
+    }
+    return drive;
+}
+
+TEST_F(PoseScreen, TruePosesAreExactAmongPeopleWhoMoveThemselves) {
+    const test::Drive drive = crowd(0.0);
+    put(drive, drive.truth);
+    EXPECT_TRUE(poses_are_exact(open(), {}));
+}
+
+TEST_F(PoseScreen, NoisyPosesAmongPeopleAreNot) {
+    const test::Drive drive = crowd(0.03);
+    put(drive, drive.truth);
+    EXPECT_FALSE(poses_are_exact(open(), {}));
+}
+
 TEST_F(PoseScreen, PosesThatDriftAreNot) {
     put(street(false), changed([](Pose& pose, double i) { pose.translation().y() += 0.01 * i; }));
     EXPECT_FALSE(poses_are_exact(open(), {}));

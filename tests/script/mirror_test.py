@@ -21,6 +21,7 @@ COVERED = {  # test -> the units that it covers
     "live/live_test.sh": "live/dry_run live/live commands/live",
     "live/session_test.cpp": "live/recorder",
     "online/online_filter_test.cpp": "online/scan_worker",
+    "package/left_out_test.sh": "commands/live_left_out sim/caster_left_out",
     "page/page_test.cpp": "page/viewer_page",
     "recording/bag_scans_test.cpp": "recording/bag_contents recording/pose_source",
     "recording/layout_test.cpp": "recording/layouts/beside recording/layouts/kitti",

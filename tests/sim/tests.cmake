@@ -1,1 +1,1 @@
-df_room(sim LIBRARIES dynamic_filter_sim embree)
+df_room(sim LIBRARIES dynamic_filter_sim)
