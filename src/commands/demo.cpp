@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <cerrno>  // program_invocation_name, of glibc: the command as it was typed
+
 #include "base/exit_code.hpp"
 #include "base/progress.hpp"
 #include "commands/all.hpp"
@@ -83,9 +85,9 @@ int demo(const DemoOptions& o) {
         "report   {0}/result/report.html (open it in a browser)\n"
         "maps     {0}/result/static_map.pcd and dynamic_points.pcd\n"
         "\nYour own recording, a bag or a folder with scans:\n"
-        "  build/release/dynamicfilter check YOUR_RECORDING\n"
-        "  build/release/dynamicfilter run YOUR_RECORDING -o out\n",
-        o.output.string());
+        "  {1} check YOUR_RECORDING\n"
+        "  {1} run YOUR_RECORDING -o out\n",
+        o.output.string(), program_invocation_name);
     return kDone;
 }
 

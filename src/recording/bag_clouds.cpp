@@ -197,7 +197,8 @@ void keep_wanted(BagClouds& clouds, const Frames& frames, const std::string& wan
 BagClouds choose_clouds(const Bag& bag, const BagContents& contents,
                         const std::filesystem::path& data, const std::string& wanted) {
     const auto at = contents.clouds.contains(wanted) ? std::string::npos : wanted.find('@');
-    const CloudTopic& topic = choose_topic(contents, data, wanted.substr(0, at));
+    const std::string name = wanted.substr(0, at);
+    const CloudTopic& topic = choose_topic(contents, data, name);
     BagClouds clouds{.topic = topic.topic, .scans = topic.scans};
     clouds.notes.push_back("scans from " + topic.topic.name);
     put_in_order(clouds);

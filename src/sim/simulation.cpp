@@ -31,14 +31,14 @@ std::vector<std::string> names(const std::vector<Entry>& table) {
 }
 
 template <typename Entry>
-const Entry& find(const std::vector<Entry>& table, const std::string& what,
-                  const std::string& name) {
+const Entry& find(const std::vector<Entry>& table, const char* what, const std::string& name) {
     const auto found =
         std::find_if(table.begin(), table.end(), [&](const Entry& e) { return e.name == name; });
     if (found != table.end()) return *found;
     std::string choices;
     for (const Entry& entry : table) choices += (choices.empty() ? "" : ", ") + entry.name;
-    throw ConfigError("unknown " + what + " \"" + name + "\": choose one of " + choices);
+    throw ConfigError(std::string("unknown ") + what + " \"" + name + "\": choose one of " +
+                      choices);
 }
 
 void check(const SimulationOptions& options) {

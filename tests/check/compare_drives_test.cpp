@@ -18,8 +18,9 @@ namespace compare_drives_test {
 constexpr double kDegree = 3.14159265358979 / 180.0;
 
 /// A simulated recording, made once for all tests.
-const std::filesystem::path& recording(const std::string& scene, const std::string& sensor) {
+const std::filesystem::path& recording(const char* scene_name, const char* sensor) {
     static const TemporaryFolder folder;
+    const std::string scene = scene_name;
     static std::map<std::string, std::filesystem::path> made;
     const std::string name = scene + "_" + sensor;
     const auto [it, fresh] = made.try_emplace(name, folder / name);

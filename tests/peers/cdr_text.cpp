@@ -13,6 +13,13 @@ namespace dynamic_filter::peers {
 namespace {
 
 using eprosima::fastcdr::Cdr;
+#if __has_include(<fastcdr/CdrEncoding.hpp>)  // from version 2 on
+constexpr auto kCdr = eprosima::fastcdr::CdrVersion::DDS_CDR;
+std::size_t position(const Cdr& cdr) { return cdr.get_serialized_data_length(); }
+#else
+constexpr auto kCdr = Cdr::DDS_CDR;
+std::size_t position(const Cdr& cdr) { return cdr.getSerializedDataLength(); }
+#endif
 
 /// Reads in the order of the definitions of ROS 2.
 class Reader {
@@ -20,7 +27,7 @@ public:
     explicit Reader(Bytes& message)
         : size_(message.size()),
           buffer_(reinterpret_cast<char*>(message.data()), message.size()),
-          cdr_(buffer_, Cdr::DEFAULT_ENDIAN, Cdr::DDS_CDR) {
+          cdr_(buffer_, Cdr::DEFAULT_ENDIAN, kCdr) {
         cdr_.read_encapsulation();
     }
 
@@ -45,7 +52,7 @@ public:
         for (auto left = number<std::uint32_t>(); left > 0; --left) element();
     }
     std::string finish() {
-        out_ << "left " << size_ - cdr_.getSerializedDataLength();
+        out_ << "left " << size_ - position(cdr_);
         return out_.str();
     }
 

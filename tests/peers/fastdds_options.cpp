@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "peers/fastdds_options.hpp"
 
-#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
-#include <fastdds/rtps/transport/test_UDPv4TransportDescriptor.h>
-
 #include <stdexcept>
+
+#include "peers/fastdds_version.hpp"
 
 namespace dynamic_filter::peers {
 
@@ -12,8 +11,6 @@ namespace dds = eprosima::fastdds::dds;
 namespace rtps = eprosima::fastdds::rtps;
 
 namespace {
-
-using Duration = eprosima::fastrtps::Duration_t;
 
 Duration duration(double seconds) { return Duration(static_cast<long double>(seconds)); }
 
@@ -98,8 +95,7 @@ dds::DataWriterQos Options::writer() const {
     set_qos(*this, qos);
     // As ROS 2 does, whose messages have no limit; a writer that keeps all waits for its readers.
     qos.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;
-    qos.endpoint().history_memory_policy =
-        eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+    qos.endpoint().history_memory_policy = kGrowing;
     constexpr double kPatience = 20;
     qos.reliability().max_blocking_time = duration(kPatience);
     if (number("xcdr2", 0) != 0) {
@@ -111,8 +107,7 @@ dds::DataWriterQos Options::writer() const {
 dds::DataReaderQos Options::reader() const {
     dds::DataReaderQos qos = dds::DATAREADER_QOS_DEFAULT;
     set_qos(*this, qos);
-    qos.endpoint().history_memory_policy =
-        eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+    qos.endpoint().history_memory_policy = kGrowing;
     return qos;
 }
 

@@ -33,7 +33,6 @@ namespace dynamic_filter::peers {
 namespace {
 
 namespace dds = eprosima::fastdds::dds;
-using eprosima::fastrtps::types::ReturnCode_t;
 
 void say(const std::string& line) {
     std::printf("%s\n", line.c_str());
@@ -73,7 +72,7 @@ public:
     void on_data_available(dds::DataReader* reader) override {
         Bytes message;
         dds::SampleInfo info;
-        while (reader->take_next_sample(&message, &info) == ReturnCode_t::RETCODE_OK) {
+        while (reader->take_next_sample(&message, &info) == kTaken) {
             if (info.valid_data)
                 say("got " + (type_.empty() ? size_and_hash(message) : decoded(message)));
         }

@@ -47,11 +47,17 @@ foreach(encoding ros1 cdr)
 endforeach()
 # Another implementation of DDS, for the tests of the live filter.
 find_package(fastcdr REQUIRED)
-find_package(fastrtps REQUIRED)
+find_package(fastdds QUIET)  # from version 3 on
+if(fastdds_FOUND)
+  set(fastdds fastdds)
+else()
+  find_package(fastrtps REQUIRED)
+  set(fastdds fastrtps)
+endif()
 add_executable(fastdds_peer ${CMAKE_CURRENT_LIST_DIR}/fastdds_peer.cpp
   ${CMAKE_CURRENT_LIST_DIR}/fastdds_options.cpp ${CMAKE_CURRENT_LIST_DIR}/cdr_text.cpp)
 target_include_directories(fastdds_peer PRIVATE ${PROJECT_SOURCE_DIR}/tests)
-target_link_libraries(fastdds_peer PRIVATE fastrtps fastcdr dynamic_filter_flags)
+target_link_libraries(fastdds_peer PRIVATE ${fastdds} fastcdr dynamic_filter_flags)
 # Fast DDS deletes objects with another size than they were made with, which sanitizers object to.
 target_compile_options(fastdds_peer PRIVATE -fno-sanitize=all)
 target_link_options(fastdds_peer PRIVATE -fno-sanitize=all)

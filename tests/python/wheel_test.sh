@@ -5,7 +5,9 @@ source=$1 python=$2
 "$python" -c 'import numpy, pip, venv' 2>/dev/null || { echo "skipped: numpy, pip or venv is missing"; exit 77; }
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
+command -v patchelf > /dev/null || { echo "skipped: patchelf is missing"; exit 77; }
 wheel=$("$source/script/wheel")
+"$python" "$source/tests/python/wheel_policy.py" "$source/$wheel"
 "$python" -m venv --system-site-packages "$folder/venv"
 "$folder/venv/bin/pip" install --quiet --no-index --no-deps "$source/$wheel"
 cd "$folder"

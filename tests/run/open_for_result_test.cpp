@@ -78,7 +78,7 @@ TEST_F(OpenForResult, ARecordingWithoutPosesGetsThoseOfTheRun) {
     fs::remove(data / "poses.txt");
     EXPECT_EQ(x_of(opened().recording, 7), 107.0);
     fs::remove(data / "velodyne/000019.bin");
-    EXPECT_THROW(opened(), InputError);
+    EXPECT_THROW((void)opened(), InputError);
 }
 
 TEST_F(OpenForResult, OptionsThatAreGivenGoBefore) {
@@ -122,8 +122,9 @@ TEST_F(OpenForResult, SelectionsMeet) {
                     if (in_run) expected.push_back(i);
                 }
                 if (expected.empty()) {
-                    EXPECT_THROW(opened({.data = {}, .first = first, .last = 15, .stride = stride}),
-                                 ConfigError);
+                    EXPECT_THROW(
+                        (void)opened({.data = {}, .first = first, .last = 15, .stride = stride}),
+                        ConfigError);
                     continue;
                 }
                 const io::Recording found =
@@ -136,7 +137,7 @@ TEST_F(OpenForResult, SelectionsMeet) {
             }
         }
     }
-    EXPECT_THROW(opened({.data = {}, .first = 18}), ConfigError);
+    EXPECT_THROW((void)opened({.data = {}, .first = 18}), ConfigError);
 }
 
 TEST_F(OpenForResult, PosesBesideForeignLabelsServeWhereThereAreNone) {

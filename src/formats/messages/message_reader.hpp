@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -35,13 +36,10 @@ public:
     T number() {
         align(sizeof(T));
         const auto bytes = in_.read(sizeof(T));
-        std::byte copy[sizeof(T)];
-        if (big_endian_) {
-            std::reverse_copy(bytes.begin(), bytes.end(), copy);
-        } else {
-            std::copy(bytes.begin(), bytes.end(), copy);
-        }
-        return little_endian<T>(copy);
+        if (!big_endian_) return little_endian<T>(bytes.data());
+        std::array<std::byte, sizeof(T)> turned;
+        std::reverse_copy(bytes.begin(), bytes.end(), turned.begin());
+        return little_endian<T>(turned.data());
     }
     std::string text() {
         std::string_view raw = as_text(in_.read(number<std::uint32_t>()));
