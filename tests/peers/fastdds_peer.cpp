@@ -143,7 +143,7 @@ void publish_random(dds::DataWriter& writer) {
         require(rate > 0 && !sizes.empty(), "sense of a line");
         for (std::size_t i = 0; i < count; ++i) {
             Bytes message = random_message(sizes[i % sizes.size()], ++seed);
-            require(writer.write(&message), "room for a message");
+            require(is_sent(writer.write(&message)), "room for a message");
             say("sent " + size_and_hash(message));
             std::this_thread::sleep_for(std::chrono::duration<double>(1 / rate));
         }
@@ -156,7 +156,7 @@ void publish_input(dds::DataWriter& writer) {
     while (std::fread(&size, sizeof size, 1, stdin) == 1) {
         Bytes message(size);
         if (size > 0 && std::fread(message.data(), size, 1, stdin) != 1) return;
-        require(writer.write(&message), "room for a message");
+        require(is_sent(writer.write(&message)), "room for a message");
     }
 }
 

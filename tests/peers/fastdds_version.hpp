@@ -22,6 +22,7 @@ using Payload = eprosima::fastdds::rtps::SerializedPayload_t;
 using InstanceHandle = eprosima::fastdds::rtps::InstanceHandle_t;
 using Duration = eprosima::fastdds::dds::Duration_t;
 inline const auto kTaken = eprosima::fastdds::dds::RETCODE_OK;
+inline bool is_sent(eprosima::fastdds::dds::ReturnCode_t returned) { return returned == kTaken; }
 constexpr auto kGrowing =
     eprosima::fastdds::rtps::MemoryManagementPolicy_t::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
 #else
@@ -29,6 +30,7 @@ using Payload = eprosima::fastrtps::rtps::SerializedPayload_t;
 using InstanceHandle = eprosima::fastrtps::rtps::InstanceHandle_t;
 using Duration = eprosima::fastrtps::Duration_t;
 constexpr auto kTaken = eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK;
+inline bool is_sent(bool returned) { return returned; }
 constexpr auto kGrowing = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
 #endif
 
