@@ -32,10 +32,16 @@ def found_for(files):
     return found
 
 
+# The oldest glibc 2.N beside which systems have a libstdc++ with symbols GLIBCXX_3.4.M: N, M.
+LIBSTDCXX = ((35, 30), (39, 33), (42, 34))
+
+
 def least_glibc(files):
-    """The second number of the oldest glibc 2.x on which the files run."""
+    """The second number of the oldest glibc 2.N of systems on which the files run."""
     symbols = "".join(said_by("objdump", "-T", file) for file in files)
-    return max(int(number) for number in re.findall(r"\*UND\*.*GLIBC_2\.(\d+)", symbols))
+    of_glibc = max(int(number) for number in re.findall(r"\*UND\*.*GLIBC_2\.(\d+)", symbols))
+    of_libstdcxx = max(int(number) for number in re.findall(r"\*UND\*.*GLIBCXX_3\.4\.(\d+)", symbols))
+    return max(of_glibc, next(glibc for glibc, newest in LIBSTDCXX if of_libstdcxx <= newest))
 
 
 def licence_of(library):
