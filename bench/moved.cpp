@@ -122,7 +122,7 @@ struct Way {
 std::array<std::vector<Labels>, kVerdicts.size()> filtered(const Simulated& all, double rate,
                                                            const Way& way) {
     std::array<std::vector<Labels>, kVerdicts.size()> labels;
-    auto& [instant, settled, final] = labels;
+    auto &instant = labels[0], &settled = labels[1], &final = labels[2];
     for (const Scan& scan : all.scans) {
         instant.emplace_back(scan.points.size(), Label::unknown);
     }

@@ -3,6 +3,7 @@
 add_library(dynamic_filter_flags INTERFACE)
 target_compile_options(dynamic_filter_flags INTERFACE
   -Wall -Wextra -Wconversion -Wshadow $<$<BOOL:${DYNAMIC_FILTER_WERROR}>:-Werror>
+  "$<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion>"  # which g++'s -Wconversion has not either
   # g++ 12 gives false warnings about std::string (PR 105651), which precompiled headers attribute
   # to this project.
   "$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-array-bounds;-Wno-stringop-overflow;-Wno-stringop-overread>"

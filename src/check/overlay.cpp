@@ -94,7 +94,7 @@ double overlay_of(const Points& from, const Points& to, const Pose& T_from_to) {
 }
 
 Search search_around(const Sample& a, const Sample& b) {
-    constexpr double kStep = 0.5, kTurnStep = 2.0 * 3.14159265 / 180.0;
+    constexpr double kShiftStep = 0.5, kTurnStep = 2.0 * 3.14159265 / 180.0;
     const Voxels voxels = voxels_of(a.upright);
     Points points = thinned(b.upright);
     for (std::size_t i = 0; 4 * i < points.size(); ++i) points[i] = points[4 * i];
@@ -105,7 +105,7 @@ Search search_around(const Sample& a, const Sample& b) {
     for (int x = -5; x <= 5; ++x) {
         for (int y = -5; y <= 5; ++y) {
             for (int turn = -2; turn <= 2; ++turn) {
-                const Eigen::Vector3d offset(kStep * x, kStep * y, 0.0);
+                const Eigen::Vector3d offset(kShiftStep * x, kShiftStep * y, 0.0);
                 const Pose moved = T_a_b * Eigen::Translation3d(offset) *
                                    Eigen::AngleAxisd(kTurnStep * turn, Eigen::Vector3d::UnitZ());
                 const double share = share_inside(points, moved, voxels);
