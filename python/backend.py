@@ -30,10 +30,6 @@ def tag(platform):
     return f"{python}-{python}-{platform}"
 
 
-def machine():
-    return sysconfig.get_platform().split("-")[-1]
-
-
 def build():
     # The Python of a temporary environment of pip would disappear.
     python = pathlib.Path(sys.executable).resolve()
@@ -115,7 +111,8 @@ def build_travelling_wheel(directory):
         beside.mkdir()
         licences = libraries.bundle({module: "libs", command: "../libs"}, beside)
         glibc = libraries.least_glibc([module, command, *beside.iterdir()])
-        return write_wheel(directory, staged, f"manylinux_2_{glibc}_{machine()}", licences)
+        machine = sysconfig.get_platform().split("-")[-1]
+        return write_wheel(directory, staged, f"manylinux_2_{glibc}_{machine}", licences)
 
 
 if __name__ == "__main__":

@@ -8,6 +8,8 @@ import sys
 
 # What every system has on which wheels `manylinux` may be installed.
 OF_SYSTEM = re.compile(r"(ld-linux.*|lib(c|m|dl|rt|util|pthread|resolv|nsl|anl|gcc_s|stdc\+\+))\.so\.\d+")
+# The oldest glibc 2.N beside which systems have a libstdc++ with symbols GLIBCXX_3.4.M: N, M.
+LIBSTDCXX = ((35, 30), (39, 33), (42, 34))
 
 
 def said_by(*command):
@@ -23,17 +25,14 @@ def found_for(files):
     """Name -> path of all libraries that the files need, also through others, but for those of the system."""
     found = {}
     for file in files:
-        for name, path in re.findall(r"(\S+) => (/\S+)", said_by("ldd", file)):
+        loaded = said_by("ldd", file)
+        for name, path in re.findall(r"(\S+) => (/\S+)", loaded):
             if not OF_SYSTEM.fullmatch(name):
                 found[name] = pathlib.Path(path)
-        missing = re.findall(r"(\S+) => not found", said_by("ldd", file))
+        missing = re.findall(r"(\S+) => not found", loaded)
         if missing:
             sys.exit(f"{file} needs {', '.join(missing)}, which is not installed")
     return found
-
-
-# The oldest glibc 2.N beside which systems have a libstdc++ with symbols GLIBCXX_3.4.M: N, M.
-LIBSTDCXX = ((35, 30), (39, 33), (42, 34))
 
 
 def least_glibc(files):
@@ -46,8 +45,8 @@ def least_glibc(files):
 
 def licence_of(library):
     """Name and text of the copyright file of the Debian package that a library comes from."""
-    for path in (library, library.resolve(), pathlib.Path("/usr") / library.relative_to("/"),
-                 pathlib.Path(re.sub("^/usr/", "/", str(library.resolve())))):
+    file = str(library.resolve())
+    for path in (file, file.removeprefix("/usr")):  # where /lib leads to /usr/lib, packages may name either
         owner = subprocess.run(["dpkg", "-S", path], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True).stdout
         if owner:
             package = owner.split(":")[0]

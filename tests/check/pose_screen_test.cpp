@@ -29,14 +29,7 @@ test::Drive crowd(double noise) {
     options.seed = 37;
     options.rate_hz = 2.5;
     options.pose_noise_m = noise;
-    sim::Simulation simulation(options);
-    test::Drive drive;
-    for (std::size_t i = 0; i < kStreetScans; ++i) {
-        sim::SimulatedScan s = simulation.scan(i);
-        drive.truth.push_back(s.T_world_sensor);
-        drive.scans.push_back({std::move(s.points), Pose::Identity(), s.stamp, i, false});
-    }
-    return drive;
+    return simulated_drive(options, 0);
 }
 
 TEST_F(PoseScreen, TruePosesAreExactAmongPeopleWhoMoveThemselves) {

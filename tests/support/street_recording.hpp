@@ -13,7 +13,19 @@ namespace dynamic_filter::io {
 
 constexpr std::size_t kStreetScans = 30;
 
-/// From the middle of the street; without times, as KITTI's scans are.
+/// kStreetScans of a simulation; without times, as KITTI's scans are.
+inline test::Drive simulated_drive(const sim::SimulationOptions& options, std::size_t first) {
+    sim::Simulation simulation(options);
+    test::Drive drive;
+    for (std::size_t i = 0; i < kStreetScans; ++i) {
+        sim::SimulatedScan s = simulation.scan(first + i);
+        drive.truth.push_back(s.T_world_sensor);
+        drive.scans.push_back({std::move(s.points), Pose::Identity(), s.stamp, i, false});
+    }
+    return drive;
+}
+
+/// From the middle of the street.
 inline const test::Drive& street(bool sweep) {
     static std::array<std::optional<test::Drive>, 2> drives;
     auto& drive = drives[sweep ? 1 : 0];
@@ -23,14 +35,7 @@ inline const test::Drive& street(bool sweep) {
     options.sensor = "hdl32";
     options.rate_hz = 5.0;  // 1 m between scans
     options.sweep = sweep;
-    sim::Simulation simulation(options);
-    drive.emplace();
-    for (std::size_t i = 0; i < kStreetScans; ++i) {
-        sim::SimulatedScan s = simulation.scan(30 + i);
-        drive->truth.push_back(s.T_world_sensor);
-        drive->scans.push_back({std::move(s.points), Pose::Identity(), s.stamp, i, false});
-    }
-    return *drive;
+    return drive.emplace(simulated_drive(options, 30));
 }
 
 class StreetRecording : public RecordingFiles {
