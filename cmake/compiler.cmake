@@ -5,8 +5,8 @@ target_compile_options(dynamic_filter_flags INTERFACE
   -Wall -Wextra -Wconversion -Wshadow $<$<BOOL:${DYNAMIC_FILTER_WERROR}>:-Werror>
   "$<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion>"  # which g++'s -Wconversion has not either
   # g++ 12 gives false warnings about std::string (PR 105651), which precompiled headers attribute
-  # to this project.
-  "$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-array-bounds;-Wno-stringop-overflow;-Wno-stringop-overread>"
+  # to this project; and notes on a change of C++'s calling conventions on ARM before g++ 10.
+  "$<$<CXX_COMPILER_ID:GNU>:-Wno-psabi;-Wno-restrict;-Wno-array-bounds;-Wno-stringop-overflow;-Wno-stringop-overread>"
   -fno-semantic-interposition  # inlines functions in position-independent code, too
   -ffp-contract=off -fno-math-errno -fno-trapping-math)
 target_compile_definitions(dynamic_filter_flags INTERFACE $<$<CONFIG:Debug>:_GLIBCXX_ASSERTIONS>)
@@ -50,6 +50,6 @@ if(CCACHE)
   add_compile_options($<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
 endif()
 find_program(MOLD mold)
-if(MOLD)
+if(MOLD AND NOT CMAKE_CROSSCOMPILING)
   add_link_options(-fuse-ld=mold)
 endif()

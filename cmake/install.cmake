@@ -33,6 +33,20 @@ install(FILES ${PROJECT_BINARY_DIR}/DynamicFilterConfig.cmake ${PROJECT_BINARY_D
 
 install(TARGETS dynamicfilter RUNTIME COMPONENT command)
 
+# Where ROS 2 looks for what belongs to a package: `ros2 launch dynamicfilter live.launch.xml`.
+if(DYNAMIC_FILTER_LIVE)
+  set(ros2 ${CMAKE_INSTALL_DATADIR}/dynamicfilter)
+  file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/packaging/ros2/bin)
+  file(TOUCH ${PROJECT_BINARY_DIR}/packaging/ros2/dynamicfilter)
+  file(CREATE_LINK ../../bin/dynamicfilter ${PROJECT_BINARY_DIR}/packaging/ros2/bin/dynamicfilter SYMBOLIC)
+  install(FILES package.xml DESTINATION ${ros2} COMPONENT command)
+  install(FILES packaging/ros2/live.launch.xml DESTINATION ${ros2}/launch COMPONENT command)
+  install(FILES packaging/ros2/live.yaml DESTINATION ${ros2}/config COMPONENT command)
+  install(FILES ${PROJECT_BINARY_DIR}/packaging/ros2/dynamicfilter
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/ament_index/resource_index/packages COMPONENT command)
+  install(FILES ${PROJECT_BINARY_DIR}/packaging/ros2/bin/dynamicfilter DESTINATION lib/dynamicfilter COMPONENT command)
+endif()
+
 if(TARGET dynamicfilter_mpi)
   install(TARGETS dynamicfilter_mpi LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/dynamicfilter COMPONENT mpi)
 endif()

@@ -42,18 +42,20 @@ int filter(int argc, char** argv) {
     const Arguments arguments = split(argc, argv);
     Program program("dynamicfilter_ros1",
                     "Removes moving objects from the LiDAR scans of ROS 1, as they come.");
-    program.footer(
+    Command command = program.options();
+    command.footer(
         "Arguments of ROS such as points:=/velodyne_points and __name:=filter may be added. "
         "Private\n"
         "parameters of the node are settings, too: ~output/map_rate is output.map_rate.");
-    Command command = program.options();
     live::LiveOptions options;
     add_live_options(command, options);
     command.action([&] {
         live::Ros1Bus bus(arguments.remappings, live::changing_settings(), kLongestStart);
-        const live::LiveConfig config =
-            live::load_live_config(options.config, bus.pop_parameters());
-        return live::live(bus, options, config);
+        std::vector<Assignment> parameters;
+        for (const auto& [key, value] : bus.pop_parameters()) {
+            parameters.push_back({key, value, "parameter " + key});
+        }
+        return live::live(bus, options, live::load_live_config(options.config, parameters));
     });
     return program.run(arguments.own);
 }

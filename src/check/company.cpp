@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/numbers.hpp"
+#include "geometry/angle.hpp"
 
 namespace dynamic_filter::io {
 namespace {
@@ -48,8 +49,7 @@ DynamicBeside dynamic_beside(const Points& points, const Pose& T_world_sensor,
         if (labels[i] != Label::dynamic) continue;
         const double distance = std::hypot(points[i].x(), points[i].y());
         if (!(distance >= kNearest && distance <= kFarthest)) continue;
-        const double turn =
-            std::atan2(points[i].y(), points[i].x()) / (2.0 * std::numbers::pi) + 1.0;
+        const double turn = angle_of(points[i].y(), points[i].x()) / (2.0 * std::numbers::pi) + 1.0;
         const std::size_t sector = static_cast<std::size_t>(turn * kSectors) % kSectors;
         ++beside.points[sector];
         beside.sums.col(static_cast<Eigen::Index>(sector)) += points[i].head<2>().cast<double>();

@@ -14,6 +14,7 @@
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/poses.hpp"
 #include "formats/clouds/time_field.hpp"
+#include "geometry/angle.hpp"
 #include "geometry/voxel.hpp"
 #include "recording/recording_parts.hpp"
 #include "tracking/upright.hpp"
@@ -36,7 +37,7 @@ double share_of_doubles(const Points& points) {
     for (const Point& p : points) {
         const float range = p.norm();
         if (!is_measured(p) || range < kNearest || range > kFarthest) continue;
-        const Direction d{std::atan2(p.y(), p.x()), std::asin(p.z() / range), range};
+        const Direction d{angle_of(p.y(), p.x()), angle_of_sine(p.z() / range), range};
         const auto cell = cell_of({d.azimuth, d.elevation, 0.0F}, 1.0F / kPixel);
         const auto [it, fresh] = first.try_emplace(pack(*cell), d);
         if (fresh) continue;

@@ -3,13 +3,19 @@
 
 #include "commands/all.hpp"
 #include "live/dds_bus.hpp"
+#include "live/ros2_arguments.hpp"
 
 namespace dynamic_filter::app {
 
 namespace {
 
-int live_on_dds(const live::LiveOptions& options) {
-    const live::LiveConfig config = live::load_live_config(options.config, {});
+struct Options : live::LiveOptions {
+    std::vector<std::string> ros_arguments;
+};
+
+int live_on_dds(const Options& options) {
+    const live::LiveConfig config =
+        live::load_live_config(options.config, live::ros2_parameters(options.ros_arguments));
     live::DdsBus bus({.domain = config.bus.domain, .network = config.bus.network});
     return live::live(bus, options, config);
 }
@@ -41,8 +47,12 @@ void add_live_options(Command& command, live::LiveOptions& options) {
 void add_live(Program& program) {
     Command c = program.command(
         "live", "Filter what a robot's LiDAR publishes by ROS 2, and publish the result");
-    const auto o = std::make_shared<live::LiveOptions>();
+    const auto o = std::make_shared<Options>();
     add_live_options(c, *o);
+    c.rest_after("--ros-args", o->ros_arguments);
+    c.footer(
+        "Arguments of ROS 2 may follow the word --ros-args: -p input.cloud:=/points,\n"
+        "--params-file FILE, -r __node:=NAME, -r __ns:=/NAMESPACE.");
     c.action([o] { return live_on_dds(*o); });
 }
 

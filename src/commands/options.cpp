@@ -177,6 +177,27 @@ std::string usage_error(const CLI::App* app, const CLI::Error& error) {
                        app->get_name(), command, lists_commands ? "commands" : "options");
 }
 
+/// Puts aside what another kind of arguments are.
+std::vector<char*> without_rest(std::span<char* const> arguments, const Command::Shared& shared) {
+    const bool has_rest =
+        shared.rest != nullptr && arguments.size() > 1 && arguments[1] == shared.rest_of;
+    std::vector<char*> own;
+    bool is_rest = false;
+    for (char* const argument : arguments) {
+        const std::string_view word = argument;
+        if (has_rest && word == shared.rest_mark) {
+            is_rest = true;
+        } else if (is_rest && word == "--") {
+            is_rest = false;
+        } else if (is_rest) {
+            shared.rest->emplace_back(word);
+        } else {
+            own.push_back(argument);
+        }
+    }
+    return own;
+}
+
 }  // namespace
 
 Option& Option::required() {
@@ -271,7 +292,15 @@ Option Command::whole(const char* names, const std::function<void(std::uint64_t)
 }
 
 void Command::action(std::function<int()> work) {
-    app_->callback([work = std::move(work), chosen = chosen_] { *chosen = work; });
+    app_->callback([work = std::move(work), shared = shared_] { shared->chosen = work; });
+}
+
+void Command::footer(const char* text) { app_->footer(text); }
+
+void Command::rest_after(const char* mark, Words& values) {
+    shared_->rest_of = app_->get_name();
+    shared_->rest_mark = mark;
+    shared_->rest = &values;
 }
 
 void Command::left_out(const std::string& why) {
@@ -289,14 +318,13 @@ Program::~Program() = default;
 
 Command Program::command(const char* name, const char* what) {
     app_->require_subcommand(1);
-    return Command(*app_->add_subcommand(name, what), chosen_);
+    return Command(*app_->add_subcommand(name, what), shared_);
 }
 
-Command Program::options() { return Command(*app_, chosen_); }
+Command Program::options() { return Command(*app_, shared_); }
 
-void Program::footer(const char* text) { app_->footer(text); }
-
-int Program::run(std::span<char* const> arguments) {
+int Program::run(std::span<char* const> all_arguments) {
+    const std::vector<char*> arguments = without_rest(all_arguments, shared_);
     refuse_unknown_command(*app_, arguments);
     try {
         app_->parse(static_cast<int>(arguments.size()), arguments.data());
@@ -306,7 +334,7 @@ int Program::run(std::span<char* const> arguments) {
         if (!is_help && !app_->remaining(true).empty()) refuse_unknown_options(*app_);
         return app_->exit(error) == 0 ? kDone : kUsage;
     }
-    const int code = chosen_();
+    const int code = shared_.chosen();
     // A result that could not be printed (a full disk, say) is not a result.
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
         throw OutputError("standard output", "cannot be written");

@@ -44,7 +44,15 @@ struct Bounds {
 /// name.
 class Command {
 public:
-    Command(CLI::App& app, std::function<int()>& chosen) : app_(&app), chosen_(&chosen) {}
+    /// What a command sets in its program.
+    struct Shared {
+        std::function<int()> chosen;  ///< what to do
+        std::string rest_of;          ///< the command with arguments of another kind
+        std::string rest_mark;        ///< the word before them
+        std::vector<std::string>* rest = nullptr;
+    };
+
+    Command(CLI::App& app, Shared& shared) : app_(&app), shared_(&shared) {}
 
     Option text(const char* names, std::string& value, const std::string& what);
     Option path(const char* names, std::filesystem::path& value, const std::string& what);
@@ -70,6 +78,12 @@ public:
             names, [&value](std::uint64_t given) { value = static_cast<Plain<Whole>>(given); },
             default_of(value), bounds, what);
     }
+
+    /// What follows the word `mark` on the command line, up to the word "--", goes to `values` as
+    /// it is. One command of a program may have this.
+    void rest_after(const char* mark, std::vector<std::string>& values);
+
+    void footer(const char* text);
 
     /// Does the command; returns the exit code.
     void action(std::function<int()> work);
@@ -100,7 +114,7 @@ private:
                  std::optional<std::uint64_t> standard, Bounds bounds, const std::string& what);
 
     CLI::App* app_;
-    std::function<int()>* chosen_;  // of the program: what to do
+    Shared* shared_;  // of the program
 };
 
 /// A program with commands, or with options alone.
@@ -114,7 +128,6 @@ public:
     Command command(const char* name, const char* what);
     /// The program itself, if it has no commands.
     Command options();
-    void footer(const char* text);
 
     /// Reads the arguments and does what they say. Returns the exit code. Throws ConfigError for an
     /// unknown command or option.
@@ -122,7 +135,7 @@ public:
 
 private:
     std::unique_ptr<CLI::App> app_;
-    std::function<int()> chosen_;
+    Command::Shared shared_;
 };
 
 }  // namespace dynamic_filter::app

@@ -8,6 +8,7 @@
 
 #include "base/best_kernel.hpp"
 #include "base/numbers.hpp"
+#include "geometry/angle.hpp"
 #include "geometry/project_kernel.hpp"
 
 namespace dynamic_filter {
@@ -110,8 +111,8 @@ BeamPattern estimate_beam_pattern(std::span<const Scan> scans) {
         std::vector<Direction> along_elevation, along_azimuth;
         for (const Point& p : scan.points) {
             if (!is_measured(p)) continue;
-            const float azimuth = std::atan2(p.y(), p.x());
-            const float elevation = std::atan2(p.z(), std::hypot(p.x(), p.y()));
+            const float azimuth = angle_of(p.y(), p.x());
+            const float elevation = angle_of(p.z(), std::hypot(p.x(), p.y()));
             along_elevation.push_back({azimuth, elevation});
             along_azimuth.push_back({elevation, azimuth});
         }
@@ -134,7 +135,7 @@ ElevationRange elevation_range(std::span<const Point> points) {
         highest = std::max(highest, tangent);
     }
     if (lowest > highest) return {};
-    return {std::atan(lowest), std::atan(highest)};
+    return {angle_of_tangent(lowest), angle_of_tangent(highest)};
 }
 
 }  // namespace dynamic_filter

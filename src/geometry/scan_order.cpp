@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/angle.hpp"
+
 namespace dynamic_filter {
 namespace {
 
@@ -14,7 +16,7 @@ constexpr std::size_t kFewestPoints = 1000;
 /// [rad] from -pi to pi
 double nearest_turn(double angle) { return std::remainder(angle, kFullTurn); }
 
-double azimuth_of(const Point& p) { return std::atan2(p.y(), p.x()); }
+double azimuth_of(const Point& p) { return angle_of(p.y(), p.x()); }
 
 std::vector<std::size_t> measured_of(const Points& points) {
     std::vector<std::size_t> measured;
@@ -109,7 +111,7 @@ std::vector<float> shares_in_rows(const Points& points, const std::vector<std::s
         const double azimuth = azimuth_of(p);
         turned.push_back(turned.empty() ? azimuth
                                         : turned.back() + nearest_turn(azimuth - turned.back()));
-        elevations.push_back(std::atan2(p.z(), p.head<2>().norm()));
+        elevations.push_back(angle_of(p.z(), p.head<2>().norm()));
     }
     const double sense = turned.back() > turned.front() ? 1.0 : -1.0;
     const double rows = std::abs(turned.back() - turned.front()) / kFullTurn;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/angle.hpp"
 #include "geometry/scan_order.hpp"
 
 namespace dynamic_filter {
@@ -17,7 +18,7 @@ std::vector<float> shares_of_turn(const Points& points, const Sweep& sweep) {
     std::vector<float> shares(points.size(), 0.5F);
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (!is_measured(points[i])) continue;
-        const float angle = std::atan2(points[i].y(), points[i].x()) - seam;
+        const float angle = angle_of(points[i].y(), points[i].x()) - seam;
         const float turned = (sweep.clockwise ? -angle : angle) / kTurn;
         shares[i] = turned - std::floor(turned);
     }

@@ -51,16 +51,12 @@ void validate(const LiveConfig& config) {
 }
 
 LiveConfig load_live_config(const app::ConfigOptions& options,
-                            const std::vector<std::pair<std::string, std::string>>& parameters) {
+                            std::vector<app::Assignment> parameters) {
     LiveConfig config;
     config.filter = preset(options.preset);
     use_domain_of_environment(config);
-    std::vector<app::Assignment> assignments;
-    for (const auto& [key, value] : parameters) {
-        assignments.push_back({key, value, "parameter " + key});
-    }
-    std::ranges::move(app::assignments_of(options), std::back_inserter(assignments));
-    app::assign_all(config, assignments);
+    std::ranges::move(app::assignments_of(options), std::back_inserter(parameters));
+    app::assign_all(config, parameters);
     return config;
 }
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "dynamic_filter/parallel.hpp"
@@ -139,10 +138,10 @@ void set(LiveConfig& config, const std::string& key, const std::string& value);
 /// Throws ConfigError that lists what is wrong.
 void validate(const LiveConfig& config);
 
-/// Preset, then parameters of the bus, then file, then assignments; checked. Throws ConfigError
+/// Preset, then parameters of ROS, then file, then assignments; checked. Throws ConfigError
 /// that names all mistakes. ROS_DOMAIN_ID is the default of bus.domain.
 LiveConfig load_live_config(const app::ConfigOptions& options,
-                            const std::vector<std::pair<std::string, std::string>>& parameters);
+                            std::vector<app::Assignment> parameters);
 
 /// Keys of the settings that may change while the filter runs.
 std::vector<std::string> changing_settings();

@@ -207,17 +207,22 @@ void Draw::vehicle(const Way& way, VehicleKind kind, double speed) {
 
 void Draw::vehicles() {
     for (int i = 0; i < 4; ++i) {
-        vehicle(own(random.uniform(-30.0, 70.0), -1.0, lane), any_vehicle(random),
-                random.uniform(7.0, 10.0));
-        vehicle(own(random.uniform(-40.0, 60.0), 1.0, lane), any_vehicle(random),
-                random.uniform(6.0, 11.0));
-        vehicle(cross(lane), any_vehicle(random), random.uniform(7.0, 10.0));
+        const double oncoming = random.uniform(7.0, 10.0);
+        const VehicleKind kind_oncoming = any_vehicle(random);
+        vehicle(own(random.uniform(-30.0, 70.0), -1.0, lane), kind_oncoming, oncoming);
+        const double ahead = random.uniform(6.0, 11.0);
+        const VehicleKind kind_ahead = any_vehicle(random);
+        vehicle(own(random.uniform(-40.0, 60.0), 1.0, lane), kind_ahead, ahead);
+        const double across = random.uniform(7.0, 10.0);
+        const VehicleKind kind_across = any_vehicle(random);
+        vehicle(cross(lane), kind_across, across);
     }
     for (const double way : {1.0, -1.0, 1.0, -1.0}) {
-        vehicle(own(random.uniform(-30.0, 50.0), way, cycle_lane), VehicleKind::cyclist,
-                random.uniform(3.8, 5.5));
+        const double speed = random.uniform(3.8, 5.5);
+        vehicle(own(random.uniform(-30.0, 50.0), way, cycle_lane), VehicleKind::cyclist, speed);
     }
-    vehicle(cross(cycle_lane), VehicleKind::cyclist, random.uniform(3.8, 5.5));
+    const double speed = random.uniform(3.8, 5.5);
+    vehicle(cross(cycle_lane), VehicleKind::cyclist, speed);
 }
 
 void Draw::people(int count) {

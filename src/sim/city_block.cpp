@@ -70,9 +70,9 @@ void add_furniture(Builder& builder) {
     for (const double u : row(from_corner, last, 12.0)) {
         const SinCos a = portable_sincos(random.uniform(0.0, 2.0 * std::numbers::pi));
         if (random.chance(0.85)) {
-            builder.add(builder.any(tree, trees),
-                        side.at(u + random.uniform(-1.0, 1.0), kerb + 0.7), {a.cos, a.sin},
-                        random.uniform(0.85, 1.15));
+            const double size = random.uniform(0.85, 1.15);
+            const auto place = side.at(u + random.uniform(-1.0, 1.0), kerb + 0.7);
+            builder.add(builder.any(tree, trees), place, {a.cos, a.sin}, size);
         }
         if (u + 6.0 < last) builder.add(lamp, side.at(u + 6.0, kerb + 0.4), -side.inward);
         add_at_wall(builder, u + 3.0);

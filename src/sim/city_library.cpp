@@ -108,7 +108,8 @@ std::vector<Mesh> library(std::uint64_t seed) {
             meshes.push_back(house_mesh(bays, random.bits()));
     }
     for (int i = 0; i < trees; ++i) {
-        add([&](Scene& scene) { add_tree(scene, {}, random.uniform(6.0, 9.0), random.bits()); });
+        const std::uint64_t shape = random.bits();
+        add([&](Scene& scene) { add_tree(scene, {}, random.uniform(6.0, 9.0), shape); });
     }
     for (int i = 0; i < planters; ++i) {
         add([&](Scene& scene) { add_planter(scene, {}, random.bits()); });

@@ -127,9 +127,9 @@ void add_tree(Scene& scene, const Spot& spot, double height, std::uint64_t seed)
     const double spread = 0.28 * height;
     for (int i = 0; i < 4; ++i) {  // boughs, each with a part of the crown
         const Vector3d root(spot.at.x(), spot.at.y(), spot.z + fork * random.uniform(0.85, 1.1));
-        const Vector3d tip =
-            root + Vector3d((i % 2 == 0 ? 1 : -1) * random.uniform(0.2, 0.6) * spread,
-                            (i < 2 ? 1 : -1) * random.uniform(0.2, 0.6) * spread, 0.28 * height);
+        const double across = (i < 2 ? 1 : -1) * random.uniform(0.2, 0.6) * spread;
+        const double along = (i % 2 == 0 ? 1 : -1) * random.uniform(0.2, 0.6) * spread;
+        const Vector3d tip = root + Vector3d(along, across, 0.28 * height);
         add_capsule(scene.still, root, tip, 0.35 * trunk, trunk_wood);
         const double size = random.uniform(0.7, 0.9) * spread;
         add_leaves(scene.still,

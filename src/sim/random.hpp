@@ -26,7 +26,8 @@ constexpr double unit(std::uint64_t bits) { return static_cast<double>(bits >> 1
 /// A standard normal number (Box and Muller 1958) from the two hashes that follow `bits`.
 double normal(std::uint64_t bits);
 
-/// A sequence of random numbers, for code that runs once and in order (building scenes).
+/// A sequence of random numbers, for code that runs once and in order (building scenes). Compilers
+/// evaluate the arguments of a call in any order, so at most one of them may draw.
 struct Random {
     std::uint64_t key = 0;
     std::uint64_t count = 0;

@@ -87,7 +87,8 @@ struct Floor {
 std::vector<Waypoint> route(const Floor& floor, const DistanceField& field, Random& random) {
     std::vector<Waypoint> out;
     for (int attempt = 0; attempt < 4000 && out.size() < 6; ++attempt) {
-        const Vector2d p(random.uniform(-23.0, 23.0), random.uniform(floor.low, floor.high));
+        const double y = random.uniform(floor.low, floor.high);
+        const Vector2d p(random.uniform(-23.0, 23.0), y);
         if (field.at(p).distance < 0.6) continue;
         if (!out.empty()) {
             if ((p - out.back().at).norm() < 5.0 || !is_clear(field, out.back().at, p, 0.4))

@@ -124,7 +124,8 @@ void add_furniture(Scene& scene, Random& random) {
 std::vector<Waypoint> route(const DistanceField& field, bool stands, Random& random) {
     std::vector<Waypoint> out;
     for (int attempt = 0; attempt < 4000 && out.size() < 6; ++attempt) {
-        const Vector2d p(random.uniform(-18.0, 18.0), random.uniform(-6.2, 6.2));
+        const double y = random.uniform(-6.2, 6.2);
+        const Vector2d p(random.uniform(-18.0, 18.0), y);
         if (field.at(p).distance < 0.5) continue;
         if (!out.empty()) {
             if ((p - out.back().at).norm() < 3.0 || !is_clear(field, out.back().at, p, 0.4))

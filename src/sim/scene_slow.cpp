@@ -39,7 +39,8 @@ void add_shell(Scene& scene, Random& random) {
     for (const double x : {-half_length - 2.0, half_length + 2.0})
         add_block(scene, {.at = {x, 0.0}}, {0.3, 2.0 * half_width, 3.5}, 0.4F);
     for (const double x : {-21.5, 21.5}) {
-        add_tree(scene, {.at = {x, 12.6}}, random.uniform(5.5, 8.0), random.bits());
+        const std::uint64_t shape = random.bits();
+        add_tree(scene, {.at = {x, 12.6}}, random.uniform(5.5, 8.0), shape);
         add_lamp(scene, {.at = {x, -11.0}, .axis = {0.0, 1.0}}, 5.0);
     }
 }

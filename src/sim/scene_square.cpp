@@ -79,8 +79,10 @@ void add_furniture(Scene& scene, std::uint64_t seed) {
     for (const double x : {-20.0, -12.0, 12.0, 20.0}) {
         for (const double y : {-20.0, -9.0, 9.0, 20.0}) {
             if (x > 0.0 && y > 0.0 && (x > 15.0 || y > 15.0)) continue;  // place of the stage
-            const Vector2d at(x + random.uniform(-1.0, 1.0), y + random.uniform(-1.0, 1.0));
-            add_tree(scene, {.at = at}, random.uniform(5.5, 8.5), random.bits());
+            const double off = random.uniform(-1.0, 1.0);
+            const Vector2d at(x + random.uniform(-1.0, 1.0), y + off);
+            const std::uint64_t shape = random.bits();
+            add_tree(scene, {.at = at}, random.uniform(5.5, 8.5), shape);
             if (random.chance(0.6))
                 add_bench(scene, {.at = at + Vector2d(0.0, 1.4), .axis = {-1.0, 0.0}});
         }
@@ -103,7 +105,8 @@ void add_furniture(Scene& scene, std::uint64_t seed) {
 std::vector<Waypoint> route(const DistanceField& field, Random& random) {
     std::vector<Waypoint> out;
     for (int attempt = 0; attempt < 4000 && out.size() < 7; ++attempt) {
-        const Vector2d p(random.uniform(-27.0, 27.0), random.uniform(-27.0, 27.0));
+        const double y = random.uniform(-27.0, 27.0);
+        const Vector2d p(random.uniform(-27.0, 27.0), y);
         if (field.at(p).distance < 0.8) continue;
         if (!out.empty()) {
             const double length = (p - out.back().at).norm();

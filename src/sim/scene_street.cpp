@@ -59,8 +59,10 @@ void add_furniture(Scene& scene, std::uint64_t seed) {
     for (const double side : {-1.0, 1.0}) {
         for (const double x : row(first + 5.0, last, 11.0)) {
             const Spot tree{.at = {x, side * (kerb + 0.7)}, .axis = {1.0, 0.0}, .z = pavement};
-            if (!is_kept_free(x, 2.5))
-                add_tree(scene, tree, random.uniform(6.0, 9.0), random.bits());
+            if (!is_kept_free(x, 2.5)) {
+                const std::uint64_t shape = random.bits();
+                add_tree(scene, tree, random.uniform(6.0, 9.0), shape);
+            }
             const Spot lamp{
                 .at = {x + 5.0, side * (kerb + 0.4)}, .axis = {0.0, -side}, .z = pavement};
             if (!is_kept_free(x + 5.0, 2.5)) add_lamp(scene, lamp, 6.5);
@@ -83,9 +85,10 @@ void add_furniture(Scene& scene, std::uint64_t seed) {
         for (const double x : row(first, last, 5.6)) {
             const bool at_stop = side > 0.0 && std::abs(x - bus_stop) < 24.0;
             if (is_kept_free(x, 4.5) || at_stop || random.chance(0.25)) continue;
+            const auto brightness = static_cast<float>(random.uniform(0.4, 1.4));
             add_parked_car(
                 scene, {.at = {x + random.uniform(-0.3, 0.3), side * parking}, .axis = {side, 0.0}},
-                static_cast<float>(random.uniform(0.4, 1.4)));
+                brightness);
         }
         for (const double x : crossings) {
             add_sign(

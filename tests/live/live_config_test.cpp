@@ -15,7 +15,7 @@ using test::spill;
 using test::TemporaryFolder;
 
 std::string error_of(const app::ConfigOptions& options,
-                     const std::vector<std::pair<std::string, std::string>>& parameters = {}) {
+                     const std::vector<app::Assignment>& parameters = {}) {
     try {
         load_live_config(options, parameters);
     } catch (const ConfigError& error) {
@@ -67,8 +67,8 @@ TEST(LiveConfig, LaterSourcesWin) {
     options.file = folder / "robot.toml";
     options.assignments = {"input.queue=5"};
     const LiveConfig config =
-        load_live_config(options, {{"input.wait", "1"}, {"input.silence", "7"}});
-    EXPECT_EQ(config.input.silence, 7.0) << "a parameter of the bus";
+        load_live_config(options, {{"input.wait", "1", "here"}, {"input.silence", "7", "there"}});
+    EXPECT_EQ(config.input.silence, 7.0) << "a parameter of ROS";
     EXPECT_EQ(config.input.wait, 0.5) << "the file";
     EXPECT_EQ(config.input.queue, 5) << "the assignment";
 }
@@ -79,7 +79,7 @@ TEST(LiveConfig, AllMistakesAreNamedAtOnce) {
     app::ConfigOptions options;
     options.file = folder / "robot.toml";
     options.assignments = {"input.queue=0", "map.voxel_sise=1", "nonsense"};
-    const std::string error = error_of(options, {{"bus.domain", "300"}});
+    const std::string error = error_of(options, {{"bus.domain", "300", "parameter bus.domain"}});
     for (const char* part :
          {"parameter bus.domain", "whole number from 0 to 232", "line 2", "'input.cloud'?",
           "line 4", "one of reliable, best_effort", "--set input.queue=0", "'map.voxel_size'?",

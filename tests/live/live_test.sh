@@ -69,6 +69,8 @@ expect() { # expect CODE TEXT OPTION...
     cat wrong.log wrong.err | grep -q -- "$text" || fail "live $*: does not say '$text'"
 }
 expect 2 "did you mean 'input.cloud'" --set input.clod=/points
+expect 2 "did you mean 'input.cloud'" --ros-args -p input.clod:=/points
+expect 2 "unknown option '--what'" --ros-args -p input.cloud:=/points -- --what
 expect 2 'exists; choose another --record' --record out.mcap
 expect 2 'exists; choose another --record' --record out
 expect 1 'cannot join DDS domain' --set bus.network=nosuchdevice
@@ -81,5 +83,6 @@ expect 4 'nobody publishes scans on /point; there are: /points; did you mean /po
 expect 4 'nothing was received on /odom' --dry-run --look 3 --set input.pose=/odom
 expect 0 'fits ' --dry-run --look 4
 grep -q "poses    poses of 'lidar' in 'map' from /tf" wrong.log || fail "does not name the poses: $(cat wrong.log)"
+expect 0 '^gives    /front/clean/static ' --dry-run --look 4 --ros-args -r __node:=clean -r __ns:=/front -p use_sim_time:=true
 kill "$player_id" 2> /dev/null || true
 wait "$player_id" 2> /dev/null || true

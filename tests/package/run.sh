@@ -58,8 +58,10 @@ needs "$dev" "$ours" libeigen3-dev
 holds "$command" bin/dynamicfilter share/man/man1/dynamicfilter.1.gz share/bash-completion/completions/dynamicfilter \
     share/doc/dynamicfilter/copyright share/doc/dynamicfilter/changelog.Debian.gz \
     bin/dynamicfilter-slurm share/man/man1/dynamicfilter-slurm.1.gz share/dynamicfilter/dynamicfilter.mk \
-    lib/systemd/system/dynamicfilter-live@.service share/doc/dynamicfilter/examples/live.toml
-holds_none '/include/|/lib/[^s]'
+    lib/systemd/system/dynamicfilter-live@.service share/doc/dynamicfilter/examples/live.toml \
+    share/ament_index/resource_index/packages/dynamicfilter share/dynamicfilter/package.xml lib/dynamicfilter/dynamicfilter \
+    share/dynamicfilter/launch/live.launch.xml share/dynamicfilter/config/live.yaml
+holds_none '/include/|/lib/[^sd]'
 needs "$command" "$ours" 'libc6 .*' 'libfmt9 .*'
 if grep -E 'ros|mpi' depends; then echo "$command depends on ROS or MPI"; exit 1; fi
 holds "$mpi" "$arch/dynamicfilter/libdynamicfilter_mpi.so" share/doc/dynamicfilter-mpi/copyright

@@ -12,4 +12,5 @@ add_test(NAME script/skips COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR
 add_test(NAME script/regions
          COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/regions_test.py ${PROJECT_SOURCE_DIR})
 add_test(NAME script/mirror COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/mirror_test.py)
+add_test(NAME script/release COMMAND ${CMAKE_CURRENT_LIST_DIR}/release_test.sh ${PROJECT_SOURCE_DIR})
 add_test(NAME script/versions COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/versions_test.py ${PROJECT_SOURCE_DIR})
