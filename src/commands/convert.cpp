@@ -137,6 +137,13 @@ int convert_cloud(const ConvertOptions& o) {
         fmt::print("written  {} ({} tiles)\n", output.name().string(), tiles.files);
         return kDone;
     }
+    if (kind != nullptr) {
+        throw ConfigError(
+            fmt::format("{}: --to {} is made of a recording, because it needs to know from where "
+                        "each point was "
+                        "seen; give the recording as IN, and --labels",
+                        o.data.data.string(), kind->name));
+    }
     check_cloud_output(o);
     const io::Cloud cloud = io::read_cloud(o.data.data);
     const io::Written written = io::write_cloud(o.output, cloud);
@@ -174,16 +181,22 @@ void add_convert(Program& program) {
            "recording, all its points "
            "in the world's frame")
         .required();
-    c.choice("--to", o->to, output_names(),
-             "layout of the output folder: kitti (default), benchmark, or autoware (map tiles); of "
-             "the map of several "
-             "drives: 3dtiles, las or autoware");
+    c.choice(
+        "--to", o->to, output_names(),
+        "layout of the output folder: kitti (default), benchmark, nav2 (map in two dimensions), "
+        "or autoware (map tiles); of the map of several drives: 3dtiles, las or autoware");
     c.text("--origin", o->origin,
            "with --to 3dtiles: LAT,LON[,HEIGHT] of the world's origin, whose x points to the east "
            "(default: the tiles stay "
            "in the world frame)");
     c.path("--labels", o->labels,
            "output folder of a run, or its labels (default: the ground truth of the recording)");
+    c.number("--cell", o->cell, {0.01, 1.0}, "with --to nav2: width of a cell [m]");
+    c.number("--robot-height", o->robot_height, {0.05, 10.0},
+             "with --to nav2: what hangs higher above the floor is no obstacle [m]");
+    c.number("--step", o->step, {0.01, 0.5}, "with --to nav2: what the robot may climb [m]");
+    c.whole("--storey", o->storey, {1, 100},
+            "with --to nav2: which floor, where several lie one above the other; 1 is the lowest");
     add_reading_options(c, o->data);
     add_selection_options(c, o->data);
     c.flag("--overwrite", o->overwrite, "replace an existing output");

@@ -57,6 +57,10 @@ std::unique_ptr<Sink> make_bag_sink(const ConvertOptions& options);
 /// All points in one cloud.
 std::unique_ptr<Sink> make_cloud_sink(const ConvertOptions& options);
 
+/// A map in two dimensions for nav2 and ROS 1's map_server.
+const FolderFiles& nav2_files();
+std::unique_ptr<Sink> make_nav2_sink(const ConvertOptions& options);
+
 const FolderFiles& tileset_files();
 const FolderFiles& las_files();
 const FolderFiles& autoware_files();

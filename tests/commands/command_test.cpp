@@ -16,6 +16,7 @@
 
 #include "dynamic_filter/bag.hpp"
 #include "dynamic_filter/cloud.hpp"
+#include "dynamic_filter/poses.hpp"
 #include "dynamic_filter/recording.hpp"
 #include "dynamic_filter/writers.hpp"
 #include "formats/messages/messages.hpp"
@@ -816,6 +817,58 @@ TEST_F(Command, ConvertPutsUnknownPointsWhereTheRunDid) {
     test::spill(folder_ / "false/config.toml", "[map]\nkeeps = 1\n");
     EXPECT_EQ(run("convert " + data + " split.mcap --overwrite --labels false"), 0) << said();
     expect_said("as with map.keep_unknown = true");
+}
+
+/// A map as map_server of ROS reads it: 0, 205 or 254 at a place of the world.
+struct ServedMap {
+    int width = 0, height = 0;
+    double resolution = 0.0, x = 0.0, y = 0.0;  // of the lower left corner
+    std::string pixels;
+
+    explicit ServedMap(const fs::path& folder) {
+        const std::string yaml = slurp(folder / "map.yaml"), pgm = slurp(folder / "map.pgm");
+        const auto after = [&](const char* key) {
+            return yaml.c_str() + yaml.find(key) + std::strlen(key);
+        };
+        EXPECT_EQ(std::sscanf(after("resolution: "), "%lf", &resolution), 1);
+        EXPECT_EQ(std::sscanf(after("origin: ["), "%lf, %lf, 0]", &x, &y), 2);
+        int used = 0;
+        EXPECT_EQ(std::sscanf(pgm.c_str(), "P5\n%d %d\n255\n%n", &width, &height, &used), 2);
+        pixels = pgm.substr(static_cast<std::size_t>(used));
+        EXPECT_EQ(pixels.size(),
+                  static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    }
+    [[nodiscard]] int at(double wx, double wy) const {
+        const int column = static_cast<int>(std::floor((wx - x) / resolution));
+        const int row = height - 1 - static_cast<int>(std::floor((wy - y) / resolution));
+        return static_cast<unsigned char>(
+            pixels.at(static_cast<std::size_t>(row * width + column)));
+    }
+};
+
+TEST_F(Command, ConvertWritesAMapForNavigation) {
+    const std::string data = recording().string();
+    ASSERT_EQ(run("run " + data + " -o out --no-report"), 0) << said();
+    ASSERT_EQ(run("convert " + data + " nav --labels out --to nav2"), 0) << said();
+    expect_said("m above the floor");
+    const ServedMap map(folder_ / "nav");
+    EXPECT_EQ(map.resolution, 0.05);
+    for (const Pose& pose : io::read_poses(data + "/poses.txt").poses) {
+        EXPECT_EQ(map.at(pose.translation().x(), pose.translation().y()), 254);
+    }
+    for (const char value : {'\0', '\xCD', '\xFE'}) {
+        EXPECT_NE(map.pixels.find(value), std::string::npos) << static_cast<int>(value);
+    }
+    EXPECT_NE(slurp(folder_ / "nav/map.yaml").find("occupied_thresh: 0.65\nfree_thresh: 0.196\n"),
+              std::string::npos);
+
+    EXPECT_EQ(run("convert " + data + " wide --labels out --to nav2 --cell 0.2"), 0);
+    EXPECT_EQ(ServedMap(folder_ / "wide").resolution, 0.2);
+    EXPECT_EQ(run("convert " + data + " none --labels out --to nav2 --storey 2"), 2);
+    expect_said("has 1 storey");
+    EXPECT_EQ(run("convert out/static_map.pcd none --to nav2"), 2);
+    expect_said("made of a recording");
+    EXPECT_FALSE(fs::exists(folder_ / "none"));
 }
 
 TEST_F(Command, ConvertWritesMapsAndSplitScans) {

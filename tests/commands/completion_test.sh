@@ -28,7 +28,7 @@ offers "crowd street square hall jam queue platform slow mirrors city" simulate 
 offers "vlp16 os64" simulate crowd --sensor ""
 offers "--knowable" simulate crowd --know
 offers "erasor mos" eval --protocol ""
-offers "kitti benchmark autoware 3dtiles las" convert a b --to ""
+offers "kitti benchmark nav2 autoware 3dtiles las" convert a b --to ""
 offers "" run data --poses ""
 offers "" run ""
 offers "" check monday ""

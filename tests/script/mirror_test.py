@@ -10,8 +10,9 @@ COVERED = {  # test -> the units that it covers
     "commands/command_test.cpp": "commands/check commands/cleaning commands/compare commands/config commands/convert "
         "commands/demo commands/evaluate commands/info commands/main commands/odometry commands/options commands/picture commands/render commands/run "
         "commands/serve commands/shared_options commands/simulate draw/animation draw/canvas export/bag export/benchmark "
-        "export/convert_map export/kitti export/one_cloud export/outputs export/sink recording/scans "
+        "export/convert_map export/kitti export/nav2 export/one_cloud export/outputs export/sink recording/scans "
         "recording/world_records run/run run/filter_whole run/run_state run/scored_scans run/summary run/write_scans",
+    "export/navigation/navigation_map_test.cpp": "export/navigation/floor",
     "export/tileset_test.cpp": "export/glb",
     "formats/clouds/cloud_test.cpp": "formats/clouds/bin",
     "formats/poses/poses_test.cpp": "base/utf16 formats/poses/pose_rows",

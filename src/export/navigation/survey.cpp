@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "export/navigation/survey.hpp"
+
+#include <algorithm>
+#include <bitset>
+#include <cmath>
+#include <numbers>
+
+#include "geometry/angle.hpp"
+
+namespace dynamic_filter::app {
+
+namespace {
+
+constexpr float kPathStep = 0.1F;  // [m]
+// Beams to 30 m, one in each direction, of scans so far apart in space or time, suffice as evidence
+// of free space.
+constexpr float kFarthest = 30.0F, kApart = 0.5F;
+constexpr double kAgain = 2.0;  // [s]
+constexpr int kAzimuths = 720, kElevations = 90;
+
+std::size_t direction_of(const Point& way, float length) {
+    constexpr auto kPi = std::numbers::pi_v<float>;
+    const auto step = [](float share, int steps) {
+        return std::clamp(static_cast<int>(share * static_cast<float>(steps)), 0, steps - 1);
+    };
+    const int azimuth = step((angle_of(way.y(), way.x()) + kPi) / (2.0F * kPi), kAzimuths);
+    const int elevation = step(angle_of_sine(way.z() / length) / kPi + 0.5F, kElevations);
+    return static_cast<std::size_t>(elevation * kAzimuths + azimuth);
+}
+
+Look look_of(const Eigen::Isometry3f& T_map_sensor, const Points& points) {
+    Look look{T_map_sensor.translation(), {}};
+    std::bitset<static_cast<std::size_t>(kAzimuths) * kElevations> seen;
+    for (const Point& point : points) {
+        if (!is_measured(point)) continue;
+        const Point way = T_map_sensor.linear() * point;
+        const float length = way.norm();
+        const std::size_t direction = direction_of(way, length);
+        if (seen.test(direction)) continue;
+        seen.set(direction);
+        look.ends.push_back(look.from + way * std::min(1.0F, kFarthest / length));
+    }
+    return look;
+}
+
+}  // namespace
+
+void Survey::add(const Points& points, const Labels& labels, const Pose& T_world_sensor,
+                 double stamp) {
+    if (path_.empty()) {
+        origin_ = (T_world_sensor.translation() / cell_).array().floor() * cell_;
+    }
+    const Pose T = Eigen::Translation3d(-origin_) * T_world_sensor;
+    const Eigen::Isometry3f T_map_sensor = T.cast<float>();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (labels[i] != Label::static_ || !is_measured(points[i])) continue;
+        columns_.add(T_map_sensor * points[i]);
+    }
+    const Point place = T_map_sensor.translation();
+    if (path_.empty() || (place - path_.back()).norm() >= kPathStep) path_.push_back(place);
+    const bool is_apart = looks_.empty() || (place - looks_.back().from).norm() >= kApart ||
+                          stamp - last_look_ >= kAgain;
+    if (!is_apart) return;
+    looks_.push_back(look_of(T_map_sensor, points));
+    last_look_ = stamp;
+}
+
+}  // namespace dynamic_filter::app

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+/// Collects what a map for navigation is made of, scan by scan.
+#pragma once
+
+#include <vector>
+
+#include "export/navigation/columns.hpp"
+#include "export/navigation/navigation_map.hpp"
+
+namespace dynamic_filter::app {
+
+class Survey {
+public:
+    /// `cell`: width of a cell [m].
+    explicit Survey(double cell) : cell_(cell), columns_(static_cast<float>(cell)) {}
+
+    /// Points of the sensor frame with their labels: static ones are floor and obstacles, all of
+    /// them end a beam. Points without a measurement count for nothing.
+    void add(const Points& points, const Labels& labels, const Pose& T_world_sensor, double stamp);
+    [[nodiscard]] NavigationMap map(const Robot& robot, int storey) const {
+        return navigation_map(columns_, path_, looks_, robot, storey);
+    }
+    /// The corner of cell (0, 0) in the world [m].
+    [[nodiscard]] const Eigen::Vector3d& origin() const { return origin_; }
+    [[nodiscard]] double cell() const { return cell_; }
+
+private:
+    double cell_;
+    Columns columns_;
+    Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
+    Points path_;
+    std::vector<Look> looks_;
+    double last_look_ = 0.0;
+};
+
+}  // namespace dynamic_filter::app
