@@ -2,8 +2,8 @@
 # Runs every command of pages, as it stands there, in order: each page in an empty folder. Where a line
 # ends in `# exit N`, so must the command. What stands in ```text must be said by them, but for speeds and "...".
 # script/demo is run as the command that it ends with (installing and building have happened), and once
-# for all pages; script/test is what runs this. Packages are not installed here: script/fresh --packages
-# does that, and takes the lines from the README, too.
+# for all pages; script/test is what runs this. Containers are not built here, and packages are not
+# installed: script/fresh --packages does that, and takes the lines from the README, too.
 #   pages_test.sh SOURCE COMMAND PAGE...
 set -eu
 source=$1 command=$2
@@ -19,7 +19,7 @@ run() {  # LINE
             grep -q '^build/release/dynamicfilter demo' "$source/script/demo"
             if [ -d "$work/demo" ]; then cp -al "$work/demo" demo; cat "$work/demo_said" >> "$work/said"; return; fi
             line='dynamicfilter demo' ;;
-        script/* | apt-get\ install\ *) return ;;
+        script/* | apt-get\ install\ * | docker\ *) return ;;
         *dynamicfilter\ serve\ *) line="timeout --preserve-status --signal=INT 2 $line" ;;  # ends by Ctrl-C
     esac
     echo "\$ $line"
