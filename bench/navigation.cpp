@@ -3,16 +3,18 @@
 ///   navigation SCENE SENSOR SEED FRAMES RATE [PICTURE.png]
 /// Simulates a scene, filters it, and makes three maps with cells of 5 cm:
 /// - ours: what `convert --to nav2` makes of the final labels;
-/// - static, flattened: cells with points of the static map at the height of the robot, counted
-/// from
-///   the floor below the sensor at the begin, are occupied; all others are free;
+/// - static, flattened: cells with points of the static map at the height of the robot are
+/// occupied,
+///   all others free; heights are counted from the floor below the sensor at the begin;
 /// - raw, flattened: the same of all points.
 /// In truth, a cell is free if the robot can get there from its path without a step, and nothing
 /// static is in its way. Printed are, within 10 m of the path and of the cells that ours holds, how
 /// many of the free cells are called occupied or unknown, and how many of those with something in
-/// the way are called free. A cell beside one for which a verdict is right is right, too. The
-/// picture shows truth and the three maps, one below the other: free cells are white, occupied ones
-/// black, unknown ones grey, free ones called occupied orange and occupied ones called free red.
+/// the way are called free. A free or occupied cell beside one for which its verdict is right is
+/// right, too. The last column is the share of the robot's places that a planner reaches from the
+/// first one, for a robot with a radius of 0.25 m. The picture shows truth and the three maps, one
+/// below the other: free cells are white, occupied ones black, unknown ones grey, free ones called
+/// occupied orange and occupied ones called free red.
 #include <fmt/format.h>
 
 #include <array>
@@ -26,6 +28,7 @@
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/filter.hpp"
 #include "dynamic_filter/simulation.hpp"
+#include "export/navigation/surface_map.hpp"
 #include "export/navigation/survey.hpp"
 #include "sim/caster.hpp"
 #include "sim/scene.hpp"
@@ -189,8 +192,53 @@ Mistake mistake_at(const std::vector<Passage>& cells, const std::vector<Passage>
     return called == Passage::unknown ? Mistake::unknown_for_free : Mistake::none;
 }
 
+/// Cells on which the middle of a robot with a radius of 0.25 m fits.
+std::vector<bool> fits(const std::vector<Passage>& cells, const Area& area) {
+    const auto reach = static_cast<int>(0.25F / kCell);
+    std::vector<bool> fit(area.size(), true);
+    for (int y = area.y; y < area.y + area.height; ++y) {
+        for (int x = area.x; x < area.x + area.width; ++x) {
+            const Passage cell = cells[area.index(x, y)];
+            if (cell != Passage::free) fit[area.index(x, y)] = false;
+            if (cell != Passage::occupied) continue;
+            for (int dy = -reach; dy <= reach; ++dy) {
+                for (int dx = -reach; dx <= reach; ++dx) {
+                    const bool is_close = dx * dx + dy * dy <= reach * reach;
+                    if (is_close && area.holds(x + dx, y + dy)) {
+                        fit[area.index(x + dx, y + dy)] = false;
+                    }
+                }
+            }
+        }
+    }
+    return fit;
+}
+
+/// The share of the places of the robot that a planner reaches from the first one [%].
+double reached_share(const std::vector<Passage>& cells, const Area& area, const Points& path) {
+    const std::vector<bool> open = fits(cells, area);
+    const auto cell_of_place = [](const Point& p) {
+        return std::pair(cell_at(p.x(), kCell), cell_at(p.y(), kCell));
+    };
+    std::vector<bool> reached(area.size(), false);
+    std::vector<std::pair<int, int>> next{cell_of_place(path.front())};
+    while (!next.empty()) {
+        const auto [x, y] = next.back();
+        next.pop_back();
+        if (!area.holds(x, y) || reached[area.index(x, y)] || !open[area.index(x, y)]) continue;
+        reached[area.index(x, y)] = true;
+        next.insert(next.end(), {{x + 1, y}, {x - 1, y}, {x, y + 1}, {x, y - 1}});
+    }
+    std::size_t count = 0;
+    for (const Point& place : path) {
+        const auto [x, y] = cell_of_place(place);
+        count += area.holds(x, y) && reached[area.index(x, y)] ? 1 : 0;
+    }
+    return 100.0 * static_cast<double>(count) / static_cast<double>(path.size());
+}
+
 void print(std::string_view name, const std::vector<Passage>& cells,
-           const std::vector<Passage>& truth, const Area& area) {
+           const std::vector<Passage>& truth, const Area& area, const Points& path) {
     std::array<std::size_t, 4> mistakes{};
     std::size_t free = 0, occupied = 0;
     for (int y = area.y; y < area.y + area.height; ++y) {
@@ -203,8 +251,9 @@ void print(std::string_view name, const std::vector<Passage>& cells,
     const auto share = [](std::size_t n, std::size_t all) {
         return all == 0 ? 0.0 : 100.0 * static_cast<double>(n) / static_cast<double>(all);
     };
-    fmt::print("| {} | {:.2f} | {:.2f} | {:.2f} |\n", name, share(mistakes[1], occupied),
-               share(mistakes[2], free), share(mistakes[3], free));
+    fmt::print("| {} | {:.2f} | {:.2f} | {:.2f} | {:.0f} |\n", name, share(mistakes[1], occupied),
+               share(mistakes[2], free), share(mistakes[3], free),
+               reached_share(cells, area, path));
 }
 
 void draw(const std::string& file, const Maps& maps, const std::vector<Passage>& truth) {
@@ -248,10 +297,10 @@ int main(int argc, char** argv) {
         const std::vector<Passage> truth = truth_of(StillScene(options), maps);
         fmt::print(
             "| map | free for occupied [%] | occupied for free [%] | unknown for free [%] "
-            "|\n|---|---|---|---|\n");
-        print("ours", maps.ours.cells, truth, maps.ours.area);
-        print("static, flattened", maps.static_flat, truth, maps.ours.area);
-        print("raw, flattened", maps.raw_flat, truth, maps.ours.area);
+            "| reached [%] |\n|---|---|---|---|---|\n");
+        print("ours", maps.ours.cells, truth, maps.ours.area, maps.path);
+        print("static, flattened", maps.static_flat, truth, maps.ours.area, maps.path);
+        print("raw, flattened", maps.raw_flat, truth, maps.ours.area, maps.path);
         if (words.size() > kSceneArguments) draw(std::string(words.back()), maps, truth);
         return 0;
     } catch (const std::exception& error) {

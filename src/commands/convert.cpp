@@ -87,8 +87,9 @@ int convert_recording(const ConvertOptions& o) {
     io::Recording recording = opened.recording;
     say(opened.note);
     ensure_poses(recording, preset("default"), {.deskew = o.data.deskew, .quiet = false});
-    // What is written is of the frame that the files have.
-    recording = io::with_sensor_at(recording, Eigen::Vector3d::Zero());
+    if (kind == nullptr || !kind->from_sensor) {
+        recording = io::with_sensor_at(recording, Eigen::Vector3d::Zero());
+    }
     for (const std::string& note : recording.info().notes) fmt::print(stderr, "note: {}\n", note);
     for (const std::string& line : recording.info().losses)
         fmt::print(stderr, "lost     {}\n", line);
@@ -191,7 +192,7 @@ void add_convert(Program& program) {
            "in the world frame)");
     c.path("--labels", o->labels,
            "output folder of a run, or its labels (default: the ground truth of the recording)");
-    c.number("--cell", o->cell, {0.01, 1.0}, "with --to nav2: width of a cell [m]");
+    c.number("--cell", o->cell, {0.02, 0.25}, "with --to nav2: width of a cell [m]");
     c.number("--robot-height", o->robot_height, {0.05, 10.0},
              "with --to nav2: what hangs higher above the floor is no obstacle [m]");
     c.number("--step", o->step, {0.01, 0.5}, "with --to nav2: what the robot may climb [m]");

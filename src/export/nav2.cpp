@@ -56,7 +56,11 @@ std::string yaml_of(const Area& part, const Survey& survey) {
 class Nav2Sink final : public Sink {
 public:
     explicit Nav2Sink(const ConvertOptions& o)
-        : options_(o), output_(o.output, nav2_files(), replaced_if(o.overwrite)), survey_(o.cell) {}
+        : options_(o), output_(o.output, nav2_files(), replaced_if(o.overwrite)), survey_(o.cell) {
+        if (o.robot_height > o.step) return;
+        throw ConfigError(fmt::format("--robot-height {} must be greater than --step {}",
+                                      o.robot_height, o.step));
+    }
 
     void append(const io::FullScan& scan, const Labels& labels) override {
         if (labels.empty()) {
@@ -87,7 +91,10 @@ private:
                 "poses "
                 "must point up");
         }
-        if (options_.storey > 0 || !map.floor.overlaps || map.floor.storeys.size() < 2) return;
+        constexpr double kSomewhere = 1.0;  // [m2]
+        const double overlap =
+            static_cast<double>(map.floor.overlapping) * options_.cell * options_.cell;
+        if (options_.storey > 0 || overlap < kSomewhere || map.floor.storeys.size() < 2) return;
         throw ConfigError(fmt::format(
             "{} storeys lie one above the other, and one map can hold one of them; --storey 1 is "
             "the lowest",

@@ -10,7 +10,10 @@ const std::vector<Output>& outputs() {
     static const std::vector<Output> rows = {
         {.name = "kitti", .files = recording_files(), .of_recording = make_kitti_sink},
         {.name = "benchmark", .files = benchmark_files(), .of_recording = make_benchmark_sink},
-        {.name = "nav2", .files = nav2_files(), .of_recording = make_nav2_sink},
+        {.name = "nav2",
+         .files = nav2_files(),
+         .of_recording = make_nav2_sink,
+         .from_sensor = true},
         {.name = "3dtiles", .files = tileset_files(), .of_map = tileset_of_map},
         {.name = "las", .files = las_files(), .of_map = las_of_map},
         {.name = "autoware",

@@ -30,6 +30,8 @@ struct Output {
                          const ConvertOptions& options,
                          const std::filesystem::path& output) = nullptr;
     WrittenMap (*of_cloud)(const io::Cloud& cloud, const std::filesystem::path& output) = nullptr;
+    /// True: scans are in the sensor's frame, where beams begin; else in the frame of the files.
+    bool from_sensor = false;
 };
 
 /// All rows, in the order in which messages name them.

@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
+#include <string_view>
+
 #include "dynamic_filter/error.hpp"
 
 namespace dynamic_filter::live {
@@ -11,6 +14,8 @@ namespace dynamic_filter::live {
 namespace {
 
 using Parameters = std::vector<app::Assignment>;
+
+constexpr std::ptrdiff_t kMostTokens = 20;  // of a name; an alias can make a table part of itself
 
 struct NodeName {
     std::string space = "/", name = "dynamicfilter";
@@ -28,7 +33,10 @@ std::pair<std::string, std::string> split(const std::string& option, const std::
 
 /// A YAML value as a setting is written.
 std::string text_of_yaml(const YAML::Node& value) {
-    if (!value.IsScalar()) throw YAML::Exception(value.Mark(), "is a list, which no setting takes");
+    if (value.IsNull()) return "";
+    if (!value.IsScalar()) {
+        throw YAML::Exception(value.Mark(), "is a list or a table, where one value is expected");
+    }
     bool flag = false;
     const bool is_plain = value.Tag() == "?";  // not quoted
     if (is_plain && YAML::convert<bool>::decode(value, flag)) return flag ? "true" : "false";
@@ -40,10 +48,15 @@ bool concerns_the_library_of_ros(const std::string& name) {
            name.starts_with("qos_overrides.");
 }
 
+void require_table(const YAML::Node& node) {
+    if (!node.IsMap()) throw YAML::Exception(node.Mark(), "is no table of names and values");
+}
+
 /// Members of a table are named with a dot.
 void add_parameter(Parameters& parameters, const std::string& name, const YAML::Node& value,
                    const std::string& file) {
-    if (value.IsMap()) {
+    constexpr std::ptrdiff_t kDeepest = 10;  // tables; an alias can make a table part of itself
+    if (value.IsMap() && std::count(name.begin(), name.end(), '.') < kDeepest) {
         for (const auto& member : value) {
             add_parameter(parameters, fmt::format("{}.{}", name, member.first.Scalar()),
                           member.second, file);
@@ -54,9 +67,14 @@ void add_parameter(Parameters& parameters, const std::string& name, const YAML::
     }
 }
 
-bool means_this_node(const std::string& pattern, const NodeName& node) {
-    return pattern == node.whole() || pattern == "/**" || pattern == "/*" ||
-           pattern == "/**/" + node.name || pattern == "/*/" + node.name;
+/// Whether a name with wildcards is that of the node: * stands for one token, ** for any number.
+bool matches(std::string_view pattern, std::string_view name) {
+    const auto token = [](std::string_view path) { return path.substr(0, path.find('/', 1)); };
+    if (pattern.empty()) return name.empty();
+    const std::string_view head = token(pattern), rest = pattern.substr(head.size());
+    const std::string_view below = name.substr(token(name).size());
+    if (head == "/**") return matches(rest, name) || (!name.empty() && matches(pattern, below));
+    return !name.empty() && (head == "/*" || head == token(name)) && matches(rest, below);
 }
 
 /// The parameters of this node in a table of nodes, which may be nested in namespaces; `path` is
@@ -66,11 +84,13 @@ void add_nodes(Parameters& parameters, const YAML::Node& table, const std::strin
     for (const auto& entry : table) {
         const std::string key = entry.first.Scalar();
         if (key == "ros__parameters") {
-            if (!means_this_node(path, node)) continue;
+            if (!matches(path, node.whole()) || entry.second.IsNull()) continue;
+            require_table(entry.second);
             for (const auto& parameter : entry.second) {
                 add_parameter(parameters, parameter.first.Scalar(), parameter.second, file);
             }
-        } else if (entry.second.IsMap()) {
+        } else if (entry.second.IsMap() &&
+                   std::count(path.begin(), path.end(), '/') < kMostTokens) {
             add_nodes(parameters, entry.second, path + (key.starts_with('/') ? "" : "/") + key,
                       node, file);
         } else {
@@ -85,7 +105,10 @@ void add_nodes(Parameters& parameters, const YAML::Node& table, const std::strin
 
 void add_file(Parameters& parameters, const std::string& file, const NodeName& node) {
     try {
-        add_nodes(parameters, YAML::LoadFile(file), "", node, file);
+        const YAML::Node root = YAML::LoadFile(file);
+        if (root.IsNull()) return;
+        require_table(root);
+        add_nodes(parameters, root, "", node, file);
     } catch (const YAML::BadFile&) {
         throw ConfigError(fmt::format("{}: there is no such file of parameters", file));
     } catch (const YAML::Exception& error) {
@@ -93,9 +116,19 @@ void add_file(Parameters& parameters, const std::string& file, const NodeName& n
     }
 }
 
+/// What follows the name of a node and a colon; empty if it is for another node.
+std::string for_this_node(const std::string& rule, const NodeName& node) {
+    const auto colon = rule.find(':');
+    if (colon == std::string::npos) return rule;
+    const std::string given = rule.substr(0, colon);
+    return given == node.name || given == NodeName{}.name ? rule.substr(colon + 1) : "";
+}
+
 /// A value is YAML here, too.
-void add_given(Parameters& parameters, const std::string& rule) {
-    const auto [name, text] = split("-p", rule);
+void add_given(Parameters& parameters, const std::string& rule, const NodeName& node) {
+    const auto [whole, text] = split("-p", rule);
+    const std::string name = for_this_node(whole, node);
+    if (name.empty()) return;
     try {
         if (concerns_the_library_of_ros(name)) return;
         parameters.push_back({name, text_of_yaml(YAML::Load(text)), "-p " + rule});
@@ -107,7 +140,8 @@ void add_given(Parameters& parameters, const std::string& rule) {
 /// How the node is named, or else why a topic is not renamed so.
 void remap(NodeName& node, const std::string& rule) {
     const auto [from, to] = split("-r", rule);
-    const std::string what = from.substr(from.find(':') + 1);  // "node:__ns" concerns that node
+    const std::string what = for_this_node(from, node);
+    if (what.empty()) return;
     if (what == "__node" || what == "__name") {
         node.name = to;
     } else if (what == "__ns") {
@@ -124,8 +158,7 @@ void remap(NodeName& node, const std::string& rule) {
 
 std::vector<app::Assignment> ros2_parameters(const std::vector<std::string>& words) {
     NodeName node;
-    Parameters given;
-    std::vector<std::string> files;
+    std::vector<std::string> given, files;
     for (auto word = words.begin(); word != words.end(); ++word) {
         const std::string option = *word;
         const auto value = [&]() -> const std::string& {
@@ -135,7 +168,7 @@ std::vector<app::Assignment> ros2_parameters(const std::vector<std::string>& wor
             return *++word;
         };
         if (option == "-p" || option == "--param") {
-            add_given(given, value());
+            given.push_back(value());
         } else if (option == "--params-file") {
             files.push_back(value());
         } else if (option == "-r" || option == "--remap") {
@@ -153,7 +186,7 @@ std::vector<app::Assignment> ros2_parameters(const std::vector<std::string>& wor
     Parameters parameters;
     if (!words.empty()) parameters.push_back({"output.prefix", node.whole(), "name of the node"});
     for (const std::string& file : files) add_file(parameters, file, node);
-    std::ranges::move(given, std::back_inserter(parameters));
+    for (const std::string& rule : given) add_given(parameters, rule, node);
     return parameters;
 }
 

@@ -78,6 +78,38 @@ driver:
         << "-p wins over files, wherever it stands";
 }
 
+TEST(Ros2Arguments, NamesOfNodesHaveWildcards) {
+    const TemporaryFolder folder;
+    const auto cloud_of = [&](const std::string& pattern, const std::string& space) {
+        spill(folder / "robot.yaml", pattern + ":\n  ros__parameters: {input.cloud: /points}\n");
+        return config_of(
+                   {"--params-file", (folder / "robot.yaml").string(), "-r", "__ns:=" + space})
+            .input.cloud;
+    };
+    for (const char* pattern :
+         {"/**", "/*", "/dynamicfilter", "dynamicfilter", "/**/dynamicfilter"}) {
+        EXPECT_EQ(cloud_of(pattern, "/"), "/points") << pattern;
+    }
+    for (const char* pattern : {"/front/*", "/front/**", "/*/dynamicfilter", "/*/*", "/**/*"}) {
+        EXPECT_EQ(cloud_of(pattern, "/front"), "/points") << pattern;
+    }
+    for (const char* pattern : {"/*", "/rear/**", "/dynamicfilter", "/front", "/front/*/*"}) {
+        EXPECT_EQ(cloud_of(pattern, "/front"), "") << pattern;
+    }
+}
+
+TEST(Ros2Arguments, RulesForOtherNodesHaveNoEffect) {
+    const LiveConfig config = config_of({"-r", "camera:__node:=cam", "-p", "camera:input.cloud:=/a",
+                                         "-p", "dynamicfilter:input.pose:=/odom"});
+    EXPECT_EQ(config.output.prefix, "/dynamicfilter");
+    EXPECT_EQ(config.input.cloud, "");
+    EXPECT_EQ(config.input.pose, "/odom");
+}
+
+TEST(Ros2Arguments, NothingIsAnEmptyText) {
+    EXPECT_EQ(config_of({"-p", "input.cloud:="}).input.cloud, "");
+}
+
 TEST(Ros2Arguments, WhatConcernsOnlyTheLibraryOfRosHasNoEffect) {
     EXPECT_EQ(error_of({"--log-level", "debug", "--disable-rosout-logs", "-e", "/enclave", "-p",
                         "use_sim_time:=true", "-p", "qos_overrides./tf.depth:=5"}),
@@ -102,6 +134,10 @@ TEST(Ros2Arguments, MistakesAreNamedWithTheirPlace) {
         {error_of_file("/**:\n  ros__parameters:\n    input.queue: 0\n"), "robot.yaml: line 3"},
         {error_of_file("/**:\n  ros__parameters: [\n"), "robot.yaml, line 3"},
         {error_of_file("/**:\n  ros__parameters:\n    input.cloud: [/a]\n"), "line 3: is a list"},
+        {error_of_file("- a\n"), "line 1: is no table"},
+        {error_of_file("/**:\n  ros__parameters: [a]\n"), "line 2: is no table"},
+        {error_of_file("/**:\n  ros__parameters: &a\n    b: *a\n"), "line"},
+        {error_of_file("a: &a\n  b: *a\n"), "stands outside"},
     };
     for (const auto& [error, part] : cases) {
         EXPECT_NE(error.find(part), std::string::npos) << part << "\n" << error;

@@ -12,7 +12,7 @@ COVERED = {  # test -> the units that it covers
         "commands/serve commands/shared_options commands/simulate draw/animation draw/canvas export/bag export/benchmark "
         "export/convert_map export/kitti export/nav2 export/one_cloud export/outputs export/sink recording/scans "
         "recording/world_records run/run run/filter_whole run/run_state run/scored_scans run/summary run/write_scans",
-    "export/navigation/navigation_map_test.cpp": "export/navigation/floor",
+    "export/navigation/navigation_map_test.cpp": "export/navigation/floor export/navigation/surface_map",
     "export/tileset_test.cpp": "export/glb",
     "formats/clouds/cloud_test.cpp": "formats/clouds/bin",
     "formats/poses/poses_test.cpp": "base/utf16 formats/poses/pose_rows",

@@ -37,6 +37,16 @@ python3 "build/dynamicfilter-$version/tests/script/versions_test.py" "build/dyna
     fail "the source names other versions"
 if release; then fail "released without a date"; fi
 
+for day in tomorrow "" 2026-13-01; do
+    sed -i "s/^## $version.*/## $version, $day/" CHANGELOG.md && commit "$day."
+    release --dry-run || fail "a dry run fails"
+    says "not '$day'"
+done
+cp CHANGELOG.md before # what an older version says does not count
+{ echo "## $version, 2026-12-01"; sed "s/^## $version.*/## 0.0.1, 2026-01-01/" before; } > CHANGELOG.md && commit empty
+release --dry-run || fail "a dry run fails"
+says "says nothing about $version"
+cp before CHANGELOG.md
 sed -i "s/^## $version.*/## $version, 2026-12-01/" CHANGELOG.md && commit dated
 release --dry-run || fail "a dry run fails"
 if grep -q "stand in the way" said; then fail "something is in the way"; fi

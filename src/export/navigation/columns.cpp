@@ -35,7 +35,7 @@ Surface surface_of(const FilledBin* begin, const FilledBin* end) {
     surface.bottom = begin->height;
     surface.top = (end - 1)->height;
     // Points of flat ground lie in two bins if it lies at their border.
-    if (end - begin == 2) {
+    if (end - begin == 2 && last->cell.z() - begin->cell.z() == 1) {
         const auto n = [](const FilledBin& bin) { return static_cast<float>(bin.points); };
         surface.bottom = surface.top =
             (n(*begin) * begin->height + n(*last) * last->height) / (n(*begin) + n(*last));

@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "dynamic_filter/error.hpp"
+#include "export/navigation/surface_map.hpp"
 
 namespace dynamic_filter::app {
 
@@ -18,98 +19,12 @@ namespace {
 
 constexpr float kBridged = 2.5F;     // [m] between rings of a sensor, over which the floor goes on
 constexpr float kPathWidth = 0.25F;  // [m] on each side, that the robot covered for sure
-constexpr float kHighestSensor = 4.0F;  // [m] above the floor
-constexpr float kStoreyHeight = 2.0F;   // [m] at least
-// So few points above a floor of many are no obstacle, but what the filter missed of somebody.
-constexpr float kFewPoints = 5.0F, kFewShare = 0.03F;
-constexpr float kSteepest = 0.3F;       // of a ramp,
-constexpr float kBridgedSlope = 0.08F;  // and of one over which the floor is not seen
-constexpr float kNoise = 0.03F;         // [m] of the height of a floor
-constexpr std::uint32_t kNone = UINT32_MAX;
-
-/// Surfaces by their cells.
-class Map {
-public:
-    Map(const std::vector<Surface>& surfaces, const Area& area)
-        : surfaces_(surfaces), area_(area), first_(area.size(), kNone) {
-        for (std::size_t i = surfaces.size(); i-- > 0;) {
-            first_[area.index(surfaces[i].x, surfaces[i].y)] = static_cast<std::uint32_t>(i);
-        }
-    }
-    /// Calls f(i) for each surface in the cell, from below, until f returns false.
-    template <class F>
-    void each(int x, int y, F&& f) const {
-        if (!area_.holds(x, y)) return;
-        for (std::size_t i = first_[area_.index(x, y)]; i < surfaces_.size(); ++i) {
-            if (surfaces_[i].x != x || surfaces_[i].y != y || !f(i)) return;
-        }
-    }
-    /// Whether something in the cell stands in the way of a robot on a floor of that height.
-    [[nodiscard]] bool blocks(int x, int y, float floor, const Robot& robot) const {
-        bool blocked = false;
-        float points_of_floor = 0.0F;
-        each(x, y, [&](std::size_t i) {
-            const Surface& s = surfaces_[i];
-            const auto points = static_cast<float>(s.points);
-            if (s.top <= floor + robot.step) {
-                points_of_floor = points;
-                return true;
-            }
-            const bool is_stray =
-                points < 2.0F || points < std::min(kFewPoints, kFewShare * points_of_floor);
-            blocked = s.bottom < floor + robot.height && !is_stray;
-            return !blocked && s.bottom < floor + robot.height;
-        });
-        return blocked;
-    }
-    /// Whether the surface is a part of something flat, unlike what the filter missed of somebody.
-    [[nodiscard]] bool is_flat(std::size_t i) const {
-        constexpr int kReach = 2, kLeast = 3;  // cells
-        constexpr float kThick = 0.05F;        // [m]
-        const Surface& s = surfaces_[i];
-        int beside = 0;
-        for (int y = s.y - kReach; y <= s.y + kReach; ++y) {
-            for (int x = s.x - kReach; x <= s.x + kReach; ++x) {
-                if (x == s.x && y == s.y) continue;
-                each(x, y, [&](std::size_t k) {
-                    const bool is_level = std::abs(surfaces_[k].top - s.top) <= kThick;
-                    beside += is_level ? 1 : 0;
-                    return !is_level;
-                });
-                if (beside >= kLeast) return true;
-            }
-        }
-        return false;
-    }
-    /// Whether something lower is seen close by, so that the surface stands on that.
-    [[nodiscard]] bool stands(std::size_t i, float cell, const Robot& robot) const {
-        constexpr float kClose = 0.5F;  // [m]
-        const Surface& s = surfaces_[i];
-        const auto reach = static_cast<int>(kClose / cell);
-        bool found = false;
-        for (int y = s.y - reach; y <= s.y + reach && !found; ++y) {
-            for (int x = s.x - reach; x <= s.x + reach && !found; ++x) {
-                each(x, y, [&](std::size_t k) {
-                    found = surfaces_[k].top < s.top - robot.step &&
-                            surfaces_[k].top > s.top - robot.height;
-                    return !found && surfaces_[k].top < s.top;
-                });
-            }
-        }
-        return found;
-    }
-    [[nodiscard]] const Surface& operator[](std::size_t i) const { return surfaces_[i]; }
-    [[nodiscard]] std::size_t size() const { return surfaces_.size(); }
-
-private:
-    const std::vector<Surface>& surfaces_;
-    const Area& area_;
-    std::vector<std::uint32_t> first_;
-};
-
-int cell_at(float coordinate, float cell) {
-    return static_cast<int>(std::floor(coordinate / cell));
-}
+constexpr float kHighestSensor = 4.0F;    // [m] above the floor
+constexpr float kStoreyHeight = 2.0F;     // [m] at least
+constexpr std::size_t kLeastPlaces = 10;  // of the path, 0.1 m apart, on a storey
+constexpr float kSteepest = 0.3F;         // of a ramp,
+constexpr float kBridgedSlope = 0.08F;    // and of one over which the floor is not seen
+constexpr float kNoise = 0.03F;           // [m] of the height of a floor
 
 /// Calls f(x, y) for the cells whose middle is within `radius` of a place.
 template <class F>
@@ -126,26 +41,33 @@ void around(const Point& place, float cell, float radius, F&& f) {
 }
 
 /// The height above the surfaces below it that most of them have.
-float height_of_sensor(const Map& map, const Points& path, float cell, float radius) {
+float height_of_sensor(const SurfaceMap& map, const Points& path, float cell, float radius) {
     constexpr float kHeightBin = 0.05F;
-    std::vector<std::size_t> counts(static_cast<std::size_t>(kHighestSensor / kHeightBin) + 2);
+    struct Bin {
+        std::size_t count = 0;
+        double sum = 0.0;
+    };
+    std::vector<Bin> bins(static_cast<std::size_t>(kHighestSensor / kHeightBin) + 2);
     for (const Point& place : path) {
         around(place, cell, radius, [&](int x, int y) {
             map.each(x, y, [&](std::size_t i) {
                 const float below = place.z() - map[i].top;
                 if (below > 0.0F && below < kHighestSensor) {
-                    ++counts[static_cast<std::size_t>(below / kHeightBin)];
+                    Bin& bin = bins[static_cast<std::size_t>(below / kHeightBin)];
+                    ++bin.count;
+                    bin.sum += static_cast<double>(below);
                 }
                 return true;
             });
         });
     }
-    std::size_t best = 1, most = 0;
-    for (std::size_t i = 1; i + 1 < counts.size(); ++i) {
-        const std::size_t n = counts[i - 1] + counts[i] + counts[i + 1];
-        if (n > most) best = i, most = n;
+    Bin best;
+    for (std::size_t i = 1; i + 1 < bins.size(); ++i) {
+        const std::size_t count = bins[i - 1].count + bins[i].count + bins[i + 1].count;
+        if (count <= best.count) continue;
+        best = {count, bins[i - 1].sum + bins[i].sum + bins[i + 1].sum};
     }
-    return most == 0 ? 0.0F : (static_cast<float>(best) + 0.5F) * kHeightBin;
+    return best.count == 0 ? 0.0F : static_cast<float>(best.sum / static_cast<double>(best.count));
 }
 
 /// Cells on a line from (0, 0), without it.
@@ -171,12 +93,15 @@ std::vector<Way> ways(int cells) {
 /// face of a box must not become a stair.
 class Growth {
 public:
-    Growth(const Map& map, float cell, const Robot& robot)
+    enum class State : std::uint8_t { open, reached, refused };
+
+    Growth(const SurfaceMap& map, float cell, const Robot& robot)
         : map_(map),
           cell_(cell),
           robot_(robot),
           ways_(ways(static_cast<int>(kBridged / cell))),
-          reached_(map.size(), 0),
+          state_(map.size(), State::open),
+          stands_(map.size(), State::open),
           level_(map.size()) {}
 
     /// Begins around a place of the path; `below` is the floor that must be there. Returns whether
@@ -186,30 +111,30 @@ public:
         around(place, cell_, radius, [&](int x, int y) {
             map_.each(x, y, [&](std::size_t i) {
                 if (std::abs(map_[i].top - below.top) > robot_.step) return true;
-                if (reached_[i] == 0 && is_open(below, map_[i])) seed(i, below.top, 0.0F);
-                found |= reached_[i] != 0;
+                if (state_[i] == State::open && is_open(below, map_[i])) seed(i, below.top, 0.0F);
+                found |= state_[i] == State::reached;
                 return true;
             });
         });
         return found;
     }
-    std::vector<std::uint8_t> run() {
+    std::vector<State> run() {
         while (!open_.empty()) {
             const std::size_t i = open_.front();
             open_.pop_front();
             grow(map_[i], level_[i]);
         }
-        return std::move(reached_);
+        return std::move(state_);
     }
 
 private:
     /// `level`: from which surface i is reached, at a distance [m].
     void seed(std::size_t i, float level, float distance) {
-        if (reached_[i] != 0 || !map_.is_flat(i) ||
-            map_.blocks(map_[i].x, map_[i].y, map_[i].top, robot_)) {
-            return;
-        }
-        reached_[i] = 1;
+        if (state_[i] != State::open) return;
+        const bool fits =
+            map_.is_flat(i, cell_) && !map_.blocks(map_[i].x, map_[i].y, map_[i].top, robot_);
+        state_[i] = fits ? State::reached : State::refused;
+        if (!fits) return;
         const float rise = kSteepest * distance;
         level_[i] = level + std::clamp(map_[i].top - level, -rise, rise);
         open_.push_back(i);
@@ -228,7 +153,7 @@ private:
                 bool found = false;
                 map_.each(x, y, [&](std::size_t i) {
                     found = std::abs(map_[i].top - level) <= most;
-                    if (found && reached_[i] == 0 && (touches || !map_.stands(i, cell_, robot_))) {
+                    if (found && state_[i] == State::open && (touches || !stands(i))) {
                         seed(i, level, away);
                     }
                     return !found && map_[i].top < level;
@@ -236,6 +161,13 @@ private:
                 if (found || map_.blocks(x, y, level, robot_)) break;
             }
         }
+    }
+    /// SurfaceMap::stands(), asked once of each surface.
+    bool stands(std::size_t i) {
+        if (stands_[i] == State::open) {
+            stands_[i] = map_.stands(i, cell_, robot_) ? State::refused : State::reached;
+        }
+        return stands_[i] == State::refused;
     }
     /// Whether nothing stands on the line between them.
     [[nodiscard]] bool is_open(const Surface& from, const Surface& to) const {
@@ -252,11 +184,11 @@ private:
         return true;
     }
 
-    const Map& map_;
+    const SurfaceMap& map_;
     float cell_;
     const Robot& robot_;
     std::vector<Way> ways_;
-    std::vector<std::uint8_t> reached_;
+    std::vector<State> state_, stands_;
     std::vector<float> level_;
     std::deque<std::size_t> open_;
 };
@@ -264,7 +196,7 @@ private:
 /// Heights at which much of the path lies, a storey apart, from the lowest.
 std::vector<float> storeys_of(const Points& path, float sensor_height) {
     constexpr float kLevelBin = 0.25F;
-    constexpr double kLeastShare = 0.1;
+    const std::size_t least = std::min<std::size_t>(kLeastPlaces, path.size() / 10);
     std::map<int, std::size_t> counts;
     for (const Point& place : path) {
         ++counts[static_cast<int>(std::floor((place.z() - sensor_height) / kLevelBin))];
@@ -273,8 +205,7 @@ std::vector<float> storeys_of(const Points& path, float sensor_height) {
     while (!counts.empty()) {
         const auto most = std::max_element(counts.begin(), counts.end(),
                                            [](auto& a, auto& b) { return a.second < b.second; });
-        if (static_cast<double>(most->second) < kLeastShare * static_cast<double>(path.size()))
-            break;
+        if (most->second < least) break;
         const float height = (static_cast<float>(most->first) + 0.5F) * kLevelBin;
         storeys.push_back(height);
         std::erase_if(counts, [&](const auto& bin) {
@@ -316,7 +247,7 @@ Area area_of(const std::vector<Surface>& surfaces) {
 
 Floor reached_floor(const std::vector<Surface>& surfaces, const Area& area, float cell,
                     const Points& path, const Robot& robot, int storey) {
-    const Map map(surfaces, area);
+    const SurfaceMap map(surfaces, area);
     Floor floor;
     // Sensors see no floor close to them; others see it later, unless the sensor stands.
     float radius = 3.0F;
@@ -324,6 +255,9 @@ Floor reached_floor(const std::vector<Surface>& surfaces, const Area& area, floa
         floor.sensor_height = height_of_sensor(map, path, cell, radius);
         if (floor.sensor_height > 0.0F) break;
     }
+    floor.height.assign(area.size(), kNoFloor);
+    floor.driven.assign(area.size(), 0);
+    if (floor.sensor_height == 0.0F) return floor;
     floor.storeys = storeys_of(path, floor.sensor_height);
     require(storey, floor.storeys);
 
@@ -334,14 +268,12 @@ Floor reached_floor(const std::vector<Surface>& surfaces, const Area& area, floa
         for (float r = 1.0F; !growth.begin(below, place, r) && r < radius; r *= 2.0F) {
         }
     }
-    const std::vector<std::uint8_t> reached = growth.run();
-    floor.height.assign(area.size(), kNoFloor);
-    floor.driven.assign(area.size(), 0);
+    const std::vector<Growth::State> reached = growth.run();
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
         const Surface& s = surfaces[i];
-        if (reached[i] == 0 || !is_on(s.top, floor.storeys, storey)) continue;
+        if (reached[i] != Growth::State::reached || !is_on(s.top, floor.storeys, storey)) continue;
         float& height = floor.height[area.index(s.x, s.y)];
-        floor.overlaps |= s.top - height > robot.height;  // false for kNoFloor
+        floor.overlapping += s.top - height > robot.height ? 1 : 0;  // none for kNoFloor
         height = s.top;
     }
     for (const Point& place : path) {

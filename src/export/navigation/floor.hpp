@@ -44,8 +44,8 @@ struct Floor {
     std::vector<float> height;         ///< [m] per cell of the area; kNoFloor where none is reached
     std::vector<std::uint8_t> driven;  ///< 1 per cell of the area that the path covers
     float sensor_height = 0.0F;        ///< [m] of the path above it
-    std::vector<float> storeys;  ///< [m] heights between which the path changes, from the lowest
-    bool overlaps = false;       ///< somewhere one reached floor lies above another
+    std::vector<float> storeys;   ///< [m] heights between which the path changes, from the lowest
+    std::size_t overlapping = 0;  ///< cells in which one reached floor lies above another
 };
 
 /// `path`: places of the sensor, in order. `storey`: which of the storeys to return, the first is

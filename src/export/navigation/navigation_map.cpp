@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "dynamic_filter/error.hpp"
+#include "export/navigation/surface_map.hpp"
 
 namespace dynamic_filter::app {
 
@@ -17,10 +18,10 @@ constexpr float kBeside = 2.0F;   // [m] from the floor: what stands farther off
 constexpr float kBetween = 2.5F;  // [m] of unseen floor that beams above it may prove free
 constexpr float kNarrow = 0.15F;  // [m] on each side, through which no robot fits
 constexpr int kLeastBeams = 2;    // that pass above a cell without a point,
-constexpr int kBlock = 4;         // cells in which beams high above the floor are counted together
+constexpr float kBlock = 0.2F;    // [m] in which beams high above the floor are counted together
 constexpr float kLow = 0.3F;      // [m] so low that nothing can stand below them
 constexpr float kBelly = 0.7F;    // [m] below which cars are closed, but not at their wheels
-constexpr double kMostCells = 4e8;
+constexpr double kMostCells = 1e8;
 
 constexpr std::array<std::array<int, 2>, 8> kNeighbors{
     {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 1}, {-1, 1}, {-1, -1}, {1, -1}}};
@@ -52,18 +53,25 @@ std::vector<float> floor_beside(const Floor& floor, const Area& area, int reach)
     return heights;
 }
 
-/// What stands on the floor, or lies deeper than it.
-void mark_surfaces(NavigationMap& map, const std::vector<Surface>& surfaces,
-                   const std::vector<float>& beside, const Robot& robot) {
+/// What stands on the floor, or lies deeper than it. Returns 1 for each cell in which anything
+/// does, be it a single point.
+std::vector<std::uint8_t> mark_surfaces(NavigationMap& map, const std::vector<Surface>& surfaces,
+                                        const std::vector<float>& beside, const Robot& robot) {
+    std::vector<std::uint32_t> points(map.area.size());
+    std::vector<std::uint8_t> doubtful(map.area.size());
     for (const Surface& s : surfaces) {
         const std::size_t i = map.area.index(s.x, s.y);
         const float floor = beside[i];
         const bool has_floor = !std::isnan(map.floor.height[i]);
-        if (std::isnan(floor) || has_floor || s.points < 2) continue;
+        if (std::isnan(floor) || has_floor) continue;
         const bool stands = s.top > floor + robot.step && s.bottom < floor + robot.height;
         const bool is_deep = s.top < floor - robot.step && s.top > floor - robot.height;
-        if (stands || is_deep) map.cells[i] = Passage::occupied;
+        if (!stands && !is_deep) continue;
+        doubtful[i] = 1;
+        points[i] += s.points;
+        if (points[i] >= 2) map.cells[i] = Passage::occupied;
     }
+    return doubtful;
 }
 
 /// Floors side by side between which the robot cannot drive, such as a kerb whose both sides it
@@ -107,7 +115,8 @@ void close_narrow(NavigationMap& map, int reach) {
 }
 
 /// The height of the floor of cells that lie between two free ones, and hold no point.
-std::vector<float> gaps(const NavigationMap& map, const Robot& robot, int reach) {
+std::vector<float> gaps(const NavigationMap& map, const std::vector<std::uint8_t>& doubtful,
+                        const Robot& robot, int reach) {
     const Area& area = map.area;
     std::vector<float> heights(area.size(), kNoFloor);
     const auto end_of_gap = [&](int x, int y, int dx, int dy) {
@@ -123,7 +132,7 @@ std::vector<float> gaps(const NavigationMap& map, const Robot& robot, int reach)
     for (int y = area.y; y < area.y + area.height; ++y) {
         for (int x = area.x; x < area.x + area.width; ++x) {
             const std::size_t i = area.index(x, y);
-            if (map.cells[i] != Passage::unknown) continue;
+            if (map.cells[i] != Passage::unknown || doubtful[i] != 0) continue;
             for (const std::size_t axis : kAxes) {
                 const auto [dx, dy] = kNeighbors[axis];
                 const float one = end_of_gap(x, y, dx, dy);
@@ -142,10 +151,11 @@ std::vector<float> gaps(const NavigationMap& map, const Robot& robot, int reach)
 struct Passes {
     std::vector<std::uint8_t> low;   ///< per cell of a gap: close above its floor
     std::vector<std::uint8_t> high;  ///< per block of cells: from there up to the belly of a car
-    int blocks_per_row = 0;
+    int cells_of_block = 1, blocks_per_row = 0;
     [[nodiscard]] std::size_t block(const Area& area, int x, int y) const {
-        return static_cast<std::size_t>((y - area.y) / kBlock * blocks_per_row +
-                                        (x - area.x) / kBlock);
+        const int row = (y - area.y) / cells_of_block, column = (x - area.x) / cells_of_block;
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(blocks_per_row) +
+               static_cast<std::size_t>(column);
     }
 };
 
@@ -157,10 +167,11 @@ Passes passes_of(const NavigationMap& map, const std::vector<float>& gap, float 
                  const std::vector<Look>& looks) {
     const Area& area = map.area;
     Passes passes;
-    passes.blocks_per_row = area.width / kBlock + 1;
+    passes.cells_of_block = cells_of(kBlock, cell);
+    passes.blocks_per_row = area.width / passes.cells_of_block + 1;
     passes.low.resize(area.size());
     passes.high.resize(static_cast<std::size_t>(passes.blocks_per_row) *
-                       static_cast<std::size_t>(area.height / kBlock + 1));
+                       static_cast<std::size_t>(area.height / passes.cells_of_block + 1));
     for (const Look& look : looks) {
         for (const Point& end : look.ends) {
             const Point way = end - look.from;
@@ -171,8 +182,7 @@ Passes passes_of(const NavigationMap& map, const std::vector<float>& gap, float 
                 static_cast<int>(length / cell) - 1;  // not the cell in which it ends
             Point at = look.from + 0.5F * step;
             for (int s = 0; s < steps; ++s, at += step) {
-                const auto x = static_cast<int>(std::floor(at.x() / cell));
-                const auto y = static_cast<int>(std::floor(at.y() / cell));
+                const int x = cell_at(at.x(), cell), y = cell_at(at.y(), cell);
                 if (!area.holds(x, y)) continue;
                 const std::size_t i = area.index(x, y);
                 const bool is_gap = std::isnan(map.floor.height[i]);
@@ -188,8 +198,9 @@ Passes passes_of(const NavigationMap& map, const std::vector<float>& gap, float 
 
 /// Cells between free ones are free if beams passed close above them. Floor above which no beam
 /// passed lies under a car whose top was not seen.
-void ask_beams(NavigationMap& map, float cell, const std::vector<Look>& looks, const Robot& robot) {
-    const std::vector<float> gap = gaps(map, robot, cells_of(kBetween, cell));
+void ask_beams(NavigationMap& map, const std::vector<std::uint8_t>& doubtful, float cell,
+               const std::vector<Look>& looks, const Robot& robot) {
+    const std::vector<float> gap = gaps(map, doubtful, robot, cells_of(kBetween, cell));
     const Passes passes = passes_of(map, gap, cell, looks);
     const Area& area = map.area;
     for (int y = area.y; y < area.y + area.height; ++y) {
@@ -223,10 +234,11 @@ NavigationMap navigation_map(const Columns& columns, const Points& path,
     for (std::size_t i = 0; i < map.cells.size(); ++i) {
         if (!std::isnan(map.floor.height[i])) map.cells[i] = Passage::free;
     }
-    mark_surfaces(map, surfaces, floor_beside(map.floor, map.area, cells_of(kBeside, cell)), robot);
+    const std::vector<float> beside = floor_beside(map.floor, map.area, cells_of(kBeside, cell));
+    const std::vector<std::uint8_t> doubtful = mark_surfaces(map, surfaces, beside, robot);
     mark_ledges(map, robot);
     close_narrow(map, cells_of(kNarrow, cell));
-    ask_beams(map, cell, looks, robot);
+    ask_beams(map, doubtful, cell, looks, robot);
     return map;
 }
 

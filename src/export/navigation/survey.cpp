@@ -41,6 +41,7 @@ Look look_of(const Eigen::Isometry3f& T_map_sensor, const Points& points) {
         seen.set(direction);
         look.ends.push_back(look.from + way * std::min(1.0F, kFarthest / length));
     }
+    look.ends.shrink_to_fit();
     return look;
 }
 

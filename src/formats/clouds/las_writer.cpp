@@ -16,7 +16,9 @@ namespace {
 
 constexpr double kResolution = 0.001;  // [m] of coordinates
 constexpr std::size_t header_bytes = 375, base_bytes = 30, returns_at = 14;
+constexpr std::size_t intensity_at = 12, classification_at = 16;
 constexpr std::size_t most_name = 32, most_u16 = 65535;
+constexpr std::uint8_t unassigned = 1, temporal_exclusion = 22;  // classes of LAS 1.4
 
 /// Fields for which point format 6 has a place.
 struct Standard {
@@ -98,6 +100,55 @@ std::vector<Placed> place(const Cloud& cloud) {
         end += size_of(field.type);
     }
     return placed;
+}
+
+/// What other programs show as the intensity, for values that the standard field cannot hold; these
+/// are in Extra Bytes.
+struct ShownIntensity {
+    std::vector<double> values;  ///< empty: the standard field holds them, or there are none
+    double factor = 1.0;
+    [[nodiscard]] std::uint16_t at(std::size_t i) const {
+        const double scaled = std::round(factor * values[i]);
+        return static_cast<std::uint16_t>(std::clamp(scaled, 0.0, static_cast<double>(most_u16)));
+    }
+    [[nodiscard]] std::string note() const {
+        if (values.empty() || factor == 1.0) return "";
+        return fmt::format("; the standard intensity is {:.6g} times the given one", factor);
+    }
+};
+
+/// Fractions of one, and what exceeds 16 bits, are scaled to 16 bits; else values stay what they
+/// are.
+ShownIntensity shown_intensity(const Cloud& cloud, const std::vector<Placed>& placed) {
+    const auto exact = std::find_if(placed.begin(), placed.end(), [](const Placed& p) {
+        return p.standard == nullptr && p.field.name == "intensity";
+    });
+    if (exact == placed.end()) return {};
+    ShownIntensity shown{values(cloud, exact->field)};
+    double greatest = 0.0;
+    bool has_fractions = false;
+    for (double& value : shown.values) {
+        if (!std::isfinite(value)) value = 0.0;
+        greatest = std::max(greatest, value);
+        has_fractions |= value != std::floor(value);
+    }
+    if (greatest <= 1.0 && has_fractions) shown.factor = static_cast<double>(most_u16);
+    if (greatest > static_cast<double>(most_u16)) {
+        shown.factor = static_cast<double>(most_u16) / greatest;
+    }
+    return shown;
+}
+
+/// The classes of the points that moved and of the others; empty if the cloud does not tell, or has
+/// classes of its own.
+std::vector<std::uint8_t> classes_of(const Cloud& cloud) {
+    const Field* const dynamic = cloud.find("dynamic");
+    if (dynamic == nullptr || cloud.find("classification") != nullptr) return {};
+    std::vector<std::uint8_t> classes;
+    for (const double moved : values(cloud, *dynamic)) {
+        classes.push_back(moved != 0.0 ? temporal_exclusion : unassigned);
+    }
+    return classes;
 }
 
 std::size_t record_bytes_of(const std::vector<Placed>& placed) {
@@ -191,7 +242,9 @@ void complete_returns(std::byte* record) {
 
 std::vector<std::byte> records_of(const Cloud& cloud, const std::vector<Placed>& placed,
                                   const std::array<Axis, 3>& axes,
-                                  const std::vector<std::size_t>& points) {
+                                  const std::vector<std::size_t>& points,
+                                  const ShownIntensity& intensity) {
+    const std::vector<std::uint8_t> classes = classes_of(cloud);
     const std::size_t stride = record_bytes_of(placed);
     std::vector<std::byte> records(points.size() * stride);
     for (std::size_t n = 0; n < points.size(); ++n) {
@@ -206,6 +259,8 @@ std::vector<std::byte> records_of(const Cloud& cloud, const std::vector<Placed>&
                 std::memcpy(record + p.at, from + p.field.offset, size_of(p.field.type));
             }
         }
+        if (!intensity.values.empty()) store_at(record + intensity_at, intensity.at(points[n]));
+        if (!classes.empty()) store_at(record + classification_at, classes[points[n]]);
         complete_returns(record);
     }
     return records;
@@ -227,7 +282,9 @@ struct Sizes {
 
 LasBytes header_of(const Sizes& sizes, const std::array<Axis, 3>& axes,
                    const std::array<std::uint64_t, 15>& returns) {
-    constexpr std::uint16_t has_wkt = 16;  // required by the format for point formats from 6 on
+    // Point formats from 6 on require the bit of a coordinate system in WKT, also where there is
+    // none; PDAL refuses files without it.
+    constexpr std::uint16_t has_wkt = 16;
     const bool has_extra = sizes.extra != 0;
     const std::size_t begin = header_bytes + (has_extra ? las_vlr_header_bytes + sizes.extra : 0);
     LasBytes header;
@@ -253,7 +310,8 @@ Written write_las(const std::filesystem::path& path, const Cloud& cloud) {
     for (std::size_t a = 0; a < 3; ++a) span_axis(axes[a], "xyz"[a], points, path);
     const std::vector<Placed> placed = place(cloud);
     const std::vector<std::byte> extra = extra_record(placed, path);
-    const std::vector<std::byte> records = records_of(cloud, placed, axes, points);
+    const ShownIntensity intensity = shown_intensity(cloud, placed);
+    const std::vector<std::byte> records = records_of(cloud, placed, axes, points, intensity);
     const Sizes sizes{extra.size(), record_bytes_of(placed), points.size()};
     LasBytes header = header_of(sizes, axes, count_returns(records, sizes.stride));
     if (!extra.empty()) {
@@ -266,7 +324,7 @@ Written write_las(const std::filesystem::path& path, const Cloud& cloud) {
     file.write(records);
     file.commit();
     const std::size_t lost = cloud.size() - points.size();
-    const std::string rounded = "coordinates are rounded to 1 mm";
+    const std::string rounded = "coordinates are rounded to 1 mm" + intensity.note();
     if (lost == 0) return {points.size(), rounded};
     return {points.size(),
             rounded + fmt::format("; {} points that are not finite are left out", lost)};

@@ -39,6 +39,12 @@ TEST(Columns, NoiseOfFlatGroundIsAveraged) {
     EXPECT_EQ(s[0].bottom, s[0].top);
 }
 
+TEST(Columns, ALowObjectIsNotAveragedWithTheGround) {
+    const auto s = surfaces_of({{0, 0, 0.01F}, {0, 0, 0.13F}});
+    ASSERT_EQ(s.size(), 1U);
+    EXPECT_FLOAT_EQ(s[0].top, 0.13F);
+}
+
 TEST(Columns, AStrayPointDoesNotRaiseTheGround) {
     Points points(100, Point(0, 0, 0.02F));
     points.emplace_back(0.0F, 0.0F, 0.12F);

@@ -172,7 +172,7 @@ TEST(NavigationMap, StoreysAreChosen) {
     const Points upper = path_along_x(-2, 2, [](float) { return 4.0F; });
     path.insert(path.end(), upper.begin(), upper.end());
     const NavigationMap both = navigation_map(columns, path, {}, Robot{}, 0);
-    EXPECT_TRUE(both.floor.overlaps);
+    EXPECT_GT(both.floor.overlapping, 5000U);
     ASSERT_EQ(both.floor.storeys.size(), 2U);
     EXPECT_EQ(seen(columns, path, 1)(2.05F, 0.05F), Passage::free);
     EXPECT_EQ(seen(columns, path, 2)(2.05F, 0.05F), Passage::occupied);
@@ -184,6 +184,33 @@ TEST(NavigationMap, WhereTheRobotDroveIsFree) {
     add_surface(columns, 2, -5, 9, 5, flat);  // the sensor sees no floor near where it begins
     const Seen at = seen(columns, path_along_x(-2, 3, [](float) { return 0.0F; }));
     EXPECT_EQ(at(2.0F, 0.0F), Passage::free);
+}
+
+TEST(NavigationMap, NothingIsFreeWithoutAFloorBelowTheSensor) {
+    Columns columns(kCell);
+    add_surface(columns, -5, -5, 5, 5, [](float, float) { return -6.0F; });
+    const Seen at = seen(columns, path_along_x(-2, 2, [](float) { return 0.0F; }));
+    EXPECT_EQ(std::count(at.map.cells.begin(), at.map.cells.end(), Passage::free), 0);
+}
+
+TEST(NavigationMap, TheHeightOfTheSensorIsThatAboveAFlatFloor) {
+    for (const float height : {-0.049F, 0.0F, 0.02F, 0.049F}) {
+        Columns columns(kCell);
+        add_surface(columns, -5, -5, 5, 5, [&](float, float) { return height; });
+        const Seen at = seen(columns, path_along_x(-2, 2, [](float) { return 0.0F; }));
+        EXPECT_NEAR(at.map.floor.sensor_height, kSensor - height, 0.002F);
+    }
+}
+
+TEST(NavigationMap, ASinglePointIsNotFilledUp) {
+    Columns columns(kCell);
+    add_surface(columns, -5, -2, 5, 1, flat);
+    add_surface(columns, -5, 1.5F, 5, 3, flat);
+    columns.add({0.05F, 1.25F, 0.5F});  // a thin post
+    Look look{{0, 0, kSensor}, {}};
+    for (const float end : {1.6F, 4.0F}) look.ends.insert(look.ends.end(), 2, {0.05F, end, 0.0F});
+    const Points path = path_along_x(-2, 2, [](float) { return 0.0F; });
+    EXPECT_NE(seen(columns, path, {look})(0.05F, 1.25F), Passage::free);
 }
 
 TEST(NavigationMap, TooManyCellsAreRefused) {

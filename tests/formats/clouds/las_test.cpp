@@ -214,6 +214,61 @@ TEST_F(Las, RoundTrip) {
     EXPECT_EQ(column(back, "normal_1"), (Numbers{0, 2, 4, 6, 8}));
 }
 
+/// The standard intensities and classes, as a reader without Extra Bytes sees them.
+std::pair<Numbers, Numbers> shown_by_others(const std::string& bytes) {
+    std::uint32_t begin = 0;
+    std::uint16_t stride = 0;
+    std::uint64_t points = 0;
+    std::memcpy(&begin, bytes.data() + 96, sizeof begin);
+    std::memcpy(&stride, bytes.data() + 105, sizeof stride);
+    std::memcpy(&points, bytes.data() + 247, sizeof points);
+    std::pair<Numbers, Numbers> shown;
+    for (std::uint64_t i = 0; i < points; ++i) {
+        const char* const record = bytes.data() + begin + i * stride;
+        std::uint16_t intensity = 0;
+        std::memcpy(&intensity, record + 12, sizeof intensity);
+        shown.first.push_back(intensity);
+        shown.second.push_back(static_cast<unsigned char>(record[16]));
+    }
+    return shown;
+}
+
+/// Writes points with these intensities; every second one is dynamic.
+std::pair<std::string, std::string> with_intensities(const std::filesystem::path& file,
+                                                     const std::vector<float>& intensities) {
+    Cloud cloud;
+    for (const char* name : {"x", "y", "z", "intensity"}) add_field(cloud, name, FieldType::f32);
+    add_field(cloud, "dynamic", FieldType::u8);
+    for (std::size_t i = 0; i < intensities.size(); ++i) {
+        const std::string record =
+            floats({1, 2, 3, intensities[i]}) + bytes_of(static_cast<std::uint8_t>(i % 2));
+        const auto raw = std::as_bytes(std::span(record));
+        cloud.data.insert(cloud.data.end(), raw.begin(), raw.end());
+    }
+    return {write_las(file, cloud).loss, slurp(file)};
+}
+
+TEST_F(Las, OtherProgramsSeeIntensitiesAndWhatMoved) {
+    const auto [loss, bytes] = with_intensities(folder_ / "w.las", {0.0F, 0.5F, 1.0F, -0.5F});
+    EXPECT_HAS(loss, "65535 times");
+    const auto [intensities, classes] = shown_by_others(bytes);
+    EXPECT_EQ(intensities, (Numbers{0, 32768, 65535, 0}));
+    EXPECT_EQ(classes, (Numbers{1, 22, 1, 22}));
+    EXPECT_EQ(column(read_las(folder_ / "w.las"), "intensity"), (Numbers{0, 0.5, 1, -0.5}))
+        << "the given values are in Extra Bytes";
+}
+
+TEST_F(Las, IntensitiesAreScaledOnlyWhereTheyMustBe) {
+    const auto plain = with_intensities(folder_ / "p.las", {0.0F, 12.4F, 255.0F});
+    EXPECT_EQ(plain.first.find("times"), std::string::npos);
+    EXPECT_EQ(shown_by_others(plain.second).first, (Numbers{0, 12, 255}));
+    const auto one = with_intensities(folder_ / "o.las", {0.0F, 1.0F});
+    EXPECT_EQ(shown_by_others(one.second).first, (Numbers{0, 1})) << "counts, not fractions";
+    const auto large = with_intensities(folder_ / "l.las", {0.0F, 131070.0F, NAN});
+    EXPECT_HAS(large.first, "0.5 times");
+    EXPECT_EQ(shown_by_others(large.second).first, (Numbers{0, 65535, 0}));
+}
+
 TEST_F(Las, BoundsAreThoseOfTheCoordinatesAsWritten) {
     Cloud cloud;
     for (const char* name : {"x", "y", "z"}) add_field(cloud, name, FieldType::f32);
