@@ -90,10 +90,10 @@ for prefix in "$work/root/usr" "$work/anywhere"; do
         [ "$(ldd "$program" | grep -c "libdynamic_filter.* => $prefix")" -eq 4 ] ||
             { echo "$program finds not its own libraries"; exit 1; }
     done
-    ! "$prefix/bin/dynamicfilter" run "$prefix" --mpi -o none 2> said.txt || { echo "--mpi needs no mpirun"; exit 1; }
-    grep -q "Open MPI did not start this process" said.txt || { echo "the plug-in is not found:"; cat said.txt; exit 1; }
     rm -rf demo from_python
     "$prefix/bin/dynamicfilter" simulate crowd -o demo/recording --frames 20
+    ! "$prefix/bin/dynamicfilter" run demo/recording --mpi -o none 2> said.txt || { echo "--mpi needs no mpirun"; exit 1; }
+    grep -q "Open MPI did not start this process" said.txt || { echo "the plug-in is not found:"; cat said.txt; exit 1; }
     PYTHONPATH=$prefix/$modules /usr/bin/python3 lines.py
     PYTHONPATH=$prefix/$modules /usr/bin/python3 -c "
 from importlib.metadata import version
