@@ -3,9 +3,8 @@
 ///   navigation SCENE SENSOR SEED FRAMES RATE [PICTURE.png]
 /// Simulates a scene, filters it, and makes three maps with cells of 5 cm:
 /// - ours: what `convert --to nav2` makes of the final labels;
-/// - static, flattened: cells with points of the static map at the height of the robot are
-/// occupied,
-///   all others free; heights are counted from the floor below the sensor at the begin;
+/// - static, flattened: cells with points of the static map at the height of the robot, counted
+///   from the floor below the first place of the sensor, are occupied, all others free;
 /// - raw, flattened: the same of all points.
 /// In truth, a cell is free if the robot can get there from its path without a step, and nothing
 /// static is in its way. Printed are, within 10 m of the path and of the cells that ours holds, how
@@ -110,8 +109,7 @@ Maps maps_of(const sim::SimulationOptions& options) {
         const float floor = maps.path.front().z() - maps.ours.floor.sensor_height;
         for (std::size_t k = 0; k < scans[i].points.size(); ++k) {
             const Point p = T.cast<float>() * scans[i].points[k];
-            const auto x = static_cast<int>(std::floor(p.x() / kCell));
-            const auto y = static_cast<int>(std::floor(p.y() / kCell));
+            const int x = cell_at(p.x(), kCell), y = cell_at(p.y(), kCell);
             const bool is_in_way =
                 p.z() > floor + kRobot.step && p.z() < floor + kRobot.height && is_measured(p);
             if (!is_in_way || !maps.ours.area.holds(x, y)) continue;
@@ -134,8 +132,7 @@ std::vector<Passage> truth_of(const StillScene& scene, const Maps& maps) {
     };
     const auto reach = static_cast<int>(kNear / kCell);
     for (const Point& place : maps.path) {
-        const auto px = static_cast<int>(std::floor(place.x() / kCell));
-        const auto py = static_cast<int>(std::floor(place.y() / kCell));
+        const int px = cell_at(place.x(), kCell), py = cell_at(place.y(), kCell);
         open.emplace_back(px, py);
         for (int y = py - reach; y <= py + reach; ++y) {
             for (int x = px - reach; x <= px + reach; ++x) {
@@ -180,12 +177,11 @@ enum class Mistake { none, free_for_occupied, occupied_for_free, unknown_for_fre
 Mistake mistake_at(const std::vector<Passage>& cells, const std::vector<Passage>& truth,
                    const Area& area, int x, int y) {
     const Passage is = truth[area.index(x, y)], called = cells[area.index(x, y)];
-    if (is == Passage::occupied && called == Passage::free &&
-        !has_near(truth, area, x, y, Passage::free))
-        return Mistake::free_for_occupied;
-    if (is == Passage::occupied && called == Passage::free &&
-        !has_near(cells, area, x, y, Passage::occupied))
-        return Mistake::free_for_occupied;
+    if (is == Passage::occupied && called == Passage::free) {
+        const bool is_at_border = has_near(truth, area, x, y, Passage::free) &&
+                                  has_near(cells, area, x, y, Passage::occupied);
+        return is_at_border ? Mistake::none : Mistake::free_for_occupied;
+    }
     if (is != Passage::free) return Mistake::none;
     if (called == Passage::occupied && !has_near(truth, area, x, y, Passage::occupied))
         return Mistake::occupied_for_free;

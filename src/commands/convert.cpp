@@ -87,6 +87,7 @@ int convert_recording(const ConvertOptions& o) {
     io::Recording recording = opened.recording;
     say(opened.note);
     ensure_poses(recording, preset("default"), {.deskew = o.data.deskew, .quiet = false});
+    // What is written is of the frame that the files have, unless the output follows the beams.
     if (kind == nullptr || !kind->from_sensor) {
         recording = io::with_sensor_at(recording, Eigen::Vector3d::Zero());
     }
@@ -141,8 +142,7 @@ int convert_cloud(const ConvertOptions& o) {
     if (kind != nullptr) {
         throw ConfigError(
             fmt::format("{}: --to {} is made of a recording, because it needs to know from where "
-                        "each point was "
-                        "seen; give the recording as IN, and --labels",
+                        "each point was seen; give the recording as IN, and --labels",
                         o.data.data.string(), kind->name));
     }
     check_cloud_output(o);

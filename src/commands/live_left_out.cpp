@@ -9,8 +9,7 @@ void add_live(Program& program) {
         .left_out(
             "`live` was left out when this program was built; everything else works. To have it, "
             "install Cyclone DDS, libwebsockets and yaml-cpp (cyclonedds-dev, libwebsockets-dev "
-            "and "
-            "libyaml-cpp-dev on Debian and Ubuntu) and build with -DDYNAMIC_FILTER_LIVE=ON");
+            "and libyaml-cpp-dev on Debian and Ubuntu) and build with -DDYNAMIC_FILTER_LIVE=ON");
 }
 
 }  // namespace dynamic_filter::app

@@ -9,6 +9,7 @@
 #include <deque>
 #include <map>
 #include <numbers>
+#include <optional>
 
 #include "dynamic_filter/error.hpp"
 #include "export/navigation/surface_map.hpp"
@@ -101,7 +102,7 @@ public:
           robot_(robot),
           ways_(ways(static_cast<int>(kBridged / cell))),
           state_(map.size(), State::open),
-          stands_(map.size(), State::open),
+          stands_(map.size()),
           level_(map.size()) {}
 
     /// Begins around a place of the path; `below` is the floor that must be there. Returns whether
@@ -164,10 +165,8 @@ private:
     }
     /// SurfaceMap::stands(), asked once of each surface.
     bool stands(std::size_t i) {
-        if (stands_[i] == State::open) {
-            stands_[i] = map_.stands(i, cell_, robot_) ? State::refused : State::reached;
-        }
-        return stands_[i] == State::refused;
+        if (!stands_[i]) stands_[i] = map_.stands(i, cell_, robot_);
+        return *stands_[i];
     }
     /// Whether nothing stands on the line between them.
     [[nodiscard]] bool is_open(const Surface& from, const Surface& to) const {
@@ -188,7 +187,8 @@ private:
     float cell_;
     const Robot& robot_;
     std::vector<Way> ways_;
-    std::vector<State> state_, stands_;
+    std::vector<State> state_;
+    std::vector<std::optional<bool>> stands_;
     std::vector<float> level_;
     std::deque<std::size_t> open_;
 };

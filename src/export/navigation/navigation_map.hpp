@@ -29,7 +29,7 @@ struct NavigationMap {
 /// it; or if it lies between such cells, and beams passed above it. It is occupied if something
 /// static is between step and height of the robot above the floor next to it, or if the floor ends
 /// there in a ledge. All else is unknown. Throws ConfigError as reached_floor(), and if the area
-/// has more than 400 million cells.
+/// has more than 100 million cells.
 NavigationMap navigation_map(const Columns& columns, const Points& path,
                              const std::vector<Look>& looks, const Robot& robot, int storey);
 
