@@ -1,6 +1,7 @@
 # What is installed: the command (component `command`); the libraries, their headers and
 # DynamicFilterConfig.cmake (`dev`); shared libraries (`library`), if BUILD_SHARED_LIBS is set; the
-# Python package (`python`); the ROS 1 node (`ros`); the plug-in for MPI (`mpi`).
+# Python package (`python`); the ROS 1 node (`ros`); the plug-ins for MPI (`mpi`) and
+# for coordinate systems (`crs`).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(DF_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/DynamicFilter)
@@ -47,9 +48,11 @@ if(DYNAMIC_FILTER_LIVE)
   install(FILES ${PROJECT_BINARY_DIR}/packaging/ros2/bin/dynamicfilter DESTINATION lib/dynamicfilter COMPONENT command)
 endif()
 
-if(TARGET dynamicfilter_mpi)
-  install(TARGETS dynamicfilter_mpi LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/dynamicfilter COMPONENT mpi)
-endif()
+foreach(plugin mpi crs)
+  if(TARGET dynamicfilter_${plugin})
+    install(TARGETS dynamicfilter_${plugin} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/dynamicfilter COMPONENT ${plugin})
+  endif()
+endforeach()
 
 # Where roslaunch looks for what belongs to a package of ROS.
 if(TARGET dynamicfilter_ros1)

@@ -37,11 +37,13 @@ if(TARGET dynamicfilter_ros1)
   list(APPEND packages dynamicfilter-ros)
   list(APPEND sections science)
 endif()
-if(TARGET dynamicfilter_mpi)
-  list(APPEND CPACK_COMPONENTS_ALL mpi)
-  list(APPEND packages dynamicfilter-mpi)
-  list(APPEND sections science)
-endif()
+foreach(plugin mpi crs)
+  if(TARGET dynamicfilter_${plugin})
+    list(APPEND CPACK_COMPONENTS_ALL ${plugin})
+    list(APPEND packages dynamicfilter-${plugin})
+    list(APPEND sections science)
+  endif()
+endforeach()
 foreach(component package section IN ZIP_LISTS CPACK_COMPONENTS_ALL packages sections)
   set(doc ${CMAKE_INSTALL_DATADIR}/doc/${package})
   install(FILES ${DF_DEBIAN}/copyright DESTINATION ${doc} COMPONENT ${component})
@@ -75,7 +77,9 @@ set(CPACK_COMPONENT_DEV_DEPENDS library)
 set(CPACK_COMPONENT_COMMAND_DEPENDS library)
 set(CPACK_COMPONENT_PYTHON_DEPENDS library)
 set(CPACK_COMPONENT_ROS_DEPENDS library)
-set(CPACK_COMPONENT_MPI_DEPENDS command)  # in exactly the same version, which the command checks
+# In exactly the same version, which the command checks.
+set(CPACK_COMPONENT_MPI_DEPENDS command)
+set(CPACK_COMPONENT_CRS_DEPENDS command)
 
 foreach(library IN LISTS DF_LIBRARIES)
   get_target_property(soversion ${library} SOVERSION)
@@ -97,11 +101,14 @@ set(CPACK_COMPONENT_COMMAND_DESCRIPTION "remove moving objects from LiDAR scans 
 Labels every point of a recording as static, dynamic or unknown, from scans
 and poses alone, and writes the map without what moves. Reads ROS bags, KITTI
 and folders of clouds.")
-set(CPACK_DEBIAN_COMMAND_PACKAGE_SUGGESTS "dynamicfilter-mpi, parallel, slurm-client")
+set(CPACK_DEBIAN_COMMAND_PACKAGE_SUGGESTS "dynamicfilter-crs, dynamicfilter-mpi, parallel, slurm-client")
 set(CPACK_DEBIAN_MPI_PACKAGE_DEPENDS openmpi-bin)
 set(CPACK_COMPONENT_MPI_DESCRIPTION "remove moving objects from LiDAR scans, on many machines by MPI
 The plug-in for `dynamicfilter run --mpi`, by which the processes that mpirun
 started share the tiles of a large run among them.")
+set(CPACK_COMPONENT_CRS_DESCRIPTION "remove moving objects from LiDAR scans, coordinate systems of the earth
+The plug-in for `dynamicfilter convert --crs`, which places clouds in a
+projected coordinate system by PROJ and names it in LAS files.")
 # roslaunch brings the master.
 set(CPACK_DEBIAN_ROS_PACKAGE_RECOMMENDS python3-roslaunch)
 set(CPACK_COMPONENT_ROS_DESCRIPTION "remove moving objects from LiDAR scans, node of ROS 1

@@ -80,6 +80,16 @@ std::optional<double> parse_real(std::string_view token) {
     return value;
 }
 
+std::vector<double> parse_reals(std::string_view text) {
+    std::vector<double> values;
+    for (const std::string_view word : split_at(text, ',')) {
+        const std::optional<double> value = parse_real(word);
+        if (!value || !std::isfinite(*value)) return {};
+        values.push_back(*value);
+    }
+    return values;
+}
+
 std::optional<std::uint64_t> parse_count(std::string_view token) {
     if (token.empty() || (token.size() > 1 && token.front() == '0')) return std::nullopt;
     if (!std::all_of(token.begin(), token.end(), is_digit)) return std::nullopt;

@@ -51,6 +51,8 @@ inline bool is_blank_or_comment(std::string_view line) {
 /// Reads the whole token as a number. The decimal separator is always a point; nan and inf are
 /// numbers.
 std::optional<double> parse_real(std::string_view token);
+/// Reads finite numbers with commas between them; empty if one of them is none.
+std::vector<double> parse_reals(std::string_view text);
 /// Reads a count as in headers: only digits, no sign, no leading zero.
 std::optional<std::uint64_t> parse_count(std::string_view token);
 

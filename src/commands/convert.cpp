@@ -14,6 +14,8 @@
 #include "dynamic_filter/writers.hpp"
 #include "export/convert_map.hpp"
 #include "export/convert_options.hpp"
+#include "export/cut.hpp"
+#include "export/georeference.hpp"
 #include "export/outputs.hpp"
 #include "formats/label_files.hpp"
 #include "formats/voxel_map/map_index.hpp"
@@ -65,22 +67,69 @@ Config settings_of(const ConvertOptions& o) {
     return {};
 }
 
+/// Refuses options that the output has no use for.
+void refuse_idle_options(const ConvertOptions& o, const Output* kind, bool is_recording) {
+    const bool is_cloud = kind == nullptr && io::can_write_cloud(o.output);
+    if (o.thin > 0.0 && !is_cloud) {
+        throw ConfigError("--thin is for one cloud (" + io::cloud_kinds_written() + ")");
+    }
+    if (!o.crs.empty() && !is_cloud) {
+        throw ConfigError("--crs is for one cloud (" + io::cloud_kinds_written() +
+                          "), and for --to las of the map of several drives");
+    }
+    const bool has_origin = kind != nullptr && kind->name == "autoware";
+    if (!o.origin.empty() && o.crs.empty() && !has_origin) {
+        throw ConfigError("--origin is for --crs, --to autoware and --to 3dtiles");
+    }
+    if (!o.only.empty() && kind != nullptr && kind->from_sensor) {
+        throw ConfigError("--only: " + kind->shown() +
+                          " needs what stands and what moves, because both end beams");
+    }
+    if (is_recording) return;
+    if (!o.only.empty() || o.max_range > 0.0) {
+        throw ConfigError(o.data.data.string() + ": " +
+                          (o.only.empty() ? "--max-range" : "--only") +
+                          " is for a recording, which tells where the sensor was and, with "
+                          "--labels, what moves");
+    }
+}
+
+/// What is wanted of a recording.
+Cut cut_of(const ConvertOptions& o) {
+    Cut cut{box_of(o.box), o.max_range, {}, o.keep_unknown};
+    if (!o.only.empty()) cut.only = o.only == "static" ? Kept::in_map : Kept::removed;
+    return cut;
+}
+
+/// Gives the sink what is wanted of the scan; false if that is nothing.
+bool append_part(Sink& sink, const Cut& cut, const io::FullScan& scan, const Labels& labels) {
+    if (cut.only) require_labels(labels, "--only");
+    if (cut.takes_all()) {
+        sink.append(scan, labels);
+        return true;
+    }
+    const std::vector<std::uint32_t> wanted = wanted_points(cut, scan, labels);
+    if (!wanted.empty()) sink.append(part_of(scan, wanted), part_of(labels, wanted));
+    return !wanted.empty();
+}
+
 /// Refuses options that are for the map of several drives only.
 void refuse_map_options(const ConvertOptions& o) {
     const Output* const kind = chosen_output(o);
     const bool is_for_maps =
         kind != nullptr && kind->of_recording == nullptr && kind->of_cloud == nullptr;
-    if (!is_for_maps && o.origin.empty()) return;
+    if (!is_for_maps) return;
     throw ConfigError(fmt::format(
-        "{}: {} is for the map of several drives, which `dynamicfilter run A B ... -o OUT` makes; "
-        "give OUT as IN",
-        o.data.data.string(), o.origin.empty() ? "--to " + o.to : "--origin"));
+        "{}: --to {} is for the map of several drives, which `dynamicfilter run A B ... -o OUT` "
+        "makes; give OUT as IN",
+        o.data.data.string(), o.to));
 }
 
 int convert_recording(const ConvertOptions& o) {
     const Output* const kind = chosen_output(o);
+    refuse_idle_options(o, kind, true);
     if (kind != nullptr && kind->of_recording == nullptr) {
-        throw ConfigError("--to " + o.to + " is for a map: give a cloud file as IN");
+        throw ConfigError(kind->shown() + " is for a map: give a cloud file as IN");
     }
     const RecordingOfResult opened =
         o.labels ? open_for_result(o.data, *o.labels) : RecordingOfResult{open(o.data)};
@@ -96,11 +145,12 @@ int convert_recording(const ConvertOptions& o) {
         fmt::print(stderr, "lost     {}\n", line);
     catch_interrupts();
     ConvertOptions of_sink = o;
-    // Only bags ask for it.
-    if (io::BagWriter::recognises(o.output)) {
+    if (io::BagWriter::recognises(o.output) || !o.only.empty()) {  // only these ask for it
         of_sink.keep_unknown = settings_of(o).map.keep_unknown;
     }
+    const Cut cut = cut_of(of_sink);
     const std::unique_ptr<Sink> sink = make_sink(of_sink);
+    std::size_t written = 0;
     std::vector<std::size_t> scans(recording.size());
     std::iota(scans.begin(), scans.end(), 0U);
     std::vector<std::string> rejected, notes;
@@ -116,7 +166,8 @@ int convert_recording(const ConvertOptions& o) {
             if (!o.labels && !maybe.scan->truth_fault.empty()) {
                 notes.push_back(maybe.scan->truth_fault + "; its points are unknown");
             }
-            sink->append(*maybe.scan, labels_of(o, recording, i, *maybe.scan));
+            written +=
+                append_part(*sink, cut, *maybe.scan, labels_of(o, recording, i, *maybe.scan));
             return true;
         });
     }
@@ -124,16 +175,36 @@ int convert_recording(const ConvertOptions& o) {
     for (const std::string& note : notes) say(note);
     if (interrupted()) return kInterrupted;  // nothing is put in place
     if (rejected.size() == scans.size()) throw InputError(o.data.data, "", "no scan is usable");
+    if (written == 0) {
+        throw ConfigError(
+            "no scan has a point that --box, --max-range and --only take; nothing is written");
+    }
+    const std::size_t empty = scans.size() - rejected.size() - written;
+    if (empty > 0) say(fmt::format("{} scans have no point there, and are left out", empty));
     say(sink->commit());
-    fmt::print("written  {} ({} scans)\n", o.output.string(), scans.size() - rejected.size());
+    fmt::print("written  {} ({} scans)\n", o.output.string(), written);
     return rejected.empty() && recording.info().losses.empty() ? kDone : kRejected;
+}
+
+io::Cloud wanted_cloud(const ConvertOptions& o) {
+    io::Cloud cloud = io::read_cloud(o.data.data);
+    if (const std::optional<Box> box = box_of(o.box)) {
+        cloud = part_of(cloud, wanted_points(*box, cloud));
+        if (cloud.size() == 0) {
+            throw ConfigError("--box " + o.box + ": no point of " + o.data.data.string() +
+                              " lies there");
+        }
+    }
+    if (o.thin > 0.0) cloud = thinned(cloud, o.thin);
+    return o.crs.empty() ? cloud : Georeference(o.crs, o.origin).cloud(cloud);
 }
 
 int convert_cloud(const ConvertOptions& o) {
     const Output* const kind = chosen_output(o);
+    refuse_idle_options(o, kind, false);
     if (kind != nullptr && kind->of_cloud != nullptr) {
         OutputFolder output(o.output, kind->files, replaced_if(o.overwrite));
-        const WrittenMap tiles = kind->of_cloud(io::read_cloud(o.data.data), output.path());
+        const WrittenMap tiles = kind->of_cloud(wanted_cloud(o), o, output.path());
         output.commit();
         say(tiles.note);
         fmt::print("written  {} ({} tiles)\n", output.name().string(), tiles.files);
@@ -141,13 +212,12 @@ int convert_cloud(const ConvertOptions& o) {
     }
     if (kind != nullptr) {
         throw ConfigError(
-            fmt::format("{}: --to {} is made of a recording, because it needs to know from where "
+            fmt::format("{}: {} is made of a recording, because it needs to know from where "
                         "each point was seen; give the recording as IN, and --labels",
-                        o.data.data.string(), kind->name));
+                        o.data.data.string(), kind->shown()));
     }
     check_cloud_output(o);
-    const io::Cloud cloud = io::read_cloud(o.data.data);
-    const io::Written written = io::write_cloud(o.output, cloud);
+    const io::Written written = io::write_cloud(o.output, wanted_cloud(o));
     say(written.loss);
     fmt::print("written  {} ({} points)\n", o.output.string(), written.points);
     return kDone;
@@ -178,26 +248,38 @@ void add_convert(Program& program) {
     const auto o = std::make_shared<ConvertOptions>();
     c.path("IN", o->data.data, "recording or cloud file").required();
     c.path("OUT,-o,--output", o->output,
-           "bag (.mcap, .bag, .db3), folder, or cloud file (.pcd, .ply, .las, .npy, .bin): of a "
-           "recording, all its points "
-           "in the world's frame")
+           "bag (.mcap, .bag, .db3), folder, OctoMap (.bt, .ot), or cloud file (.pcd, .ply, .las, "
+           ".npy, .bin): of a recording, all its points in the world's frame")
         .required();
     c.choice(
         "--to", o->to, output_names(),
         "layout of the output folder: kitti (default), benchmark, nav2 (map in two dimensions), "
         "or autoware (map tiles); of the map of several drives: 3dtiles, las or autoware");
     c.text("--origin", o->origin,
-           "with --to 3dtiles: LAT,LON[,HEIGHT] of the world's origin, whose x points to the east "
-           "(default: the tiles stay "
-           "in the world frame)");
+           "where the origin of the poses lies, if their x points to the east: LAT,LON[,HEIGHT]; "
+           "or with --crs EAST,NORTH[,HEIGHT], which is added");
+    c.text("--crs", o->crs,
+           "coordinate system of a cloud to write, such as EPSG:32633; LAS names it "
+           "(default: coordinates stay those of the poses)");
     c.path("--labels", o->labels,
            "output folder of a run, or its labels (default: the ground truth of the recording)");
-    c.number("--cell", o->cell, {0.02, 0.25}, "with --to nav2: width of a cell [m]");
+    c.number("--cell", o->cell, {0.02, 2.0},
+             "width of a cell [m]: of OctoMap (default 0.1), and with --to nav2 (default 0.05)");
     c.number("--robot-height", o->robot_height, {0.05, 10.0},
              "with --to nav2: what hangs higher above the floor is no obstacle [m]");
     c.number("--step", o->step, {0.01, 0.5}, "with --to nav2: what the robot may climb [m]");
     c.whole("--storey", o->storey, {1, 100},
             "with --to nav2: which floor, where several lie one above the other; 1 is the lowest");
+    c.text("--box", o->box,
+           "two corners of a box in the world, X,Y,Z,X,Y,Z or X,Y,X,Y [m]: what lies outside "
+           "counts as not measured");
+    c.number("--max-range", o->max_range, {0.1, 1e6},
+             "of a recording: what lies farther from the sensor counts as not measured [m]");
+    c.choice("--only", o->only, {"static", "dynamic"},
+             "of a recording, with --labels: only what stands, or only what moves");
+    c.number(
+        "--thin", o->thin, {0.001, 100.0},
+        "of a cloud: one point for each cell of this width [m], the one nearest to the sensor");
     add_reading_options(c, o->data);
     add_selection_options(c, o->data);
     c.flag("--overwrite", o->overwrite, "replace an existing output");

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "dynamic_filter/writers.hpp"
+#include "export/georeference.hpp"
 #include "export/outputs.hpp"
 #include "export/tile_tree.hpp"
 #include "formats/voxel_map/tile_points.hpp"
@@ -18,6 +19,9 @@ namespace fs = std::filesystem;
 namespace dynamic_filter::app {
 
 namespace {
+
+/// As Autoware's launch files name a map by default, be it a file or a folder.
+constexpr const char* kTileFolder = "pointcloud_map.pcd";
 
 /// The squares that a tile lies in, whole or in part, or that its voxels are in.
 std::vector<Corner> squares_of(const MapIndex& index, const MapTile& tile) {
@@ -116,11 +120,20 @@ std::string autoware_metadata(const std::vector<Corner>& squares) {
     return text;
 }
 
+std::string autoware_projector(const std::string& origin) {
+    if (origin.empty()) return "projector_type: Local\n";
+    const GeoOrigin at = geo_origin(origin);
+    return fmt::format(
+        "projector_type: LocalCartesian\nvertical_datum: WGS84\nmap_origin:\n"
+        "  latitude: {}\n  longitude: {}\n  altitude: {}\n",
+        at.latitude_deg, at.longitude_deg, at.height);
+}
+
 std::size_t write_autoware_tiles(const MapIndex& index, const fs::path& folder,
                                  const fs::path& output) {
     const TreeNode tree = tree_of(index, folder);
-    fs::create_directories(output / "pointcloud_map");
-    OpenSquares squares(index, output / "pointcloud_map");
+    fs::create_directories(output / kTileFolder);
+    OpenSquares squares(index, output / kTileFolder);
     add_tiles(tree, index, folder, squares);
     io::write_file(output / "pointcloud_map_metadata.yaml", autoware_metadata(squares.written()));
     return squares.written().size();
@@ -145,18 +158,23 @@ std::string note_on_floats(const MapIndex& index) {
 }  // namespace
 
 const FolderFiles& autoware_files() {
-    static const FolderFiles files{.files = {"pointcloud_map_metadata.yaml"},
-                                   .folders = {{"pointcloud_map", ".pcd"}}};
+    static const FolderFiles files{
+        .files = {"pointcloud_map_metadata.yaml", "map_projector_info.yaml"},
+        .folders = {{kTileFolder, ".pcd"}, {"pointcloud_map", ".pcd"}}};  // the earlier name
     return files;
 }
 
-WrittenMap autoware_of_map(const MapIndex& index, const fs::path& map, const ConvertOptions&,
+WrittenMap autoware_of_map(const MapIndex& index, const fs::path& map, const ConvertOptions& o,
                            const fs::path& output) {
+    io::write_file(output / "map_projector_info.yaml", autoware_projector(o.origin));
     const std::size_t files = write_autoware_tiles(index, map, output);
     return {.files = files, .note = note_on_floats(index)};
 }
 
-WrittenMap autoware_of_cloud(const io::Cloud& cloud, const fs::path& output) {
+WrittenMap autoware_of_cloud(const io::Cloud& cloud, const ConvertOptions& o,
+                             const fs::path& output) {
+    io::write_file(output / "map_projector_info.yaml", autoware_projector(o.origin));
+
     const auto x = io::values(cloud, *cloud.find("x")), y = io::values(cloud, *cloud.find("y"));
     std::map<Corner, io::Cloud> tiles;
     std::size_t nowhere = 0;
@@ -170,7 +188,7 @@ WrittenMap autoware_of_cloud(const io::Cloud& cloud, const fs::path& output) {
         tile.point_bytes = cloud.point_bytes;
         append_record(tile.data, cloud.data, i, cloud.point_bytes);
     }
-    const fs::path folder = output / "pointcloud_map";
+    const fs::path folder = output / kTileFolder;
     fs::create_directories(folder);
     std::vector<Corner> corners;
     for (const auto& [corner, tile] : tiles) {

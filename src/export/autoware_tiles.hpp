@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -24,7 +25,11 @@ std::string autoware_name(const Corner& corner);
 /// The text of pointcloud_map_metadata.yaml.
 std::string autoware_metadata(const std::vector<Corner>& squares);
 
-/// Cuts the tiles of a map into such squares: OUTPUT/pointcloud_map/*.pcd and the metadata.
+/// The text of map_projector_info.yaml: where `origin`, LAT,LON[,HEIGHT], lies; local coordinates
+/// if it is empty. Throws ConfigError.
+std::string autoware_projector(const std::string& origin);
+
+/// Cuts the tiles of a map into such squares: OUTPUT/pointcloud_map.pcd/*.pcd and the metadata.
 /// Coordinates become float32. In memory are one tile and the squares that lie across the border of
 /// what was read so far. Returns the number of squares.
 std::size_t write_autoware_tiles(const MapIndex& index, const std::filesystem::path& folder,

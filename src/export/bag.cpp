@@ -14,15 +14,17 @@ namespace dynamic_filter::app {
 
 namespace {
 
-/// Raw, static and dynamic points of each scan, and where the sensor is.
+/// Raw, static and dynamic points of each scan, or only the static or the dynamic ones, and where
+/// the sensor is.
 class BagSink final : public Sink {
 public:
     /// `map`: a cloud in the world's frame that is written, too.
-    BagSink(const fs::path& file, std::optional<fs::path> map, bool keep_unknown)
+    BagSink(const fs::path& file, std::optional<fs::path> map, const ConvertOptions& o)
         : writer_(io::BagWriter::create(file)),
           encoding_(writer_->encoding()),
           map_(std::move(map)),
-          keep_unknown_(keep_unknown) {}
+          keep_unknown_(o.keep_unknown),
+          only_(o.only) {}
 
     void append(const io::FullScan& scan, const Labels& labels) override {
         last_ = scan.stamp;
@@ -37,10 +39,10 @@ public:
             write(name, "sensor_msgs/PointCloud2", scan.stamp,
                   io::cloud_message(points, scan.stamp, kSensor, encoding_));
         };
-        write_points("/points", cloud);
+        if (only_.empty()) write_points("/points", cloud);
         if (labels.empty()) return;
-        write_points("/points_static", part(cloud, labels, Kept::in_map));
-        write_points("/points_dynamic", part(cloud, labels, Kept::removed));
+        if (only_ != "dynamic") write_points("/points_static", part(cloud, labels, Kept::in_map));
+        if (only_ != "static") write_points("/points_dynamic", part(cloud, labels, Kept::removed));
     }
     std::string commit() override {
         if (map_) {
@@ -81,6 +83,7 @@ private:
     io::MessageEncoding encoding_;
     std::optional<fs::path> map_;
     bool keep_unknown_;
+    std::string only_;
     double last_ = 0.0;  // [s]
     std::string rounded_;
 };
@@ -91,7 +94,8 @@ std::unique_ptr<Sink> make_bag_sink(const ConvertOptions& o) {
     refuse_existing(o.output, o.overwrite);
     const fs::path map = o.labels.value_or("") / "static_map.pcd";
     return std::make_unique<BagSink>(
-        o.output, o.labels && fs::exists(map) ? std::optional(map) : std::nullopt, o.keep_unknown);
+        o.output,
+        o.labels && o.only != "dynamic" && fs::exists(map) ? std::optional(map) : std::nullopt, o);
 }
 
 }  // namespace dynamic_filter::app

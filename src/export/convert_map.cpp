@@ -23,8 +23,15 @@ const Output& checked_output(const ConvertOptions& o) {
         throw ConfigError(
             "--labels is for a recording; the map of several drives holds static voxels only");
     }
-    if (!o.origin.empty() && o.to != "3dtiles") {
-        throw ConfigError("--origin is for --to 3dtiles only");
+    if (!o.box.empty() || o.max_range > 0.0 || !o.only.empty() || o.thin > 0.0) {
+        throw ConfigError(
+            "--box, --max-range, --only and --thin are for a recording or a cloud, not for the map "
+            "of several drives");
+    }
+    if (!o.crs.empty() && o.to != "las")
+        throw ConfigError("--crs: --to las alone has a place for it");
+    if (!o.origin.empty() && o.crs.empty() && o.to == "las") {
+        throw ConfigError("--origin: --to las needs --crs, too");
     }
     return *output;
 }

@@ -10,19 +10,21 @@ namespace fs = std::filesystem;
 
 namespace dynamic_filter::app {
 
-std::string write_las_tiles(const MapIndex& index, const fs::path& folder, const fs::path& output) {
+std::string write_las_tiles(const MapIndex& index, const fs::path& folder, const fs::path& output,
+                            const std::optional<Georeference>& georeference) {
     if (index.tiles.empty()) throw InputError(folder / "index.json", "", "lists no tiles");
     fs::create_directories(output / "las");
     MapIndex written = index;
     std::string loss;
     for (MapTile& tile : written.tiles) {
         read_tile(folder, index, tile);  // says what is wrong with a file, before it is copied
-        loss =
-            io::write_las(output / "las" / (tile.name + ".las"), io::read_pcd(folder / tile.file))
-                .loss;
+        io::Cloud cloud = io::read_pcd(folder / tile.file);
+        if (georeference) cloud = georeference->cloud(cloud);
+        loss = io::write_las(output / "las" / (tile.name + ".las"), cloud).loss;
         tile.file = "las/" + tile.name + ".las";
     }
-    io::write_file(output / "index.json", to_json(written));
+    // The squares of the index are those of the world's frame.
+    if (!georeference) io::write_file(output / "index.json", to_json(written));
     return loss;
 }
 
@@ -31,9 +33,11 @@ const FolderFiles& las_files() {
     return files;
 }
 
-WrittenMap las_of_map(const MapIndex& index, const fs::path& map, const ConvertOptions&,
+WrittenMap las_of_map(const MapIndex& index, const fs::path& map, const ConvertOptions& o,
                       const fs::path& output) {
-    std::string loss = write_las_tiles(index, map, output);
+    std::optional<Georeference> georeference;
+    if (!o.crs.empty()) georeference.emplace(o.crs, o.origin);
+    std::string loss = write_las_tiles(index, map, output, georeference);
     return {.files = index.tiles.size(), .note = std::move(loss)};
 }
 

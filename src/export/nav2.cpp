@@ -53,21 +53,25 @@ std::string yaml_of(const Area& part, const Survey& survey) {
         survey.origin().y() + part.y * survey.cell());
 }
 
+constexpr double kUsualCell = 0.05, kWidestCell = 0.25;  // [m]
+
 class Nav2Sink final : public Sink {
 public:
     explicit Nav2Sink(const ConvertOptions& o)
-        : options_(o), output_(o.output, nav2_files(), replaced_if(o.overwrite)), survey_(o.cell) {
+        : options_(o),
+          output_(o.output, nav2_files(), replaced_if(o.overwrite)),
+          survey_(o.cell > 0.0 ? o.cell : kUsualCell) {
+        if (o.cell > kWidestCell) {
+            throw ConfigError(fmt::format(
+                "--cell {}: cells of a map for nav2 are at most {} m wide", o.cell, kWidestCell));
+        }
         if (o.robot_height > o.step) return;
         throw ConfigError(fmt::format("--robot-height {} must be greater than --step {}",
                                       o.robot_height, o.step));
     }
 
     void append(const io::FullScan& scan, const Labels& labels) override {
-        if (labels.empty()) {
-            throw ConfigError(
-                "--to nav2 needs labels, to tell what stands from what moves: give --labels OUT, "
-                "the folder of a run");
-        }
+        require_labels(labels, "--to nav2");
         survey_.add(scan.points, labels, scan.T_world_sensor, scan.stamp);
     }
 
@@ -93,7 +97,7 @@ private:
         }
         constexpr double kSomewhere = 1.0;  // [m2]
         const double overlap =
-            static_cast<double>(map.floor.overlapping) * options_.cell * options_.cell;
+            static_cast<double>(map.floor.overlapping) * survey_.cell() * survey_.cell();
         if (options_.storey > 0 || overlap < kSomewhere || map.floor.storeys.size() < 2) return;
         throw ConfigError(fmt::format(
             "{} storeys lie one above the other, and one map can hold one of them; --storey 1 is "
@@ -103,7 +107,7 @@ private:
     [[nodiscard]] std::string summary(const NavigationMap& map) const {
         const auto area_of_kind = [&](Passage kind) {
             const auto count = std::count(map.cells.begin(), map.cells.end(), kind);
-            return static_cast<double>(count) * options_.cell * options_.cell;
+            return static_cast<double>(count) * survey_.cell() * survey_.cell();
         };
         return fmt::format(
             "{:.0f} m2 are free and {:.0f} m2 occupied; the sensor is {:.2f} m above "

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "export/outputs.hpp"
 
+#include <algorithm>
+
 #include "dynamic_filter/bag.hpp"
 #include "dynamic_filter/error.hpp"
 
@@ -19,21 +21,31 @@ const std::vector<Output>& outputs() {
         {.name = "autoware",
          .files = autoware_files(),
          .of_map = autoware_of_map,
-         .of_cloud = autoware_of_cloud}};
+         .of_cloud = autoware_of_cloud},
+        {.name = "OctoMap",
+         .of_recording = make_octomap_sink,
+         .from_sensor = true,
+         .extensions = {".bt", ".ot"}}};
     return rows;
 }
 
 std::vector<std::string> output_names() {
     std::vector<std::string> names;
-    for (const Output& output : outputs()) names.push_back(output.name);
+    for (const Output& output : outputs()) {
+        if (output.extensions.empty()) names.push_back(output.name);
+    }
     return names;
 }
 
 const Output* chosen_output(const ConvertOptions& o) {
-    if (o.to.empty()) return nullptr;
     for (const Output& output : outputs()) {
-        if (output.name == o.to) return &output;
+        const auto& endings = output.extensions;
+        const bool is_named = o.to.empty() ? std::find(endings.begin(), endings.end(),
+                                                       o.output.extension()) != endings.end()
+                                           : endings.empty() && output.name == o.to;
+        if (is_named) return &output;
     }
+    if (o.to.empty()) return nullptr;
     throw ConfigError("--to " + o.to + ": there is no such output");
 }
 

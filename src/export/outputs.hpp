@@ -20,25 +20,31 @@ struct WrittenMap {
     std::string note{};
 };
 
-/// A folder that --to names. A function is nullptr if the output cannot be made of that.
+/// A folder that --to names, or a file by its extension. A function is nullptr if the output cannot
+/// be made of that.
 struct Output {
-    std::string name;  ///< "3dtiles"
-    const FolderFiles& files;
+    std::string name;            ///< "3dtiles"
+    const FolderFiles& files{};  ///< of a folder
     std::unique_ptr<Sink> (*of_recording)(const ConvertOptions& options) = nullptr;
     /// `map`: the folder of the index.
     WrittenMap (*of_map)(const MapIndex& index, const std::filesystem::path& map,
                          const ConvertOptions& options,
                          const std::filesystem::path& output) = nullptr;
-    WrittenMap (*of_cloud)(const io::Cloud& cloud, const std::filesystem::path& output) = nullptr;
+    WrittenMap (*of_cloud)(const io::Cloud& cloud, const ConvertOptions& options,
+                           const std::filesystem::path& output) = nullptr;
     /// True: scans are in the sensor's frame, where beams begin; else in the frame of the files.
     bool from_sensor = false;
+    std::vector<std::string> extensions{};  ///< of a file, such as ".bt"; --to does not name it
+
+    /// As messages name it: "--to 3dtiles".
+    [[nodiscard]] std::string shown() const { return extensions.empty() ? "--to " + name : name; }
 };
 
 /// All rows, in the order in which messages name them.
 const std::vector<Output>& outputs();
 std::vector<std::string> output_names();
-/// The output that --to names; nullptr if it names none. Throws ConfigError if there is none of
-/// that name.
+/// The output that --to or the extension names; nullptr for bags, clouds and the usual folder.
+/// Throws ConfigError if there is none of that name.
 const Output* chosen_output(const ConvertOptions& options);
 /// "--to 3dtiles, --to las or --to autoware": what can be made of a map.
 std::string outputs_of_maps();
@@ -63,6 +69,9 @@ std::unique_ptr<Sink> make_cloud_sink(const ConvertOptions& options);
 const FolderFiles& nav2_files();
 std::unique_ptr<Sink> make_nav2_sink(const ConvertOptions& options);
 
+/// Known-free and occupied voxels for OctoMap.
+std::unique_ptr<Sink> make_octomap_sink(const ConvertOptions& options);
+
 const FolderFiles& tileset_files();
 const FolderFiles& las_files();
 const FolderFiles& autoware_files();
@@ -72,6 +81,7 @@ WrittenMap las_of_map(const MapIndex& index, const std::filesystem::path& map,
                       const ConvertOptions& options, const std::filesystem::path& output);
 WrittenMap autoware_of_map(const MapIndex& index, const std::filesystem::path& map,
                            const ConvertOptions& options, const std::filesystem::path& output);
-WrittenMap autoware_of_cloud(const io::Cloud& cloud, const std::filesystem::path& output);
+WrittenMap autoware_of_cloud(const io::Cloud& cloud, const ConvertOptions& options,
+                             const std::filesystem::path& output);
 
 }  // namespace dynamic_filter::app

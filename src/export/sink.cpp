@@ -4,10 +4,19 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "dynamic_filter/error.hpp"
+
 namespace dynamic_filter::app {
 
 bool is_dynamic(const Labels& labels, std::size_t i) {
     return !labels.empty() && labels[i] == Label::dynamic;
+}
+
+void require_labels(const Labels& labels, const std::string& output) {
+    if (!labels.empty()) return;
+    throw ConfigError(output +
+                      " needs labels, to tell what stands from what moves: give --labels OUT, the "
+                      "folder of a run");
 }
 
 std::string left_out(const std::vector<io::Field>& fields, const std::set<std::string>& kept,

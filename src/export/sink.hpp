@@ -30,6 +30,9 @@ public:
 /// Empty labels: nothing is dynamic.
 bool is_dynamic(const Labels& labels, std::size_t i);
 
+/// Throws ConfigError if there are no labels, which the output of that name needs.
+void require_labels(const Labels& labels, const std::string& output);
+
 /// "left out: a, b", of what a scan has and its format has no place for.
 std::string left_out(const std::vector<io::Field>& fields, const std::set<std::string>& kept,
                      const std::string& also = "");

@@ -176,52 +176,7 @@ ordered_json column_major(const Eigen::Matrix4d& matrix) {
     return list;
 }
 
-std::vector<double> numbers(const std::string& text) {
-    std::vector<double> values;
-    const char* at = text.data();
-    const char* const end = at + text.size();
-    while (true) {
-        double value = 0.0;
-        const auto [stop, error] = std::from_chars(at, end, value);
-        if (error != std::errc{} || !std::isfinite(value)) return {};
-        values.push_back(value);
-        if (stop == end) return values;
-        if (*stop != ',') return {};
-        at = stop + 1;
-    }
-}
-
 }  // namespace
-
-GeoOrigin geo_origin(const std::string& text) {
-    const std::vector<double> values = numbers(text);
-    const bool fits = (values.size() == 2 || values.size() == 3) && std::abs(values[0]) <= 90.0 &&
-                      std::abs(values[1]) <= 180.0;
-    if (!fits) {
-        throw ConfigError("--origin " + text +
-                          ": expected LAT,LON or LAT,LON,HEIGHT in degrees and metres, for "
-                          "instance 48.1374,11.5755,520");
-    }
-    return {values[0], values[1], values.size() == 3 ? values[2] : 0.0};
-}
-
-Eigen::Matrix4d earth_from_world(const GeoOrigin& origin) {
-    constexpr double kEquator = 6378137.0, kFlattening = 1.0 / 298.257223563;  // WGS 84
-    constexpr double kSquare = kFlattening * (2.0 - kFlattening);
-    const double latitude = origin.latitude_deg * std::numbers::pi / 180.0;
-    const double longitude = origin.longitude_deg * std::numbers::pi / 180.0;
-    const double sin_lat = std::sin(latitude), cos_lat = std::cos(latitude);
-    const double sin_lon = std::sin(longitude), cos_lon = std::cos(longitude);
-    const double normal = kEquator / std::sqrt(1.0 - kSquare * sin_lat * sin_lat);
-    Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
-    matrix.block<3, 1>(0, 0) << -sin_lon, cos_lon, 0.0;
-    matrix.block<3, 1>(0, 1) << -sin_lat * cos_lon, -sin_lat * sin_lon, cos_lat;
-    matrix.block<3, 1>(0, 2) << cos_lat * cos_lon, cos_lat * sin_lon, sin_lat;
-    matrix.block<3, 1>(0, 3) << (normal + origin.height) * cos_lat * cos_lon,
-        (normal + origin.height) * cos_lat * sin_lon,
-        (normal * (1.0 - kSquare) + origin.height) * sin_lat;
-    return matrix;
-}
 
 std::size_t write_tileset(const MapIndex& index, const fs::path& folder,
                           const std::optional<GeoOrigin>& origin, const fs::path& output) {

@@ -5,22 +5,10 @@
 #include <filesystem>
 #include <optional>
 
+#include "export/georeference.hpp"
 #include "formats/voxel_map/map_index.hpp"
 
 namespace dynamic_filter::app {
-
-/// Where the origin of the world frame lies on the Earth (WGS 84). x points to the east, y to the
-/// north.
-struct GeoOrigin {
-    double latitude_deg = 0.0, longitude_deg = 0.0;
-    double height = 0.0;  ///< [m] above the ellipsoid
-};
-
-/// From "LAT,LON" or "LAT,LON,HEIGHT". Throws ConfigError.
-GeoOrigin geo_origin(const std::string& text);
-
-/// From the world frame at that origin to the Earth's frame: EPSG 4978, [m].
-Eigen::Matrix4d earth_from_world(const GeoOrigin& origin);
 
 /// Writes tileset.json and tiles/NAME.glb into `output`. A square above tiles holds one voxel of
 /// each cube whose edge is 1/128 of its side. A tile of more than 300,000 voxels is such a square,

@@ -5,9 +5,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 
+#include "base/text.hpp"
 #include "dynamic_filter/error.hpp"
 
 namespace dynamic_filter::app {
@@ -45,15 +44,9 @@ std::vector<std::string> pose_fix_names() {
 }
 
 std::optional<Eigen::Vector3d> place_of(const std::string& text) {
-    Eigen::Vector3d place;
-    const char *at = text.data(), *const end = at + text.size();
-    for (int axis = 0; axis < 3; ++axis) {
-        if (axis > 0 && (at == end || *at++ != ',')) return std::nullopt;
-        const auto [behind, error] = std::from_chars(at, end, place[axis]);
-        if (error != std::errc{} || !std::isfinite(place[axis])) return std::nullopt;
-        at = behind;
-    }
-    return at == end ? std::optional(place) : std::nullopt;
+    const std::vector<double> numbers = io::parse_reals(text);
+    if (numbers.size() != 3) return std::nullopt;
+    return Eigen::Vector3d(numbers[0], numbers[1], numbers[2]);
 }
 
 std::string as_option(const ReadingOption& option) {

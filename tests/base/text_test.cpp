@@ -32,6 +32,14 @@ TEST(Text, NumbersAreWholeTokensWhateverTheLocale) {
     }
 }
 
+TEST(Text, NumbersWithCommas) {
+    EXPECT_EQ(parse_reals("1, -2.5,3e2"), (std::vector<double>{1.0, -2.5, 300.0}));
+    EXPECT_EQ(parse_reals("7"), std::vector<double>{7.0});
+    for (const char* bad : {"", "1,", ",1", "1,,2", "1;2", "1,nan", "inf,1", "1 2"}) {
+        EXPECT_TRUE(parse_reals(bad).empty()) << bad;
+    }
+}
+
 TEST(Text, SplitsAndQuotes) {
     EXPECT_EQ(split_tokens("  a\tb  c ").size(), 3U);
     EXPECT_EQ(split_at("a, b,,", ',').size(), 4U);

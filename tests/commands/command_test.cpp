@@ -871,6 +871,91 @@ TEST_F(Command, ConvertWritesAMapForNavigation) {
     EXPECT_FALSE(fs::exists(folder_ / "none"));
 }
 
+TEST_F(Command, ConvertWritesOctomaps) {
+    const std::string data = recording().string();
+    ASSERT_EQ(run("run " + data + " -o out --no-report"), 0) << said();
+    for (const char* file : {"map.bt", "map.ot"}) {
+        ASSERT_EQ(run(fmt::format("convert {} {} --labels out", data, file)), 0) << said();
+        expect_said("voxels of 0.1 m are occupied");
+        EXPECT_NE(slurp(folder_ / file).find("id OcTree\nsize "), std::string::npos);
+    }
+    EXPECT_EQ(run("convert " + data + " map.bt --labels out"), 2);
+    expect_said("--overwrite");
+    EXPECT_EQ(run("convert " + data + " wide.bt --labels out --cell 0.4"), 0) << said();
+    EXPECT_LT(fs::file_size(folder_ / "wide.bt"), fs::file_size(folder_ / "map.bt") / 8);
+    EXPECT_EQ(run("convert out/static_map.pcd none.bt"), 2);
+    expect_said("OctoMap is made of a recording");
+    EXPECT_EQ(run("convert " + data + " none.ot --labels out --only static"), 2);
+    expect_said("both end beams");
+    const fs::path bare = folder_ / "bare";
+    fs::create_directories(bare);
+    fs::copy(fs::path(data) / "velodyne", bare / "velodyne");
+    fs::copy(fs::path(data) / "poses.txt", bare / "poses.txt");
+    EXPECT_EQ(run("convert bare none.bt"), 2);
+    expect_said("OctoMap needs labels");
+    EXPECT_FALSE(fs::exists(folder_ / "none.bt") || fs::exists(folder_ / "none.ot"));
+}
+
+TEST_F(Command, ConvertTakesAPart) {
+    const std::string data = recording().string();
+    ASSERT_EQ(run("run " + data + " -o out --no-report"), 0) << said();
+    const io::Cloud still = io::read_cloud(folder_ / "out/static_map.pcd");
+    const auto points_of = [&](const char* file) { return io::read_cloud(folder_ / file).size(); };
+    ASSERT_EQ(run("convert " + data + " still.pcd --labels out --only static"), 0) << said();
+    EXPECT_EQ(points_of("still.pcd"), still.size());
+    ASSERT_EQ(run("convert " + data + " moving.pcd --labels out --only dynamic"), 0) << said();
+    EXPECT_EQ(points_of("moving.pcd"), points_of("out/dynamic_points.pcd"));
+
+    ASSERT_EQ(run("convert " + data + " near.pcd --max-range 8"), 0) << said();
+    ASSERT_EQ(run("convert still.pcd box.pcd --box=-5,-5,0,5,5,2"), 0) << said();
+    ASSERT_EQ(run("convert " + data + " same.pcd --labels out --only static --box=-5,-5,0,5,5,2"),
+              0);
+    EXPECT_EQ(points_of("same.pcd"), points_of("box.pcd"));
+    EXPECT_LT(points_of("box.pcd"), still.size());
+
+    ASSERT_EQ(run("convert " + data + " thin.pcd --labels out --only static --thin 0.5"), 0);
+    std::set<std::array<int, 3>> cells;
+    for (const Point& p : io::positions(io::read_cloud(folder_ / "thin.pcd"))) {
+        const Eigen::Vector3i cell = (p * 2.0F).array().floor().cast<int>();
+        EXPECT_TRUE(cells.insert({cell.x(), cell.y(), cell.z()}).second) << "one for each cell";
+    }
+    std::set<std::array<int, 3>> all;
+    for (const Point& p : io::positions(still)) {
+        const Eigen::Vector3i cell = (p * 2.0F).array().floor().cast<int>();
+        all.insert({cell.x(), cell.y(), cell.z()});
+    }
+    EXPECT_EQ(cells, all) << "none lost";
+
+    ASSERT_EQ(run("convert " + data + " only.mcap --labels out --only static"), 0) << said();
+    ASSERT_EQ(run("info only.mcap"), 0);
+    expect_said("/points_static");
+    EXPECT_EQ(said().find("/points "), std::string::npos);
+    EXPECT_EQ(said().find("/points_dynamic"), std::string::npos);
+    ASSERT_EQ(run("convert " + data + " part --labels out --box=-5,-5,5,5"), 0) << said();
+    ASSERT_EQ(run("info part"), 0) << "is a recording again";
+}
+
+TEST_F(Command, ConvertRefusesAPartThatIsNone) {
+    const std::string data = recording().string();
+    for (const auto& [options, what] : std::vector<std::pair<const char*, const char*>>{
+             {"x.pcd --box 500,500,501,501", "no scan has a point"},
+             {"x.pcd --box 1,2,3", "two corners"},
+             {"x --thin 0.1", "--thin is for one cloud"},
+             {"x.pcd --max-range 0", "--max-range"},
+             {"x.pcd --origin 48,11", "--origin is for"}}) {
+        EXPECT_EQ(run("convert " + data + " " + options), 2) << options;
+        expect_said(what);
+    }
+    ASSERT_EQ(run("convert " + data + " cloud.pcd"), 0) << said();
+    for (const char* options : {"--only static", "--max-range 5"}) {
+        EXPECT_EQ(run(fmt::format("convert cloud.pcd x.pcd {}", options)), 2) << options;
+        expect_said("is for a recording");
+    }
+    EXPECT_EQ(run("convert cloud.pcd x.pcd --box 500,500,501,501"), 2);
+    expect_said("no point of");
+    EXPECT_FALSE(fs::exists(folder_ / "x.pcd") || fs::exists(folder_ / "x"));
+}
+
 TEST_F(Command, ConvertWritesMapsAndSplitScans) {
     const std::string data = recording().string();
     ASSERT_EQ(run("run " + data + " -o out"), 0) << said();
@@ -895,13 +980,14 @@ TEST_F(Command, ConvertWritesMapsAndSplitScans) {
     ASSERT_EQ(run("convert out/static_map.pcd tiles --to autoware"), 0) << said();
     std::size_t in_tiles = 0, tiles = 0;
     const std::string metadata = slurp(folder_ / "tiles/pointcloud_map_metadata.yaml");
-    for (const auto& entry : fs::directory_iterator(folder_ / "tiles/pointcloud_map")) {
+    for (const auto& entry : fs::directory_iterator(folder_ / "tiles/pointcloud_map.pcd")) {
         in_tiles += io::read_cloud(entry.path()).size();
         ++tiles;
         EXPECT_NE(metadata.find(entry.path().filename().string() + ": ["), std::string::npos);
     }
     EXPECT_EQ(in_tiles, still.size());
     EXPECT_GT(tiles, 4U);
+    EXPECT_EQ(slurp(folder_ / "tiles/map_projector_info.yaml"), "projector_type: Local\n");
     ASSERT_EQ(run("convert " + data + " MAP.TXT --labels out"), 0) << said();
     expect_said("left out: poses, stamps");
     const io::Cloud text = io::read_cloud(folder_ / "MAP.TXT");
@@ -940,6 +1026,9 @@ TEST_F(Command, TheMapOfSeveralDrivesIsConverted) {
               io::read_cloud(folder_ / "city/map/0_2_2.pcd").size());
     ASSERT_EQ(run("convert city autoware --to autoware"), 0) << said();
     EXPECT_TRUE(fs::exists(folder_ / "autoware/pointcloud_map_metadata.yaml"));
+    ASSERT_EQ(run("convert city placed --to autoware --origin 48.1374,11.5755,520"), 0) << said();
+    EXPECT_NE(slurp(folder_ / "placed/map_projector_info.yaml").find("  latitude: 48.1374\n"),
+              std::string::npos);
     ASSERT_EQ(run("info city"), 0) << said();
     for (const char* part : {"tiles   19", "drive_2", "voxels"}) expect_said(part);
 }
@@ -949,7 +1038,9 @@ TEST_F(Command, OptionsForTheMapOfSeveralDrivesAreChecked) {
     EXPECT_EQ(run("convert city x"), 2);
     expect_said("--to 3dtiles, --to las or --to autoware");
     EXPECT_EQ(run("convert city x --to las --origin 1,2"), 2);
-    expect_said("--origin is for --to 3dtiles only");
+    expect_said("--to las needs --crs");
+    EXPECT_EQ(run("convert city x --to las --box 0,0,1,1"), 2);
+    expect_said("not for the map of several drives");
     EXPECT_EQ(run("convert city x --to 3dtiles --origin north"), 2);
     expect_said("expected LAT,LON");
     EXPECT_EQ(run("convert city x --to 3dtiles --labels city"), 2);

@@ -33,7 +33,8 @@ TEST(AutowareTiles, HoldEveryVoxelOnceInItsSquare) {
     EXPECT_EQ(metadata.find("x_resolution: 20.0\ny_resolution: 20.0\n"), 0U);
     std::vector<Row> found, expected;
     std::size_t files = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(folder / "out/pointcloud_map")) {
+    for (const auto& entry :
+         std::filesystem::directory_iterator(folder / "out/pointcloud_map.pcd")) {
         ++files;
         const std::string name = entry.path().filename();
         double x = 0.0, y = 0.0;

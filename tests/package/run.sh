@@ -16,8 +16,9 @@ command=$(echo "$packages"/dynamicfilter_*.deb)
 python=$(echo "$packages"/python3-dynamicfilter_*.deb)
 ros=$(echo "$packages"/dynamicfilter-ros_*.deb)
 mpi=$(echo "$packages"/dynamicfilter-mpi_*.deb)
+crs=$(echo "$packages"/dynamicfilter-crs_*.deb)
 if command -v lintian > /dev/null; then
-    lintian --allow-root --fail-on error "$library" "$dev" "$command" "$python" "$ros" "$mpi"
+    lintian --allow-root --fail-on error "$library" "$dev" "$command" "$python" "$ros" "$mpi" "$crs"
 else
     echo "lintian is missing: the packages are not checked by it"
 fi
@@ -63,10 +64,13 @@ holds "$command" bin/dynamicfilter share/man/man1/dynamicfilter.1.gz share/bash-
     share/dynamicfilter/launch/live.launch.xml share/dynamicfilter/config/live.yaml
 holds_none '/include/|/lib/[^sd]'
 needs "$command" "$ours" 'libc6 .*' 'libfmt9 .*'
-if grep -E 'ros|mpi' depends; then echo "$command depends on ROS or MPI"; exit 1; fi
+if grep -E 'ros|mpi|proj' depends; then echo "$command depends on ROS, MPI or PROJ"; exit 1; fi
 holds "$mpi" "$arch/dynamicfilter/libdynamicfilter_mpi.so" share/doc/dynamicfilter-mpi/copyright
 holds_none '/(include|bin|python3)/'
 needs "$mpi" "dynamicfilter \\(= $version-1\\)" openmpi-bin 'libopenmpi3 .*'
+holds "$crs" "$arch/dynamicfilter/libdynamicfilter_crs.so" share/doc/dynamicfilter-crs/copyright
+holds_none '/(include|bin|python3)/'
+needs "$crs" "dynamicfilter \\(= $version-1\\)" 'libproj25 .*'
 holds "$ros" bin/dynamicfilter_ros1 share/man/man1/dynamicfilter_ros1.1.gz share/dynamicfilter_ros/package.xml \
     share/dynamicfilter_ros/dynamicfilter_ros1 share/dynamicfilter_ros/launch/dynamicfilter.launch
 holds_none '/(include|lib)/'
@@ -78,7 +82,7 @@ holds_none '/(include|bin)/'
 needs "$python" "$ours" python3-numpy 'python3 \(>= 3\.[0-9]+\)' 'python3 \(<< 3\.[0-9]+\)'
 
 # Unpacked: all the packages in one root, and the tarball somewhere else. Each finds its own libraries.
-for package in "$library" "$dev" "$command" "$python" "$ros" "$mpi"; do
+for package in "$library" "$dev" "$command" "$python" "$ros" "$mpi" "$crs"; do
     dpkg-deb -x "$package" root
 done
 tar -xzf "$packages"/dynamicfilter-*.tar.gz -C anywhere --strip-components 1
@@ -94,6 +98,7 @@ for prefix in "$work/root/usr" "$work/anywhere"; do
     "$prefix/bin/dynamicfilter" simulate crowd -o demo/recording --frames 20
     ! "$prefix/bin/dynamicfilter" run demo/recording --mpi -o none 2> said.txt || { echo "--mpi needs no mpirun"; exit 1; }
     grep -q "Open MPI did not start this process" said.txt || { echo "the plug-in is not found:"; cat said.txt; exit 1; }
+    "$prefix/bin/dynamicfilter" convert demo/recording demo/map.las --crs EPSG:32632 --origin 48.1374,11.5755
     PYTHONPATH=$prefix/$modules /usr/bin/python3 lines.py
     PYTHONPATH=$prefix/$modules /usr/bin/python3 -c "
 from importlib.metadata import version

@@ -10,8 +10,10 @@ COVERED = {  # test -> the units that it covers
     "commands/command_test.cpp": "commands/check commands/cleaning commands/compare commands/config commands/convert "
         "commands/demo commands/evaluate commands/info commands/main commands/odometry commands/options commands/picture commands/render commands/run "
         "commands/serve commands/shared_options commands/simulate draw/animation draw/canvas export/bag export/benchmark "
-        "export/convert_map export/kitti export/nav2 export/one_cloud export/outputs export/sink recording/scans "
+        "export/convert_map export/kitti export/nav2 export/octomap export/one_cloud export/outputs export/sink recording/scans "
         "recording/world_records run/run run/filter_whole run/run_state run/scored_scans run/summary run/write_scans",
+    "export/crs_test.sh": "export/crs/plugin",
+    "export/cut_test.cpp": "export/places",
     "export/navigation/navigation_map_test.cpp": "export/navigation/floor export/navigation/surface_map",
     "export/tileset_test.cpp": "export/glb",
     "formats/clouds/cloud_test.cpp": "formats/clouds/bin",
@@ -32,6 +34,7 @@ COVERED = {  # test -> the units that it covers
         "run/write_tiles",
     "run/edits_test.cpp": "run/apply_edits run/edit_lookup run/map_gaps run/run_edits",
     "run/mpi/mpi_workers_test.cpp": "run/mpi/plugin",
+    "run/workers_test.cpp": "base/plugin",
     "run/plan_test.cpp": "run/plan_file",
     "sim/scene_city_test.cpp": "sim/city sim/city_block sim/city_library",
     "sim/scene_jam_test.cpp": "sim/jam_people sim/jam_traffic",

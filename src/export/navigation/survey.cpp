@@ -13,10 +13,7 @@ namespace dynamic_filter::app {
 namespace {
 
 constexpr float kPathStep = 0.1F;  // [m]
-// Beams to 30 m, one in each direction, of scans so far apart in space or time, suffice as evidence
-// of free space.
-constexpr float kFarthest = 30.0F, kApart = 0.5F;
-constexpr double kAgain = 2.0;  // [s]
+// One beam in each direction suffices.
 constexpr int kAzimuths = 720, kElevations = 90;
 
 std::size_t direction_of(const Point& way, float length) {
@@ -39,7 +36,7 @@ Look look_of(const Eigen::Isometry3f& T_map_sensor, const Points& points) {
         const std::size_t direction = direction_of(way, length);
         if (seen.test(direction)) continue;
         seen.set(direction);
-        look.ends.push_back(look.from + way * std::min(1.0F, kFarthest / length));
+        look.ends.push_back(look.from + way * std::min(1.0F, kFarthestLook / length));
     }
     look.ends.shrink_to_fit();
     return look;
@@ -60,11 +57,7 @@ void Survey::add(const Points& points, const Labels& labels, const Pose& T_world
     }
     const Point place = T_map_sensor.translation();
     if (path_.empty() || (place - path_.back()).norm() >= kPathStep) path_.push_back(place);
-    const bool is_apart = looks_.empty() || (place - looks_.back().from).norm() >= kApart ||
-                          stamp - last_look_ >= kAgain;
-    if (!is_apart) return;
-    looks_.push_back(look_of(T_map_sensor, points));
-    last_look_ = stamp;
+    if (chooser_.chooses(T.translation(), stamp)) looks_.push_back(look_of(T_map_sensor, points));
 }
 
 }  // namespace dynamic_filter::app

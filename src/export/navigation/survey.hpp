@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "export/navigation/columns.hpp"
+#include "export/navigation/look_chooser.hpp"
 #include "export/navigation/navigation_map.hpp"
 
 namespace dynamic_filter::app {
@@ -30,7 +31,7 @@ private:
     Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
     Points path_;
     std::vector<Look> looks_;
-    double last_look_ = 0.0;
+    LookChooser chooser_;
 };
 
 }  // namespace dynamic_filter::app

@@ -69,6 +69,8 @@ Cloud read_las(const std::filesystem::path& file) {
     std::vector<Column> columns;
     for (const LasField& field : header.fields) columns.push_back({field.name, field.type});
     Cloud cloud = empty_cloud(columns, file);
+    cloud.crs = header.crs;
+    cloud.gps_time_is_adjusted = header.gps_time_is_adjusted;
     cloud.data.resize(header.points * cloud.point_bytes);
     Copier copier(cloud, std::span(bytes).subspan(header.begin), header.record_bytes);
     for (std::size_t i = 0; i < columns.size(); ++i) {

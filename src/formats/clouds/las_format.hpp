@@ -15,6 +15,11 @@ constexpr std::size_t las_vlr_header_bytes = 54;
 constexpr std::size_t las_extra_bytes = 192;  ///< of one entry of the Extra Bytes record
 constexpr std::string_view las_spec = "LASF_Spec";
 constexpr std::uint16_t las_extra_id = 4;
+constexpr std::string_view las_projection = "LASF_Projection";
+constexpr std::uint16_t las_wkt_id = 2112;
+
+/// Bits of the header's global encoding.
+constexpr std::uint16_t las_adjusted_time_bit = 1, las_wkt_bit = 16;
 
 /// Types by their code, from 1.
 constexpr std::array las_extra_types = {

@@ -19,6 +19,7 @@ constexpr std::array<std::size_t, 11> format_bytes = {20, 28, 26, 34, 57, 63, 30
 
 /// Byte offsets in the fixed header.
 enum At : std::size_t {
+    encoding_at = 6,
     version_at = 24,
     header_size_at = 94,
     counts_at = 96,  // offset of the points, variable records, point format, old number of points
@@ -90,13 +91,15 @@ public:
         }
         read_layout();
         read_fields();
-        find_extra_fields();
+        read_variable_records();
         put_exact_in_place();
         return std::move(header_);
     }
 
 private:
     void read_layout() {
+        const auto encoding = ByteReader(bytes_, skip_to(encoding_at)).number<std::uint16_t>();
+        header_.gps_time_is_adjusted = (encoding & las_adjusted_time_bit) != 0;
         ByteReader version(bytes_, skip_to(version_at));
         const unsigned major = version.number<std::uint8_t>();
         const unsigned minor = version.number<std::uint8_t>();
@@ -160,18 +163,21 @@ private:
 
     /// Reads the records between header and points. Each takes bytes, so a wrong number of records
     /// cannot cause an endless loop. Several descriptions of Extra Bytes follow each other.
-    void find_extra_fields() {
+    void read_variable_records() {
         std::size_t at = format_bytes[format_];
         ByteReader reader(bytes_.first(header_.begin), header_size_);
         for (std::uint32_t i = 0; i < records_; ++i) {
             reader.read(2);
-            const std::string_view user = reader.text(std::uint64_t{16});
+            const std::string_view padded = reader.text(std::uint64_t{16});
+            const std::string_view user = padded.substr(0, padded.find('\0'));
             const auto id = reader.number<std::uint16_t>();
             const auto length = reader.number<std::uint16_t>();
             reader.read(32);
             const auto record = reader.read(length);
-            if (id == las_extra_id && user.substr(0, user.find('\0')) == las_spec) {
-                at = add_extra_fields(record, at);
+            if (id == las_extra_id && user == las_spec) at = add_extra_fields(record, at);
+            if (id == las_wkt_id && user == las_projection) {
+                const std::string_view wkt = ByteReader(record).text(record.size());
+                header_.crs = wkt.substr(0, wkt.find('\0'));
             }
         }
     }

@@ -27,6 +27,8 @@ struct LasHeader {
     std::size_t record_bytes = 0;
     std::size_t begin = 0;     ///< [bytes] offset of the first record
     std::uint64_t points = 0;  ///< as declared in the header
+    std::string crs;           ///< WKT; empty: there is none
+    bool gps_time_is_adjusted = false;
 };
 
 /// Reads the header. Throws InputError if the file is no LAS file, if its version or point format

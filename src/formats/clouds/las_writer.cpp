@@ -62,6 +62,10 @@ public:
         for (std::size_t i = 0; i < width; ++i) put(i < text.size() ? text[i] : '\0');
         return *this;
     }
+    LasBytes& append(std::span<const std::byte> bytes) {
+        bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+        return *this;
+    }
     LasBytes& zeros(std::size_t count) { return text("", count); }
     [[nodiscard]] const std::vector<std::byte>& bytes() const { return bytes_; }
 
@@ -275,23 +279,57 @@ std::array<std::uint64_t, 15> count_returns(const std::vector<std::byte>& record
     return counts;
 }
 
+/// Records between header and points.
+class VariableRecords {
+public:
+    void add(std::string_view user, std::uint16_t id, std::string_view what,
+             std::span<const std::byte> record) {
+        bytes_.zeros(2).text(user, 16).put(id);
+        bytes_.put(static_cast<std::uint16_t>(record.size())).text(what, 32).append(record);
+        ++count_;
+    }
+    [[nodiscard]] const std::vector<std::byte>& bytes() const { return bytes_.bytes(); }
+    [[nodiscard]] std::uint32_t count() const { return count_; }
+
+private:
+    LasBytes bytes_;
+    std::uint32_t count_ = 0;
+};
+
+VariableRecords variable_records(const Cloud& cloud, const std::vector<Placed>& placed,
+                                 const std::filesystem::path& path) {
+    VariableRecords records;
+    if (!cloud.crs.empty()) {
+        const auto wkt = std::as_bytes(std::span(cloud.crs.c_str(), cloud.crs.size() + 1));
+        if (wkt.size() > most_u16) {
+            throw OutputError(path,
+                              "the coordinate system takes more than the 65,535 bytes of LAS");
+        }
+        records.add(las_projection, las_wkt_id, "OGC WKT", wkt);
+    }
+    const std::vector<std::byte> extra = extra_record(placed, path);
+    if (!extra.empty()) records.add(las_spec, las_extra_id, "Extra Bytes", extra);
+    return records;
+}
+
 struct Sizes {
-    std::size_t extra = 0, stride = 0;  ///< [bytes]
+    std::size_t variable = 0, stride = 0;  ///< [bytes]
+    std::uint32_t variable_records = 0;
     std::uint64_t points = 0;
 };
 
-LasBytes header_of(const Sizes& sizes, const std::array<Axis, 3>& axes,
+LasBytes header_of(const Sizes& sizes, const Cloud& cloud, const std::array<Axis, 3>& axes,
                    const std::array<std::uint64_t, 15>& returns) {
     // Point formats from 6 on require the bit of a coordinate system in WKT, also where there is
     // none; PDAL refuses files without it.
-    constexpr std::uint16_t has_wkt = 16;
-    const bool has_extra = sizes.extra != 0;
-    const std::size_t begin = header_bytes + (has_extra ? las_vlr_header_bytes + sizes.extra : 0);
+    const auto encoding = static_cast<std::uint16_t>(
+        las_wkt_bit | (cloud.gps_time_is_adjusted ? las_adjusted_time_bit : 0));
     LasBytes header;
-    header.text("LASF", 4).put(std::uint16_t{0}).put(has_wkt).zeros(16);
+    header.text("LASF", 4).put(std::uint16_t{0}).put(encoding).zeros(16);
     header.put(std::uint8_t{1}).put(std::uint8_t{4}).text("", 32).text("DynamicFilter", 32);
     header.zeros(4).put(static_cast<std::uint16_t>(header_bytes));
-    header.put(static_cast<std::uint32_t>(begin)).put(std::uint32_t{has_extra ? 1U : 0U});
+    header.put(static_cast<std::uint32_t>(header_bytes + sizes.variable));
+    header.put(sizes.variable_records);
     header.put(std::uint8_t{6}).put(static_cast<std::uint16_t>(sizes.stride)).zeros(24);
     for (std::size_t a = 0; a < 3; ++a) header.put(kResolution);
     for (const Axis& axis : axes) header.put(axis.offset);
@@ -309,18 +347,15 @@ Written write_las(const std::filesystem::path& path, const Cloud& cloud) {
     const std::vector<std::size_t> points = finite_points(axes);
     for (std::size_t a = 0; a < 3; ++a) span_axis(axes[a], "xyz"[a], points, path);
     const std::vector<Placed> placed = place(cloud);
-    const std::vector<std::byte> extra = extra_record(placed, path);
+    const VariableRecords variable = variable_records(cloud, placed, path);
     const ShownIntensity intensity = shown_intensity(cloud, placed);
     const std::vector<std::byte> records = records_of(cloud, placed, axes, points, intensity);
-    const Sizes sizes{extra.size(), record_bytes_of(placed), points.size()};
-    LasBytes header = header_of(sizes, axes, count_returns(records, sizes.stride));
-    if (!extra.empty()) {
-        header.zeros(2).text(las_spec, 16).put(las_extra_id);
-        header.put(static_cast<std::uint16_t>(extra.size())).text("Extra Bytes", 32);
-    }
+    const Sizes sizes{variable.bytes().size(), record_bytes_of(placed), variable.count(),
+                      points.size()};
+    const LasBytes header = header_of(sizes, cloud, axes, count_returns(records, sizes.stride));
     AtomicFile file(path);
     file.write(header.bytes());
-    file.write(extra);
+    file.write(variable.bytes());
     file.write(records);
     file.commit();
     const std::size_t lost = cloud.size() - points.size();

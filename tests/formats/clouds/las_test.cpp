@@ -214,6 +214,20 @@ TEST_F(Las, RoundTrip) {
     EXPECT_EQ(column(back, "normal_1"), (Numbers{0, 2, 4, 6, 8}));
 }
 
+TEST_F(Las, KeepsTheCoordinateSystemAndWhatTimesCountFrom) {
+    Cloud cloud = sample(5);
+    EXPECT_EQ(read_las(folder_.put("none.las", header(0, 20, 0))).crs, "");
+    cloud.crs = "PROJCS[\"a system\"]";
+    cloud.gps_time_is_adjusted = true;
+    write_las(folder_ / "w.las", cloud);
+    const Cloud back = read_las(folder_ / "w.las");
+    EXPECT_EQ(back.crs, cloud.crs);
+    EXPECT_TRUE(back.gps_time_is_adjusted);
+    EXPECT_EQ(column(back, "normal_1"), (Numbers{0, 2, 4, 6, 8})) << "Extra Bytes are read, too";
+    cloud.crs = std::string(70000, 'x');
+    EXPECT_HAS(error_of<OutputError>([&] { write_las(folder_ / "v.las", cloud); }), "65,535");
+}
+
 /// The standard intensities and classes, as a reader without Extra Bytes sees them.
 std::pair<Numbers, Numbers> shown_by_others(const std::string& bytes) {
     std::uint32_t begin = 0;

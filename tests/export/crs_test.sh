@@ -1,0 +1,68 @@
+#!/bin/sh
+# `convert --crs` against PROJ's own programs.
+#   crs_test.sh DYNAMICFILTER PYTHON
+set -eu
+command=$1
+python=$2
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+if ! command -v cs2cs > /dev/null || ! command -v projinfo > /dev/null; then
+    echo "Skipped: proj-bin is not installed"
+    exit 77
+fi
+fails() { # fails TEXT ARGUMENT...
+    expected=$1
+    shift
+    ! "$command" convert "$@" > said 2>&1 || { echo "did not fail: $*"; exit 1; }
+    grep -qF -- "$expected" said || { echo "said something else than '$expected':"; cat said; exit 1; }
+}
+
+"$command" simulate crowd -o rec --frames 5 -q
+"$command" run rec -o out -q --no-report
+origin=48.1374,11.5755,520
+"$command" convert rec map.las --labels out --crs EPSG:32632 --origin $origin 2> /dev/null
+
+# The sensor's first place is that of its pose, x m to the east and y m to the north of the origin.
+read -r _ _ _ x _ _ _ y _ _ _ z < rec/poses.txt
+echo "$x $y $z" | cct -d 4 +proj=pipeline +step +inv +proj=topocentric +ellps=WGS84 +lat_0=48.1374 +lon_0=11.5755 +h_0=520 \
+    +step +inv +proj=cart +ellps=WGS84 +step +proj=utm +zone=32 +ellps=WGS84 > expected
+"$python" - <<'PYTHON'
+import csv, struct
+place = [float(word) for word in open("expected").read().split()[:3]]
+first = next(csv.DictReader(open("map_path.csv")))
+for axis, value in zip("xyz", place):
+    assert abs(float(first[axis]) - value) < 0.001, (first, place)
+data = open("map.las", "rb").read()
+header, = struct.unpack_from("<H", data, 94)
+records, = struct.unpack_from("<I", data, 100)
+encoding, = struct.unpack_from("<H", data, 6)
+assert encoding & 16, "the bit of the WKT"
+at = header
+for _ in range(records):
+    user, number, length = struct.unpack_from("<16sHH", data, at + 2)
+    if user.rstrip(b"\0") == b"LASF_Projection" and number == 2112:
+        open("map.wkt", "wb").write(data[at + 54:at + 54 + length].rstrip(b"\0"))
+    at += 54 + length
+max_x, min_x, max_y, min_y = struct.unpack_from("<4d", data, 179)
+assert min_x < place[0] < max_x and min_y < place[1] < max_y, "the bounds hold the sensor"
+PYTHON
+projinfo @map.wkt --identify | grep -qF "EPSG:32632: 100 %"
+
+# What is in a coordinate system already, or shifted from it, and LAS files that are converted once more.
+"$command" convert rec shifted.las --crs EPSG:32632 --origin 691000,5334000,500 2> /dev/null
+"$command" info shifted.las | grep -q "x  *float64 *6909[0-9][0-9]"
+"$command" convert shifted.las again.las --crs EPSG:32632 2> /dev/null
+"$command" convert shifted.las part.las --box 690000,5333000,692000,5335000 2> /dev/null
+for file in again.las part.las; do
+    grep -qaF "WGS 84 / UTM zone 32N" $file || { echo "$file has no coordinate system"; exit 1; }
+done
+
+fails "is not a projected coordinate system" rec none.las --crs EPSG:4326
+fails "knows no such coordinate system" rec none.las --crs EPSG:1
+fails "expected LAT,LON" rec none.las --crs EPSG:32632 --origin 1,2,3,4
+fails "is meant for" rec none.las --crs EPSG:32632 --origin 48,80
+fails "is meant for" rec none.las --crs EPSG:32632
+fails "is for one cloud" rec none --crs EPSG:32632
+fails "--origin is for" rec none.las --origin $origin
+[ ! -e none.las ] && [ ! -e none_path.csv ] && [ ! -e none ]
