@@ -85,6 +85,11 @@ void refuse_idle_options(const ConvertOptions& o, const Output* kind, bool is_re
         throw ConfigError("--only: " + kind->shown() +
                           " needs what stands and what moves, because both end beams");
     }
+    if (kind != nullptr && kind->of_whole_scans &&
+        !(o.box.empty() && o.only.empty() && o.max_range == 0.0)) {
+        throw ConfigError("--box, --max-range and --only: " + kind->shown() +
+                          " has a label for each point of the recording");
+    }
     if (is_recording) return;
     if (!o.only.empty() || o.max_range > 0.0) {
         throw ConfigError(o.data.data.string() + ": " +
@@ -102,14 +107,15 @@ Cut cut_of(const ConvertOptions& o) {
 }
 
 /// Gives the sink what is wanted of the scan; false if that is nothing.
-bool append_part(Sink& sink, const Cut& cut, const io::FullScan& scan, const Labels& labels) {
+bool append_part(Sink& sink, const Cut& cut, const io::FullScan& scan, const Labels& labels,
+                 const std::string& stem) {
     if (cut.only) require_labels(labels, "--only");
     if (cut.takes_all()) {
-        sink.append(scan, labels);
+        sink.append(scan, labels, stem);
         return true;
     }
     const std::vector<std::uint32_t> wanted = wanted_points(cut, scan, labels);
-    if (!wanted.empty()) sink.append(part_of(scan, wanted), part_of(labels, wanted));
+    if (!wanted.empty()) sink.append(part_of(scan, wanted), part_of(labels, wanted), stem);
     return !wanted.empty();
 }
 
@@ -166,8 +172,8 @@ int convert_recording(const ConvertOptions& o) {
             if (!o.labels && !maybe.scan->truth_fault.empty()) {
                 notes.push_back(maybe.scan->truth_fault + "; its points are unknown");
             }
-            written +=
-                append_part(*sink, cut, *maybe.scan, labels_of(o, recording, i, *maybe.scan));
+            written += append_part(*sink, cut, *maybe.scan, labels_of(o, recording, i, *maybe.scan),
+                                   io::stem(recording, i));
             return true;
         });
     }
@@ -254,7 +260,8 @@ void add_convert(Program& program) {
     c.choice(
         "--to", o->to, output_names(),
         "layout of the output folder: kitti (default), benchmark, nav2 (map in two dimensions), "
-        "or autoware (map tiles); of the map of several drives: 3dtiles, las or autoware");
+        "objects (what moves, with boxes), or autoware (map tiles); of the map of several drives: "
+        "3dtiles, las or autoware");
     c.text("--origin", o->origin,
            "where the origin of the poses lies, if their x points to the east: LAT,LON[,HEIGHT]; "
            "or with --crs EAST,NORTH[,HEIGHT], which is added");

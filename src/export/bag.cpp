@@ -26,7 +26,7 @@ public:
           keep_unknown_(o.keep_unknown),
           only_(o.only) {}
 
-    void append(const io::FullScan& scan, const Labels& labels) override {
+    void append(const io::FullScan& scan, const Labels& labels, const std::string&) override {
         last_ = scan.stamp;
         const io::Cloud cloud = in_sensor(scan);
         for (const io::Field& field : cloud.fields) {

@@ -26,7 +26,7 @@ public:
         }
     }
 
-    void append(const io::FullScan& scan, const Labels& labels) override {
+    void append(const io::FullScan& scan, const Labels& labels, const std::string&) override {
         io::Cloud cloud = layout_;
         fields_ = scan.cloud.fields;
         cloud.data.resize(scan.points.size() * cloud.point_bytes);

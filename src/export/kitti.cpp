@@ -20,7 +20,7 @@ public:
         : output_(folder, recording_files(), replaced_if(overwrite)),
           scans_(output_.subfolder("velodyne")) {}
 
-    void append(const io::FullScan& scan, const Labels& labels) override {
+    void append(const io::FullScan& scan, const Labels& labels, const std::string&) override {
         const std::string name = fmt::format("{:06}", poses_.size());
         fields_ = scan.cloud.fields;
         io::write_bin(scans_ / (name + ".bin"), scan.points, intensities(scan.cloud));

@@ -70,7 +70,7 @@ public:
                                       o.robot_height, o.step));
     }
 
-    void append(const io::FullScan& scan, const Labels& labels) override {
+    void append(const io::FullScan& scan, const Labels& labels, const std::string&) override {
         require_labels(labels, "--to nav2");
         survey_.add(scan.points, labels, scan.T_world_sensor, scan.stamp);
     }

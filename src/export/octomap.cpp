@@ -24,7 +24,7 @@ public:
         refuse_existing(o.output, o.overwrite);
     }
 
-    void append(const io::FullScan& scan, const Labels& labels) override {
+    void append(const io::FullScan& scan, const Labels& labels, const std::string&) override {
         require_labels(labels, "OctoMap");
         const Pose& T = scan.T_world_sensor;
         check_reach(scan);

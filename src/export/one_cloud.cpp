@@ -30,7 +30,7 @@ public:
         georeference_.emplace(o.crs, o.origin);
     }
 
-    void append(const io::FullScan& scan, const Labels& labels) override {
+    void append(const io::FullScan& scan, const Labels& labels, const std::string&) override {
         if (layout_.fields.empty()) {
             layout_ = layout_of(scan, false);
             map_.fields = layout_.fields;

@@ -34,6 +34,8 @@ struct Output {
                            const std::filesystem::path& output) = nullptr;
     /// True: scans are in the sensor's frame, where beams begin; else in the frame of the files.
     bool from_sensor = false;
+    /// True: it writes something for each point of the recording, so no part of it will do.
+    bool of_whole_scans = false;
     std::vector<std::string> extensions{};  ///< of a file, such as ".bt"; --to does not name it
 
     /// As messages name it: "--to 3dtiles".
@@ -68,6 +70,10 @@ std::unique_ptr<Sink> make_cloud_sink(const ConvertOptions& options);
 /// A map in two dimensions for nav2 and ROS 1's map_server.
 const FolderFiles& nav2_files();
 std::unique_ptr<Sink> make_nav2_sink(const ConvertOptions& options);
+
+/// What moves: objects with numbers, boxes and pictures.
+const FolderFiles& object_files();
+std::unique_ptr<Sink> make_objects_sink(const ConvertOptions& options);
 
 /// Known-free and occupied voxels for OctoMap.
 std::unique_ptr<Sink> make_octomap_sink(const ConvertOptions& options);

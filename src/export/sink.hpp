@@ -20,8 +20,10 @@ public:
     Sink(const Sink&) = delete;
     Sink& operator=(const Sink&) = delete;
     virtual ~Sink() = default;
-    /// `labels` are verdicts or ground truth, empty if there are none.
-    virtual void append(const io::FullScan& scan, const Labels& labels) = 0;
+    /// `labels` are verdicts or ground truth, empty if there are none. `stem`: name of the scan's
+    /// file without its extension.
+    virtual void append(const io::FullScan& scan, const Labels& labels,
+                        const std::string& stem) = 0;
     /// Returns what the format could not hold, as a sentence; empty if it held all. Without this
     /// call, no file is left.
     virtual std::string commit() = 0;

@@ -11,11 +11,12 @@
 namespace dynamic_filter::app {
 namespace {
 
-constexpr std::array kNames = {"note", "warning", "mended", "lost", "rejected", "dropped", "alarm"};
+constexpr std::array kRemarkNames = {"note",     "warning", "mended", "lost",
+                                     "rejected", "dropped", "alarm"};
 
 template <typename Use>
 void kind_by_kind(std::span<const Remark> remarks, const Use& use) {
-    for (std::size_t kind = 0; kind < kNames.size(); ++kind) {
+    for (std::size_t kind = 0; kind < kRemarkNames.size(); ++kind) {
         for (const Remark& remark : remarks) {
             if (remark.kind == static_cast<RemarkKind>(kind)) use(remark);
         }
@@ -24,12 +25,12 @@ void kind_by_kind(std::span<const Remark> remarks, const Use& use) {
 
 }  // namespace
 
-const char* name_of(RemarkKind kind) { return kNames[static_cast<std::size_t>(kind)]; }
+const char* name_of(RemarkKind kind) { return kRemarkNames[static_cast<std::size_t>(kind)]; }
 
 RemarkKind remark_kind_of(const std::string& name) {
-    const auto* const found = std::find(kNames.begin(), kNames.end(), name);
-    if (found == kNames.end()) throw std::invalid_argument("no kind of remark: " + name);
-    return static_cast<RemarkKind>(found - kNames.begin());
+    const auto* const found = std::find(kRemarkNames.begin(), kRemarkNames.end(), name);
+    if (found == kRemarkNames.end()) throw std::invalid_argument("no kind of remark: " + name);
+    return static_cast<RemarkKind>(found - kRemarkNames.begin());
 }
 
 void add(Remarks& remarks, RemarkKind kind, std::span<const std::string> texts) {

@@ -896,6 +896,51 @@ TEST_F(Command, ConvertWritesOctomaps) {
     EXPECT_FALSE(fs::exists(folder_ / "none.bt") || fs::exists(folder_ / "none.ot"));
 }
 
+TEST_F(Command, ConvertNamesObjects) {
+    const std::string data = recording().string();
+    ASSERT_EQ(run("run " + data + " -o out --no-report"), 0) << said();
+    ASSERT_EQ(run("convert " + data + " objects --labels out --to objects"), 0) << said();
+    expect_said("objects moved");
+    std::map<std::uint32_t, std::size_t> points;
+    for (std::size_t i = 0; fs::exists(folder_ / fmt::format("out/labels/{:06}.label", i)); ++i) {
+        const std::string name = fmt::format("labels/{:06}.label", i);
+        const std::string now = slurp(folder_ / "objects" / name),
+                          plain = slurp(folder_ / "out" / name);
+        ASSERT_EQ(now.size(), plain.size());
+        for (std::size_t at = 0; at < now.size(); at += 4) {
+            std::uint32_t value = 0, label = 0;
+            std::memcpy(&value, now.data() + at, 4);
+            std::memcpy(&label, plain.data() + at, 4);
+            EXPECT_EQ(value & 0xFFFFU, label);
+            if (value >> 16U != 0) ++points[value >> 16U];
+            EXPECT_TRUE(label == 251 || value >> 16U == 0);
+        }
+    }
+    ASSERT_GT(points.size(), 3U);
+    std::istringstream table(slurp(folder_ / "objects/objects.csv"));
+    std::string line;
+    std::getline(table, line);
+    std::size_t rows = 0;
+    while (std::getline(table, line)) {
+        unsigned object = 0, scans = 0;
+        std::size_t count = 0;
+        double first = 0, last = 0;
+        ASSERT_EQ(
+            std::sscanf(line.c_str(), "%u,%lf,%lf,%u,%zu", &object, &first, &last, &scans, &count),
+            5);
+        EXPECT_EQ(points.at(object), count) << "as in the labels";
+        EXPECT_TRUE(fs::exists(folder_ / fmt::format("objects/pictures/{:06}.png", object)));
+        EXPECT_GE(scans, 3U);
+        ++rows;
+    }
+    EXPECT_EQ(rows, points.size());
+    EXPECT_EQ(run("eval --labels objects/labels --truth " + data), 0)
+        << "labels with numbers are read";
+    EXPECT_EQ(run("convert " + data + " none --labels out --to objects --box 0,0,1,1"), 2);
+    expect_said("a label for each point");
+    EXPECT_FALSE(fs::exists(folder_ / "none"));
+}
+
 TEST_F(Command, ConvertTakesAPart) {
     const std::string data = recording().string();
     ASSERT_EQ(run("run " + data + " -o out --no-report"), 0) << said();

@@ -10,7 +10,7 @@ COVERED = {  # test -> the units that it covers
     "commands/command_test.cpp": "commands/check commands/cleaning commands/compare commands/config commands/convert "
         "commands/demo commands/evaluate commands/info commands/main commands/odometry commands/options commands/picture commands/render commands/run "
         "commands/serve commands/shared_options commands/simulate draw/animation draw/canvas export/bag export/benchmark "
-        "export/convert_map export/kitti export/nav2 export/octomap export/one_cloud export/outputs export/sink recording/scans "
+        "export/convert_map export/kitti export/nav2 export/objects export/octomap export/one_cloud export/outputs export/sink recording/scans "
         "recording/world_records run/run run/filter_whole run/run_state run/scored_scans run/summary run/write_scans",
     "export/crs_test.sh": "export/crs/plugin",
     "export/cut_test.cpp": "export/places",
