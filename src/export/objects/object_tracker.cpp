@@ -14,7 +14,7 @@ namespace dynamic_filter::app {
 
 namespace {
 
-constexpr double kCell = 0.3;        // [m] of pieces
+constexpr double kCell = 0.2;        // [m] of pieces
 constexpr std::size_t kFewest = 5;   // points of a new object
 constexpr double kLongestGap = 2.0;  // [s] without a sighting
 constexpr double kNear = 0.4;        // [m] that an object may be off by
@@ -64,28 +64,20 @@ Eigen::Vector3d usual_extent(const MovingObject& object) {
     return extent;
 }
 
-/// Whether two objects stayed in place to each other over the last three scans; and whether they
-/// were in one piece all the time.
-struct Company {
-    bool is_close = false, touches = true;
-};
-Company company_of(const MovingObject& a, const MovingObject& b) {
+/// Whether two objects stayed in place to each other over the last three scans.
+bool keep_company(const MovingObject& a, const MovingObject& b) {
     constexpr std::size_t kScans = 3;
     constexpr double kShift = 0.4;  // [m]
-    if (std::min(a.sightings.size(), b.sightings.size()) < kScans) return {};
-    Company company{true, true};
+    if (std::min(a.sightings.size(), b.sightings.size()) < kScans) return false;
+    bool is_same_scan = true;
     const auto apart = [&](std::size_t back) {
         const Sighting& then_a = a.sightings[a.sightings.size() - 1 - back];
         const Sighting& then_b = b.sightings[b.sightings.size() - 1 - back];
-        company.is_close &= then_a.scan == then_b.scan;
-        company.touches &= then_a.piece == then_b.piece;
+        is_same_scan &= then_a.scan == then_b.scan;
         return flat(then_b.box.center() - then_a.box.center());
     };
     const Eigen::Vector3d now = apart(0);
-    for (std::size_t back = 1; back < kScans; ++back) {
-        company.is_close &= (apart(back) - now).norm() <= kShift;
-    }
-    return company;
+    return (apart(1) - now).norm() <= kShift && (apart(2) - now).norm() <= kShift && is_same_scan;
 }
 
 /// Two sides of a vehicle, one of them seen through its windows.
@@ -101,15 +93,15 @@ bool are_abreast(const MovingObject& a, const MovingObject& b) {
 /// Whether two objects are parts of one vehicle: they move in place to each other, and are closer
 /// than two things that fast would be, or larger than people.
 bool are_one(const MovingObject& a, const MovingObject& b) {
-    constexpr double kDrives = 0.8, kFast = 3.0, kPerson = 2.5, kNoGap = 1.2;
+    constexpr double kDrives = 0.8, kFast = 3.0, kPerson = 2.5, kFastGap = 1.2, kSlowGap = 0.6;
     const double speed = std::min(a.velocity.norm(), b.velocity.norm());
     if (speed < kDrives) return false;
-    const Company company = company_of(a, b);
-    if (!company.is_close) return false;
-    if (speed > kFast && gap(a.sightings.back().box, b.sightings.back().box) < kNoGap) return true;
+    if (!keep_company(a, b)) return false;
+    const double apart = gap(a.sightings.back().box, b.sightings.back().box);
+    if (speed > kFast && apart < kFastGap) return true;
     const auto length = [](const MovingObject& o) { return usual_extent(o).head<2>().maxCoeff(); };
     if (std::max(length(a), length(b)) < kPerson) return false;
-    return company.touches || are_abreast(a, b);
+    return apart < kSlowGap || are_abreast(a, b);
 }
 
 /// Fills in velocity and heading of the newest sighting, and of those before it that could not know
@@ -233,9 +225,7 @@ std::vector<std::uint32_t> ObjectTracker::follow(std::span<const Eigen::Vector3d
         }
     }
     std::vector<std::uint32_t> owners(places.size(), kNoObject);
-    std::vector<std::uint32_t> piece_of_place(places.size());
-    for (std::uint32_t p = 0; p < pieces.size(); ++p) {
-        for (const std::uint32_t i : pieces[p].points) piece_of_place[i] = p;
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
         if (!claims[p].empty()) {
             divide(pieces[p], claims[p], places, owners);
         } else if (pieces[p].points.size() >= kFewest) {
@@ -245,20 +235,19 @@ std::vector<std::uint32_t> ObjectTracker::follow(std::span<const Eigen::Vector3d
             for (const std::uint32_t i : pieces[p].points) owners[i] = number;
         }
     }
-    note(places, owners, piece_of_place, scan);
+    note(places, owners, scan);
     return owners;
 }
 
 void ObjectTracker::note(std::span<const Eigen::Vector3d> places,
-                         const std::vector<std::uint32_t>& owners,
-                         const std::vector<std::uint32_t>& pieces, std::size_t scan) {
+                         const std::vector<std::uint32_t>& owners, std::size_t scan) {
     constexpr double kNewest = 0.5;  // weight of the newest step in the velocity
     std::map<std::uint32_t, Sighting> seen;
     for (std::size_t i = 0; i < places.size(); ++i) {
         if (owners[i] == kNoObject) continue;
         const auto [at, is_first] = seen.try_emplace(owners[i]);
         Sighting& sighting = at->second;
-        if (is_first) sighting.scan = scan, sighting.stamp = stamp_, sighting.piece = pieces[i];
+        if (is_first) sighting.scan = scan, sighting.stamp = stamp_;
         sighting.box.extend(places[i]);
         ++sighting.points;
     }

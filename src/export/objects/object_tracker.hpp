@@ -21,7 +21,6 @@ struct Sighting {
     double stamp = 0.0;       ///< [s]
     Eigen::AlignedBox3d box;  ///< [m] around its points in the world
     std::size_t points = 0;
-    std::uint32_t piece = 0;  ///< which of the scan holds the first of its points
     Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s] by then
     double heading = 0.0;  ///< [rad] where it went when it last went on
 };
@@ -61,7 +60,7 @@ private:
     void divide(Piece& piece, std::span<const Candidate*> claims,
                 std::span<const Eigen::Vector3d> places, std::vector<std::uint32_t>& owners) const;
     void note(std::span<const Eigen::Vector3d> places, const std::vector<std::uint32_t>& owners,
-              const std::vector<std::uint32_t>& pieces, std::size_t scan);
+              std::size_t scan);
     void unite(const std::map<std::uint32_t, Sighting>& seen);
 
     std::vector<MovingObject> objects_;
