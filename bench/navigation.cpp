@@ -27,8 +27,8 @@
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/filter.hpp"
 #include "dynamic_filter/simulation.hpp"
-#include "export/navigation/surface_map.hpp"
-#include "export/navigation/survey.hpp"
+#include "navigation/surface_map.hpp"
+#include "navigation/survey.hpp"
 #include "sim/caster.hpp"
 #include "sim/scene.hpp"
 

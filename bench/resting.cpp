@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// Measures how long it takes until an object that stood and left is out of the map, and until an
-/// object that comes and stays is in it. Ten people stand on a circle in a walled yard: five are
-/// there from the start and leave one after the other, five come one after the other. Prints
-/// Markdown tables: seconds, and the share of the voxels of the person in the map at the end.
+/// object that comes and stays is in it; with the word `grid` first, how long until the occupancy
+/// grid of `live` has the place of who left free. Ten people stand on a circle in a walled yard:
+/// five are there from the start and leave one after the other, five come one after the other.
+/// Prints Markdown tables: seconds, and the share of the voxels of the person in the map at the
+/// end.
 #include <fmt/format.h>
 #include <tsl/robin_set.h>
 
@@ -16,6 +18,7 @@
 
 #include "dynamic_filter/filter.hpp"
 #include "geometry/voxel.hpp"
+#include "navigation/local_grid.hpp"
 #include "sim/bodies.hpp"
 #include "sim/lidar.hpp"
 #include "sim/prototypes.hpp"
@@ -36,10 +39,28 @@ constexpr double kMost = 0.9;  // share of the voxels at which a person counts a
 
 using Cells = tsl::robin_set<VoxelKey, VoxelHash>;
 
+/// Whether the grid is free where a person stood: no cell is occupied, and few are unknown.
+bool is_free(const io::OccupancyCells& cells, const Eigen::Vector2d& at) {
+    constexpr double kFoot = 0.3, kFree = 0.9;  // [m], share of the cells
+    std::size_t free = 0, all = 0;
+    for (std::size_t i = 0; i < cells.values.size(); ++i) {
+        const Eigen::Vector2d middle =
+            cells.origin.head<2>() +
+            cells.cell * Eigen::Vector2d(static_cast<double>(i % cells.width) + 0.5,
+                                         static_cast<double>(i / cells.width) + 0.5);
+        if ((middle - at).norm() >= kFoot) continue;
+        if (cells.values[i] > 0) return false;
+        ++all;
+        free += cells.values[i] == 0 ? 1U : 0U;
+    }
+    return static_cast<double>(free) >= kFree * static_cast<double>(all);
+}
+
 /// Time from the change until the map shows it, and the share of the person's voxels in the map at
 /// the end.
 struct Delay {
     std::optional<int> seconds;
+    std::optional<double> free;  // [s] until the grid is free there
     double share = 0.0;
 };
 using Delays = std::array<Delay, kPeople>;
@@ -147,13 +168,30 @@ void ask(DynamicFilter& filter, const Seen& seen, int second, Delays& delays) {
     }
 }
 
-Delays watch(const sim::Sensor& sensor, bool walking) {
+/// The same for the grid, of those who left within the last ten seconds.
+void ask(const app::LocalGrid& grid, const DynamicFilter& filter, double t, Delays& delays) {
+    constexpr double kLong = 10.0;  // [s]
+    const auto is_due = [&](std::size_t i) {
+        const double since = t - change(i);
+        return leaves(i) && !delays[i].free && since >= 0.0 && since < kLong;
+    };
+    bool any = false;
+    for (std::size_t i = 0; i < kPeople; ++i) any |= is_due(i);
+    if (!any) return;
+    const auto cells = grid.cells([&](const Scan& scan) { return filter.settled(scan); });
+    for (std::size_t i = 0; i < kPeople; ++i) {
+        if (is_due(i) && cells && is_free(*cells, place(i))) delays[i].free = t - change(i);
+    }
+}
+
+Delays watch(const sim::Sensor& sensor, bool walking, bool of_grid) {
     Config config = preset("default");
     config.map.search_radius = 2.0;  // the requested map is that around one person
     DynamicFilter filter(config);
     sim::Caster rays = caster();
     Seen seen;
     Delays delays;
+    app::LocalGrid grid(app::GridOptions{.radius = 12.0});
     for (int i = 0; i <= kEnd * kRate; ++i) {
         const double t = static_cast<double>(i) / kRate;
         const auto index = static_cast<std::size_t>(i);
@@ -161,8 +199,14 @@ Delays watch(const sim::Sensor& sensor, bool walking) {
         const Pose pose = sensor_pose(walking, t);
         sim::Returns scan = sim::sense(rays, sensor, pose, 1, index);
         seen.add(scan, pose);
-        filter.push({std::move(scan.points), pose, t, index});
-        if (i % kRate == 0) ask(filter, seen, i / kRate, delays);
+        const Scan pushed{std::move(scan.points), pose, t, index};
+        filter.push(pushed);
+        if (of_grid) grid.add(pushed);
+        if (of_grid) {
+            ask(grid, filter, t, delays);
+        } else if (i % kRate == 0) {
+            ask(filter, seen, i / kRate, delays);
+        }
     }
     return delays;
 }
@@ -170,9 +214,24 @@ Delays watch(const sim::Sensor& sensor, bool walking) {
 void print(const std::string& name, const Delays& delays, bool of_leaving) {
     std::string row = "| " + name + " |";
     for (std::size_t i = of_leaving ? 0 : 1; i < kPeople; i += 2) {
-        const auto& [seconds, share] = delays[i];
+        const auto& [seconds, free, share] = delays[i];
         row += seconds ? fmt::format(" {}", *seconds) : fmt::format(" > {}", kEnd - change(i));
         row += fmt::format(" ({:.0f} %) |", 100.0 * share);
+    }
+    fmt::print("{}\n", row);
+}
+
+void print_head(const char* what) {
+    fmt::print("| {} |", what);
+    for (const int seconds : kChanges) fmt::print(" {} |", seconds);
+    fmt::print("\n|---|---|---|---|---|---|\n");
+}
+
+void print_free(const std::string& name, const Delays& delays) {
+    std::string row = "| " + name + " |";
+    for (std::size_t i = 0; i < kPeople; i += 2) {
+        const std::optional<double>& free = delays[i].free;
+        row += free ? fmt::format(" {:.1f} |", *free) : std::string(" > 10 |");
     }
     fmt::print("{}\n", row);
 }
@@ -180,23 +239,28 @@ void print(const std::string& name, const Delays& delays, bool of_leaving) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    const std::vector<std::string> sensors(argv + 1, argv + argc);
+    std::vector<std::string> sensors(argv + 1, argv + argc);
+    const bool of_grid = !sensors.empty() && sensors.front() == "grid";
+    if (of_grid) sensors.erase(sensors.begin());
     std::vector<std::pair<std::string, Delays>> all;
     for (const sim::Sensor& sensor : sim::sensor_table()) {
         if (std::find(sensors.begin(), sensors.end(), sensor.name) == sensors.end()) continue;
         for (const bool walking : {false, true}) {
             all.emplace_back(sensor.name + (walking ? ", walking" : ", at rest"),
-                             watch(sensor, walking));
+                             watch(sensor, walking, of_grid));
         }
     }
     if (all.empty()) {
-        fmt::print(stderr, "usage: resting SENSOR ...\n");
+        fmt::print(stderr, "usage: resting [grid] SENSOR ...\n");
         return 2;
     }
+    if (of_grid) {
+        print_head("stood for [s]");
+        for (const auto& [name, delays] : all) print_free(name, delays);
+        return 0;
+    }
     for (const bool of_leaving : {true, false}) {
-        fmt::print("| {} |", of_leaving ? "stood for [s]" : "empty for [s]");
-        for (const int seconds : kChanges) fmt::print(" {} |", seconds);
-        fmt::print("\n|---|---|---|---|---|---|\n");
+        print_head(of_leaving ? "stood for [s]" : "empty for [s]");
         for (const auto& [name, delays] : all) print(name, delays, of_leaving);
         fmt::print("\n");
     }

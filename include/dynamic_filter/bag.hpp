@@ -168,6 +168,19 @@ struct BoxMarker {
 std::vector<std::byte> boxes_message(const std::vector<BoxMarker>& boxes, double stamp,
                                      const std::string& frame, MessageEncoding encoding);
 
+/// Cells of a plane with z pointing up.
+struct OccupancyCells {
+    double cell = 0.0;                                 ///< [m] width of a cell
+    std::uint32_t width = 0;                           ///< cells along x
+    std::uint32_t height = 0;                          ///< cells along y
+    Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m] lower left corner of the first cell
+    std::vector<std::int8_t> values{};  ///< row by row along x; 0 free, 100 occupied, -1 unknown
+};
+
+/// nav_msgs/OccupancyGrid at `stamp` [s].
+std::vector<std::byte> occupancy_message(const OccupancyCells& cells, double stamp,
+                                         const std::string& frame, MessageEncoding encoding);
+
 /// A row of diagnostic_msgs/DiagnosticStatus.
 struct DiagnosticStatus {
     std::uint8_t level = 0;  ///< 0: good, 1: warning, 2: error, 3: no data comes

@@ -37,10 +37,11 @@ ROOMS = {
     "online": f"{BASE} geometry settings filter tracking paper",
     "recording": "base geometry formats tracking/upright.hpp",
     "check": "base geometry settings tracking formats recording",
-    "export": "base geometry formats draw recording",
+    "navigation": "base geometry formats dynamic_filter/filter.hpp",
+    "export": "base geometry formats draw recording navigation",
     "page": "base geometry formats score recording dynamic_filter/filter.hpp",
     "run": "base geometry settings filter tracking online paper formats recording check score page",
-    "live": "base geometry settings filter tracking online formats recording check/watch.hpp page run",
+    "live": "base geometry settings filter tracking online formats recording check/watch.hpp navigation page run",
     "commands": "*",
 }
 OUTSIDE = ("bench", "examples", "python/src", "ros1", "tests")  # may include every room

@@ -7,8 +7,8 @@
 #include "base/output_folder.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
-#include "export/navigation/survey.hpp"
 #include "export/outputs.hpp"
+#include "navigation/survey.hpp"
 
 namespace dynamic_filter::app {
 

@@ -7,9 +7,9 @@
 
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
-#include "export/navigation/look_chooser.hpp"
 #include "export/octomap/octree_file.hpp"
 #include "export/outputs.hpp"
+#include "navigation/look_chooser.hpp"
 
 namespace dynamic_filter::app {
 

@@ -30,6 +30,9 @@ struct LiveConfig {
         int settle_after = 10;
         bool transform = true;
     } output;
+    struct Grid {
+        double rate = 1.0, radius = 20.0, cell = 0.1, robot_height = 1.5, step = 0.1;
+    } grid;
     struct Foxglove {
         bool serve = false;
         std::string address = "127.0.0.1", origins;
@@ -102,6 +105,17 @@ void visit_live(C& c, F&& f) {
     f(Setting{"output.transform", "", "",
               "whether the own odometry publishes the transform of its world frame in /tf"},
       c.output.transform);
+    f(Setting{"grid.rate", "Hz", "", "how often the occupancy grid is published; 0: never", 0, 10},
+      c.grid.rate);
+    f(Setting{"grid.radius", "m", "", "half the width of the occupancy grid", 2, 50},
+      c.grid.radius);
+    f(Setting{"grid.cell", "m", "", "width of a cell of the occupancy grid", 0.02, 0.25},
+      c.grid.cell);
+    f(Setting{"grid.robot_height", "m", "",
+              "what hangs higher above the floor is no obstacle of the occupancy grid", 0.05, 10},
+      c.grid.robot_height);
+    f(Setting{"grid.step", "m", "", "what the robot may climb, in the occupancy grid", 0.01, 0.5},
+      c.grid.step);
     f(Setting{"foxglove.serve", "", "", "whether Foxglove and Lichtblick can connect"},
       c.foxglove.serve);
     f(Setting{"foxglove.address", "", "",

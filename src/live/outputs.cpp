@@ -130,6 +130,7 @@ OutputTopics::OutputTopics(const LiveConfig& config, io::MessageEncoding encodin
     labels = cloud("/labels", scans);
     corrections = cloud("/corrections", scans);
     map = cloud("/map", latched);
+    grid = {{prefix + "/occupancy", "nav_msgs/OccupancyGrid", encoding}, latched};
     removed = {{prefix + "/removed", "visualization_msgs/MarkerArray", encoding}, usual};
     path = {{prefix + "/path", "nav_msgs/Path", encoding}, usual};
     diagnostics = {{"/diagnostics", "diagnostic_msgs/DiagnosticArray", encoding}, usual};
@@ -138,7 +139,7 @@ OutputTopics::OutputTopics(const LiveConfig& config, io::MessageEncoding encodin
 }
 
 std::vector<Output> OutputTopics::all() const {
-    return {still, dynamic, labels, corrections, map, removed, path, diagnostics, transform};
+    return {still, dynamic, labels, corrections, map, grid, removed, path, diagnostics, transform};
 }
 
 Outputs::Outputs(const LiveConfig& config, io::MessageEncoding encoding, Publisher& bus,
@@ -213,6 +214,10 @@ void Outputs::settled(const JudgedScan& scan, const Verdict& verdict) {
 
 void Outputs::map(const std::vector<StaticVoxel>& voxels, const std::string& world, double stamp) {
     publish(topics_.map, stamp, io::cloud_message(map_cloud(voxels), stamp, world, encoding_));
+}
+
+void Outputs::grid(const io::OccupancyCells& cells, const std::string& world, double stamp) {
+    publish(topics_.grid, stamp, io::occupancy_message(cells, stamp, world, encoding_));
 }
 
 void Outputs::diagnostics(const std::vector<io::DiagnosticStatus>& statuses, double stamp) {

@@ -22,7 +22,7 @@ struct Output {
 
 /// The topics, by what they are for.
 struct OutputTopics {
-    Output still, dynamic, labels, corrections, map, removed, path, diagnostics, transform;
+    Output still, dynamic, labels, corrections, map, grid, removed, path, diagnostics, transform;
     explicit OutputTopics(const LiveConfig& config, io::MessageEncoding encoding);
     [[nodiscard]] std::vector<Output> all() const;
 };
@@ -51,9 +51,11 @@ public:
     /// The points of an earlier scan whose labels have changed.
     void settled(const JudgedScan& scan, const Verdict& verdict);
     void map(const std::vector<StaticVoxel>& voxels, const std::string& world, double stamp);
+    void grid(const io::OccupancyCells& cells, const std::string& world, double stamp);
     void diagnostics(const std::vector<io::DiagnosticStatus>& statuses, double stamp);
 
     [[nodiscard]] bool wants_map() const { return is_wanted(topics_.map); }
+    [[nodiscard]] bool wants_grid() const { return is_wanted(topics_.grid); }
     [[nodiscard]] bool wants_corrections() const { return is_wanted(topics_.corrections); }
     /// Number of messages that were not taken, because a receiver is too slow.
     [[nodiscard]] std::uint64_t not_taken() const { return not_taken_; }

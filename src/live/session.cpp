@@ -43,10 +43,15 @@ Session::Session(const LiveConfig& config, Outputs& outputs, Recorder* recorder)
       outputs_(outputs),
       recorder_(recorder),
       map_rate_(config.output.map_rate),
-      map_radius_(config.output.map_radius) {
+      map_radius_(config.output.map_radius),
+      grid_(
+          {config.grid.radius,
+           config.grid.cell,
+           {static_cast<float>(config.grid.robot_height), static_cast<float>(config.grid.step)}}) {
     filter_ = std::make_unique<OnlineFilter>(config.filter, options_of(config), callbacks());
     publisher_ = std::thread([this] { publish_work(); });
     mapper_ = std::thread([this] { publish_maps(); });
+    gridder_ = std::thread([this] { publish_grids(); });
 }
 
 Session::~Session() { stop(); }
@@ -64,6 +69,7 @@ void Session::stop() {
     changed_.notify_all();
     publisher_.join();
     mapper_.join();
+    gridder_.join();
 }
 
 void Session::set_map(double rate_hz, double radius) {
@@ -124,7 +130,11 @@ void Session::add_instant(const Verdict& verdict) {
 void Session::add_notice(const Notice& notice) {
     const std::lock_guard hold(lock_);
     const bool new_map = notice.kind == NoticeKind::jump || notice.kind == NoticeKind::restart;
-    if (!new_map) pending_.erase(notice.index);
+    if (new_map) {
+        grid_.clear();
+    } else {
+        pending_.erase(notice.index);
+    }
     constexpr std::size_t kMost = 20;  // between two calls of pop_notices()
     // Dropped scans are counted; a line for each would fill the log when the log helps least.
     if (notice.kind == NoticeKind::dropped || notices_.size() >= kMost) return;
@@ -167,6 +177,7 @@ void Session::publish(Work& work) {
     note_latency(*work.scan);
     ++published_;
     record(*work.scan);
+    if (has_grid()) grid_.add(scan_of(*work.scan, work.verdict));
     if (config_.output.settle_after == 0 || !filter_->judges_each_scan()) return;
     unsettled_.push_back(
         {std::move(judged), scan_of(*work.scan, work.verdict), std::move(work.scan->own)});
@@ -200,28 +211,51 @@ void Session::note_latency(const LiveScan& scan) {
     if (latencies_.size() > kMostLatencies) latencies_.pop_front();
 }
 
-void Session::publish_maps() {
+/// Calls `publish(newest place)` at a rate [Hz] that may change, until the end; 0: never.
+template <class Publish>
+void Session::repeat(const double& rate, const Publish& publish) {
     try {
         std::unique_lock hold(lock_);
         auto due = std::chrono::steady_clock::now();
         while (!stopping_) {
-            const std::chrono::duration<double> pause(map_rate_ > 0.0 ? 1.0 / map_rate_ : 1.0);
+            const std::chrono::duration<double> pause(rate > 0.0 ? 1.0 / rate : 1.0);
             due = std::max(due + std::chrono::duration_cast<SteadyTime::duration>(pause),
                            std::chrono::steady_clock::now());
             changed_.wait_until(hold, due, [&] { return stopping_; });
-            if (stopping_ || map_rate_ <= 0.0 || !newest_) continue;
+            if (stopping_ || rate <= 0.0 || !newest_) continue;
             const Place at = *newest_;
-            const double radius = map_radius_;
             hold.unlock();
-            if (outputs_.wants_map()) {
-                outputs_.map(filter_->local_static_map(at.T_world_sensor, radius), at.world,
-                             at.stamp);
-            }
+            publish(at);
             hold.lock();
         }
     } catch (...) {
         fail(std::current_exception());
     }
+}
+
+void Session::publish_maps() {
+    repeat(map_rate_, [&](const Place& at) {
+        if (!outputs_.wants_map()) return;
+        double radius = 0.0;
+        {
+            const std::lock_guard hold(lock_);
+            radius = map_radius_;
+        }
+        outputs_.map(filter_->local_static_map(at.T_world_sensor, radius), at.world, at.stamp);
+    });
+}
+
+/// Presets that judge scans window by window have no verdict by the evidence so far.
+bool Session::has_grid() const {
+    return config_.grid.rate > 0.0 && filter_->judges_each_scan() && outputs_.wants_grid();
+}
+
+void Session::publish_grids() {
+    repeat(config_.grid.rate, [&](const Place& at) {
+        if (!has_grid()) return;
+        const auto cells = grid_.cells([&](const Scan& scan) { return filter_->settled(scan); });
+        if (cells) outputs_.grid(*cells, at.world, at.stamp);
+    });
 }
 
 Latencies Session::latencies() const {

@@ -17,6 +17,7 @@
 #include "dynamic_filter/online.hpp"
 #include "live/outputs.hpp"
 #include "live/recorder.hpp"
+#include "navigation/local_grid.hpp"
 
 namespace dynamic_filter::live {
 
@@ -64,6 +65,11 @@ private:
         std::shared_ptr<LiveScan> scan;
         Verdict verdict;
     };
+    struct Place {
+        Pose T_world_sensor = Pose::Identity();
+        std::string world;
+        double stamp = 0.0;
+    };
     struct Unsettled {
         JudgedScan judged;
         Scan scan;
@@ -75,7 +81,11 @@ private:
     void put(Work work);
     void publish_work();
     void publish(Work& work);
+    template <class Publish>
+    void repeat(const double& rate, const Publish& publish);
     void publish_maps();
+    [[nodiscard]] bool has_grid() const;
+    void publish_grids();
     void record(const LiveScan& scan);
     void watch(const LiveScan& scan, const Verdict& verdict);
     void note_latency(const LiveScan& scan);
@@ -94,11 +104,6 @@ private:
     OdometryState odometry_;
     std::deque<io::ScanWatch> watch_;  // of the newest scans
     std::vector<std::string> notices_;
-    struct Place {
-        Pose T_world_sensor = Pose::Identity();
-        std::string world;
-        double stamp = 0.0;
-    };
     std::optional<Place> newest_;
     double map_rate_, map_radius_;
     bool stopping_ = false;
@@ -107,8 +112,9 @@ private:
     std::deque<Unsettled> unsettled_;  // of the publishing thread
     std::atomic<std::uint64_t> published_{0}, unpublished_{0};
     std::size_t next_index_ = 0;
+    app::LocalGrid grid_;
     std::unique_ptr<OnlineFilter> filter_;
-    std::thread publisher_, mapper_;
+    std::thread publisher_, mapper_, gridder_;
 };
 
 }  // namespace dynamic_filter::live

@@ -113,6 +113,16 @@ TEST_F(DdsCdr, Path) {
                   .text());
 }
 
+TEST_F(DdsCdr, Occupancy) {
+    const io::OccupancyCells cells{0.25, 3, 1, {1.0, 2.0, 3.0}, {0, 100, -1}};
+    EXPECT_EQ(decoded("nav_msgs/OccupancyGrid", io::occupancy_message(cells, 1.5, "map", kCdr)),
+              Fields()
+                  .add(1, 500000000, "map", 1, 500000000, 0.25F, 3, 1)
+                  .pose(Pose(Eigen::Translation3d(cells.origin)))
+                  .add(3, 0, 100, -1)
+                  .text());
+}
+
 TEST_F(DdsCdr, Markers) {
     const io::BoxMarker box{{1.0, 2.0, 3.0}, {4.0, 5.0, 6.0}};
     const auto marker = [](Fields& fields, int id, int action, const io::BoxMarker& shown) {

@@ -99,6 +99,18 @@ TEST(Session, CorrectionsComeAfterTheGivenNumberOfScans) {
     EXPECT_EQ(running.count("/dynamicfilter/corrections"), 7U);
 }
 
+TEST(Session, AnOccupancyGridIsPublishedToThoseWhoComeLate) {
+    Running running;
+    running.config.grid.rate = 10.0;
+    running.config.grid.radius = 8.0;
+    running.start();
+    EXPECT_TRUE(running.bus.advertised.at("/dynamicfilter/occupancy").latched);
+    running.push_all(40);
+    eventually([&] { return running.count("/dynamicfilter/occupancy") > 0; });
+    running.session->stop();
+    EXPECT_GT(running.count("/dynamicfilter/occupancy"), 0U);
+}
+
 TEST(Session, GroundThatIsLostRaisesAnAlarm) {
     for (const double wrong : {0.0, 0.8}) {  // [m] by which every second pose is too high
         Running running;

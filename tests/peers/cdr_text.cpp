@@ -109,6 +109,16 @@ void path(Reader& in) {
     });
 }
 
+void occupancy(Reader& in) {
+    header(in);
+    in.number<std::int32_t>();
+    in.number<std::uint32_t>();
+    in.number<float>();
+    in.numbers<std::uint32_t>(2);
+    pose(in);
+    in.sequence([&] { in.number<std::int8_t>(); });
+}
+
 /// As of Humble.
 void markers(Reader& in) {
     in.sequence([&] {
@@ -160,6 +170,8 @@ std::string text_of(const std::string& type, Bytes message) {
         odometry(in);
     } else if (type == "nav_msgs::msg::dds_::Path_") {
         path(in);
+    } else if (type == "nav_msgs::msg::dds_::OccupancyGrid_") {
+        occupancy(in);
     } else if (type == "visualization_msgs::msg::dds_::MarkerArray_") {
         markers(in);
     } else if (type == "diagnostic_msgs::msg::dds_::DiagnosticArray_") {

@@ -33,6 +33,11 @@ function valuesOf(type, message) {
       const { translation, rotation } = message.transforms[0].transform;
       return poseValues(translation, rotation);
     }
+    case "nav_msgs/OccupancyGrid": {
+      const { resolution, width, height, origin } = message.info;
+      return [resolution, width, height, origin.position.x, origin.position.y, origin.position.z,
+        ...message.data];
+    }
     case "nav_msgs/Path":
       return message.poses.flatMap(({ pose }) => poseValues(pose.position, pose.orientation));
     case "visualization_msgs/MarkerArray":

@@ -58,6 +58,11 @@ def read(kind, data):
     stamp, frame = cdr.header()
     if kind == "sensor_msgs/msg/PointCloud2":
         return stamp, frame, point_values(cdr)
+    if kind == "nav_msgs/msg/OccupancyGrid":
+        assert cdr.number("i") * 10**9 + cdr.number("I") == stamp
+        values = [cdr.number("f"), cdr.number("I"), cdr.number("I")]
+        values += [cdr.number("d") for _ in range(7)][:3]
+        return stamp, frame, values + list(struct.unpack("b" * len(data := cdr.bytes()), data))
     if kind != "geometry_msgs/msg/PoseStamped":
         cdr.text()
     return stamp, frame, [cdr.number("d") for _ in range(7)]

@@ -24,6 +24,9 @@ def values_of(kind, message):
         return pose_values(message.pose.pose.position, message.pose.pose.orientation)
     if kind == "geometry_msgs/PoseStamped":
         return pose_values(message.pose.position, message.pose.orientation)
+    if kind == "nav_msgs/OccupancyGrid":
+        info, at = message.info, message.info.origin.position
+        return [info.resolution, info.width, info.height, at.x, at.y, at.z, *message.data]
     transform = message.transforms[0].transform
     return pose_values(transform.translation, transform.rotation)
 

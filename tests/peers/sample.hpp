@@ -2,10 +2,12 @@
 /// What the programs here have in common: random points, and how values are printed.
 #pragma once
 
+#include <array>
 #include <cstring>
 #include <span>
 #include <vector>
 
+#include "dynamic_filter/bag.hpp"
 #include "dynamic_filter/cloud.hpp"
 #include "support/random.hpp"
 
@@ -49,6 +51,22 @@ inline Cloud random_cloud(std::size_t points, FieldType type, test::Random& rand
     Cloud cloud = sample_fields(type);
     fill(cloud, points, random);
     return cloud;
+}
+
+inline OccupancyCells random_cells(std::size_t width, test::Random& random) {
+    OccupancyCells cells{0.25, static_cast<std::uint32_t>(width), 7, {}, {}};
+    for (double& value : cells.origin) value = random.uniform(-100.0, 100.0);
+    constexpr std::array<std::int8_t, 3> kValues{-1, 0, 100};
+    for (std::size_t i = 0; i < 7 * width; ++i) cells.values.push_back(kValues[random.below(3)]);
+    return cells;
+}
+
+inline std::vector<double> cell_values(const OccupancyCells& cells) {
+    std::vector<double> all{cells.cell, static_cast<double>(cells.width),
+                            static_cast<double>(cells.height)};
+    for (const double value : cells.origin) all.push_back(value);
+    for (const std::int8_t value : cells.values) all.push_back(value);
+    return all;
 }
 
 inline std::vector<double> point_values(const Cloud& cloud) {

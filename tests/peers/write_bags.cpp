@@ -34,6 +34,9 @@ void write(const std::filesystem::path& path) {
             odometry_message("odom", "base", pose, stamp, encoding), pose_values(pose));
         put("/pose", "geometry_msgs/PoseStamped", stamp, "map",
             pose_message("map", pose, stamp, encoding), pose_values(pose));
+        const OccupancyCells cells = random_cells(i, random);
+        put("/grid", "nav_msgs/OccupancyGrid", stamp, "map",
+            occupancy_message(cells, stamp, "map", encoding), cell_values(cells));
         put("/tf", "tf2_msgs/TFMessage", stamp, "map",
             transform_message("map", "base_link", pose, stamp, encoding), pose_values(pose));
     }

@@ -14,7 +14,7 @@ COVERED = {  # test -> the units that it covers
         "recording/world_records run/run run/filter_whole run/run_state run/scored_scans run/summary run/write_scans",
     "export/crs_test.sh": "export/crs/plugin",
     "export/cut_test.cpp": "export/places",
-    "export/navigation/navigation_map_test.cpp": "export/navigation/floor export/navigation/surface_map",
+    "navigation/navigation_map_test.cpp": "navigation/floor navigation/surface_map",
     "export/tileset_test.cpp": "export/glb",
     "formats/clouds/cloud_test.cpp": "formats/clouds/bin",
     "formats/poses/poses_test.cpp": "base/utf16 formats/poses/pose_rows",

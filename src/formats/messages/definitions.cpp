@@ -35,6 +35,8 @@ constexpr std::array kParts = {
     Part{"geometry_msgs/TwistWithCovariance",
          "geometry_msgs/Twist twist\nfloat64[36] covariance\n"},
     Part{"geometry_msgs/Vector3", "float64 x\nfloat64 y\nfloat64 z\n"},
+    Part{"nav_msgs/OccupancyGrid",
+         "std_msgs/Header header\nnav_msgs/MapMetaData info\nint8[] data\n"},
     Part{"nav_msgs/Odometry",
          "std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/PoseWithCovariance pose\n"
          "geometry_msgs/TwistWithCovariance twist\n"},
@@ -52,6 +54,9 @@ constexpr std::array kParts = {
 };
 
 constexpr std::array kOfRos1 = {
+    Part{"nav_msgs/MapMetaData",
+         "time map_load_time\nfloat32 resolution\nuint32 width\nuint32 height\n"
+         "geometry_msgs/Pose origin\n"},
     Part{"std_msgs/Header", "uint32 seq\ntime stamp\nstring frame_id\n"},
     Part{"visualization_msgs/Marker",
          "uint8 ARROW=0\nuint8 CUBE=1\nuint8 SPHERE=2\nuint8 CYLINDER=3\nuint8 LINE_STRIP=4\n"
@@ -67,6 +72,9 @@ constexpr std::array kOfRos1 = {
 constexpr std::array kOfRos2 = {
     Part{"builtin_interfaces/Duration", "int32 sec\nuint32 nanosec\n"},
     Part{"builtin_interfaces/Time", "int32 sec\nuint32 nanosec\n"},
+    Part{"nav_msgs/MapMetaData",
+         "builtin_interfaces/Time map_load_time\nfloat32 resolution\nuint32 width\nuint32 height\n"
+         "geometry_msgs/Pose origin\n"},
     Part{"sensor_msgs/CompressedImage", "std_msgs/Header header\nstring format\nuint8[] data\n"},
     Part{"std_msgs/Header", "builtin_interfaces/Time stamp\nstring frame_id\n"},
     // Since Humble, with textures and files of meshes.
@@ -111,6 +119,7 @@ const Definition* find_definition(const std::string& type) {
     static const std::array definitions = {
         Definition{"diagnostic_msgs/DiagnosticArray", "60810da900de1dd6ddd437c3503511da"},
         Definition{"geometry_msgs/PoseStamped", "d3812c3cbc69362b77dc0b19b345f8f5"},
+        Definition{"nav_msgs/OccupancyGrid", "3381f2d731d4076ec5c71b0759edbe4e"},
         Definition{"nav_msgs/Odometry", "cd5e73d190d741a2f92e81eda573aca7"},
         Definition{"nav_msgs/Path", "6227e2b7e9cce15051f669a5e197bbf7"},
         Definition{"sensor_msgs/PointCloud2", "1158d486dd51d683ce2f1be655c3c181"},

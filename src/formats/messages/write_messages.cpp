@@ -13,11 +13,15 @@
 namespace dynamic_filter::io {
 namespace {
 
-void put_header(MessageWriter& out, double stamp, const std::string& frame) {
+void put_time(MessageWriter& out, double stamp) {
     const std::int64_t time = to_nanoseconds(stamp);
-    if (!out.is_cdr()) out.number(std::uint32_t{0});  // seq
     out.number(static_cast<std::uint32_t>(time / kSecond));
     out.number(static_cast<std::uint32_t>(time % kSecond));
+}
+
+void put_header(MessageWriter& out, double stamp, const std::string& frame) {
+    if (!out.is_cdr()) out.number(std::uint32_t{0});  // seq
+    put_time(out, stamp);
     out.text(frame);
 }
 
@@ -166,6 +170,19 @@ std::vector<std::byte> path_message(const std::string& frame, const std::vector<
         put_header(out, stamps[i], frame);
         put_pose(out, poses[i]);
     }
+    return out.moved_bytes();
+}
+
+std::vector<std::byte> occupancy_message(const OccupancyCells& cells, double stamp,
+                                         const std::string& frame, MessageEncoding encoding) {
+    MessageWriter out(encoding);
+    put_header(out, stamp, frame);
+    put_time(out, stamp);
+    out.number(static_cast<float>(cells.cell));
+    out.number(cells.width);
+    out.number(cells.height);
+    put_pose(out, Pose(Eigen::Translation3d(cells.origin)));
+    out.bytes(std::as_bytes(std::span(cells.values)));
     return out.moved_bytes();
 }
 

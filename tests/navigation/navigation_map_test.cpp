@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "export/navigation/navigation_map.hpp"
+#include "navigation/navigation_map.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "export/navigation/columns.hpp"
-#include "export/navigation/look_chooser.hpp"
-#include "export/navigation/navigation_map.hpp"
+#include "navigation/columns.hpp"
+#include "navigation/look_chooser.hpp"
+#include "navigation/navigation_map.hpp"
 
 namespace dynamic_filter::app {
 
@@ -18,6 +18,11 @@ public:
     /// Points of the sensor frame with their labels: static ones are floor and obstacles, all of
     /// them end a beam. Points without a measurement count for nothing.
     void add(const Points& points, const Labels& labels, const Pose& T_world_sensor, double stamp);
+    // The parts of add(): the first scan, or place, chooses the frame of the map.
+    void add_surfaces(const Points& points, const Labels& labels, const Pose& T_world_sensor);
+    void add_beams(const Points& points, const Pose& T_world_sensor);
+    /// A place of the sensor between two scans that are added.
+    void pass(const Eigen::Vector3d& place);
     [[nodiscard]] NavigationMap map(const Robot& robot, int storey) const {
         return navigation_map(columns_, path_, looks_, robot, storey);
     }
@@ -26,6 +31,8 @@ public:
     [[nodiscard]] double cell() const { return cell_; }
 
 private:
+    [[nodiscard]] Pose to_map(const Pose& T_world_sensor) const;
+
     double cell_;
     Columns columns_;
     Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "export/navigation/columns.hpp"
+#include "navigation/columns.hpp"
 
 #include <algorithm>
 #include <cmath>

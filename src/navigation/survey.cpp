@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "export/navigation/survey.hpp"
+#include "navigation/survey.hpp"
 
 #include <algorithm>
 #include <bitset>
@@ -44,20 +44,36 @@ Look look_of(const Eigen::Isometry3f& T_map_sensor, const Points& points) {
 
 }  // namespace
 
-void Survey::add(const Points& points, const Labels& labels, const Pose& T_world_sensor,
-                 double stamp) {
-    if (path_.empty()) {
-        origin_ = (T_world_sensor.translation() / cell_).array().floor() * cell_;
-    }
-    const Pose T = Eigen::Translation3d(-origin_) * T_world_sensor;
-    const Eigen::Isometry3f T_map_sensor = T.cast<float>();
+void Survey::pass(const Eigen::Vector3d& place) {
+    if (path_.empty()) origin_ = (place / cell_).array().floor() * cell_;
+    const Point in_map = (place - origin_).cast<float>();
+    if (path_.empty() || (in_map - path_.back()).norm() >= kPathStep) path_.push_back(in_map);
+}
+
+Pose Survey::to_map(const Pose& T_world_sensor) const {
+    return Eigen::Translation3d(-origin_) * T_world_sensor;
+}
+
+void Survey::add_surfaces(const Points& points, const Labels& labels, const Pose& T_world_sensor) {
+    pass(T_world_sensor.translation());
+    const Eigen::Isometry3f T_map_sensor = to_map(T_world_sensor).cast<float>();
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (labels[i] != Label::static_ || !is_measured(points[i])) continue;
         columns_.add(T_map_sensor * points[i]);
     }
-    const Point place = T_map_sensor.translation();
-    if (path_.empty() || (place - path_.back()).norm() >= kPathStep) path_.push_back(place);
-    if (chooser_.chooses(T.translation(), stamp)) looks_.push_back(look_of(T_map_sensor, points));
+}
+
+void Survey::add_beams(const Points& points, const Pose& T_world_sensor) {
+    pass(T_world_sensor.translation());
+    looks_.push_back(look_of(to_map(T_world_sensor).cast<float>(), points));
+}
+
+void Survey::add(const Points& points, const Labels& labels, const Pose& T_world_sensor,
+                 double stamp) {
+    add_surfaces(points, labels, T_world_sensor);
+    if (chooser_.chooses(to_map(T_world_sensor).translation(), stamp)) {
+        add_beams(points, T_world_sensor);
+    }
 }
 
 }  // namespace dynamic_filter::app

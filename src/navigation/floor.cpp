@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "export/navigation/floor.hpp"
+#include "navigation/floor.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,7 +12,7 @@
 #include <optional>
 
 #include "dynamic_filter/error.hpp"
-#include "export/navigation/surface_map.hpp"
+#include "navigation/surface_map.hpp"
 
 namespace dynamic_filter::app {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "dynamic_filter/types.hpp"
-#include "export/navigation/columns.hpp"
+#include "navigation/columns.hpp"
 
 namespace dynamic_filter::app {
 

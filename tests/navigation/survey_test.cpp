@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "export/navigation/survey.hpp"
+#include "navigation/survey.hpp"
 
 #include <gtest/gtest.h>
 

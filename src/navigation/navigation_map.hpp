@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "export/navigation/columns.hpp"
-#include "export/navigation/floor.hpp"
+#include "navigation/columns.hpp"
+#include "navigation/floor.hpp"
 
 namespace dynamic_filter::app {
 

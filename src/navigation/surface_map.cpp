@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "export/navigation/surface_map.hpp"
+#include "navigation/surface_map.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "export/navigation/navigation_map.hpp"
+#include "navigation/navigation_map.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "dynamic_filter/error.hpp"
-#include "export/navigation/surface_map.hpp"
+#include "navigation/surface_map.hpp"
 
 namespace dynamic_filter::app {
 

@@ -1,0 +1,1 @@
+df_room(navigation LIBRARIES dynamic_filter_io)
