@@ -27,7 +27,7 @@ __version__ = _dynamicfilter.__version__
 UNKNOWN, STATIC, DYNAMIC = 0, 9, 251
 
 __all__ = ["ConfigError", "DYNAMIC", "DynamicFilter", "Error", "Frame", "InputError",
-           "OutputError", "Recording", "STATIC", "UNKNOWN", "check", "evaluate", "open_recording",
+           "OutputError", "Recording", "STATIC", "UNKNOWN", "check", "convert", "evaluate", "open_recording",
            "read_cloud", "run", "simulate", "write_cloud"]
 
 
@@ -110,6 +110,22 @@ def evaluate(truth, *, labels=None, map=None, voxel=0.2, min_range=0.0, max_rang
     Raises ConfigError, InputError, TypeError and ValueError.
     """
     return _json.loads(_dynamicfilter.evaluate(truth, labels, map, voxel, min_range, max_range, options))
+
+
+def convert(data, output, **options):
+    """Writes a recording, a cloud or the map of several drives in another format, as `dynamicfilter convert` does.
+
+    data: bag, folder or cloud file; output: bag, folder or cloud file, by its extension (.pcd, .ply, .las, .npy, .bin,
+    .mcap, .bag, .db3, .bt, .ot).
+    Options: labels (folder of a run, or of label files; default: the ground truth), to (layout of the output folder: kitti,
+    benchmark, nav2, objects, autoware, 3dtiles or las), box ("X,Y,Z,X,Y,Z" [m]), max_range [m], only ("static" or
+    "dynamic"), thin (width of a cell [m]), crs ("EPSG:32633"), origin ("LAT,LON,HEIGHT"), cell [m], robot_height [m], step [m],
+    storey, overwrite, quiet (False prints progress and what was written), and the options of open_recording().
+    Notes on what a format could not hold go to stderr.
+    Raises ConfigError (also if the output is there already), InputError, OutputError, TypeError, ValueError, and
+    KeyboardInterrupt, after which no file is left.
+    """
+    _dynamicfilter.convert(data, output, options)
 
 
 def check(data, **options):

@@ -93,10 +93,27 @@ class _Running(_Reading, total=False):
     online: Optional[float]
     quiet: bool
 
+class _Converting(_Reading, total=False):
+    labels: Optional[_Path]
+    to: str
+    origin: str
+    crs: str
+    box: str
+    max_range: float
+    only: str
+    thin: float
+    cell: float
+    robot_height: float
+    step: float
+    storey: int
+    overwrite: bool
+    quiet: bool
+
 def open_recording(data: _Path, **options: Unpack[_Reading]) -> Recording: ...
 def run(data: _Path, output: Optional[_Path] = None, **options: Unpack[_Running]) -> dict[str, Any]: ...
 def evaluate(truth: _Path, *, labels: Optional[_Path] = None, map: Optional[_Path] = None,
              voxel: float = 0.2, min_range: float = 0.0, max_range: float = ..., **options: Unpack[_Reading]) -> dict[str, Any]: ...
+def convert(data: _Path, output: _Path, **options: Unpack[_Converting]) -> None: ...
 def check(data: _Path, **options: Unpack[_Reading]) -> dict[str, Any]: ...
 def simulate(scene: str, output: _Path, *, sensor: str = ..., pedestrians: int = -1, seed: int = 1,
              frames: Optional[int] = None, rate: float = 0.0, pose_noise: float = 0.0,

@@ -11,6 +11,7 @@
 #include "base/exit_code.hpp"
 #include "base/output_folder.hpp"
 #include "base/progress.hpp"
+#include "commands/convert.hpp"
 #include "commands/evaluate.hpp"
 #include "commands/write_simulation.hpp"
 #include "dynamic_filter/check.hpp"
@@ -123,6 +124,40 @@ std::string evaluate(const fs::path& truth, const std::optional<fs::path>& label
     return app::text_of(json);
 }
 
+void convert(const fs::path& data, const fs::path& output, py::dict options) {
+    app::ConvertOptions o;
+    o.output = output;
+    o.quiet = true;
+    pop_option(options, "labels", o.labels);
+    pop_option(options, "to", o.to);
+    pop_option(options, "origin", o.origin);
+    pop_option(options, "crs", o.crs);
+    pop_option(options, "box", o.box);
+    pop_option(options, "only", o.only);
+    pop_option(options, "storey", o.storey);
+    pop_option(options, "overwrite", o.overwrite);
+    pop_option(options, "quiet", o.quiet);
+    app::visit_numbers(o, [&](const app::NumberOption& option, double& value) {
+        if (!options.contains(option.name)) return;
+        pop_option(options, option.name, value);
+        if (value >= option.low && value <= option.high) return;
+        throw py::value_error(
+            fmt::format("{}: expected {} to {}", option.name, option.low, option.high));
+    });
+    if (!o.only.empty() && o.only != "static" && o.only != "dynamic") {
+        throw ConfigError("only: '" + o.only + "' is none of static, dynamic");
+    }
+    o.data = data_options(data, options);
+    refuse_unknown("convert", options);
+    int code = 0;
+    {
+        const py::gil_scoped_release others_go_on;
+        const Interruptible guard;
+        code = app::convert(o);
+    }
+    raise_if(code == app::kInterrupted);
+}
+
 std::string check(const fs::path& data, py::dict options) {
     const app::DataOptions o = data_options(data, options);
     refuse_unknown("check", options);
@@ -169,6 +204,7 @@ void bind_programs(py::module_& module) {
     module.def("run", &run);
     module.def("evaluate", &evaluate);
     module.def("check", &check);
+    module.def("convert", &convert);
     module.def(
         "simulate",
         [](const std::string& scene, const fs::path& output, const std::string& sensor,

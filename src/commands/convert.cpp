@@ -8,15 +8,16 @@
 #include "base/progress.hpp"
 #include "check/motion.hpp"
 #include "commands/all.hpp"
+#include "commands/convert.hpp"
 #include "commands/shared_options.hpp"
 #include "dynamic_filter/bag.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/writers.hpp"
 #include "export/convert_map.hpp"
 #include "export/convert_options.hpp"
-#include "export/cut.hpp"
 #include "export/georeference.hpp"
 #include "export/outputs.hpp"
+#include "export/part.hpp"
 #include "formats/label_files.hpp"
 #include "formats/voxel_map/map_index.hpp"
 #include "recording/scans.hpp"
@@ -70,8 +71,18 @@ Config settings_of(const ConvertOptions& o) {
 /// Refuses options that the output has no use for.
 void refuse_idle_options(const ConvertOptions& o, const Output* kind, bool is_recording) {
     const bool is_cloud = kind == nullptr && io::can_write_cloud(o.output);
-    if (o.thin > 0.0 && !is_cloud) {
+    const bool of_cloud = !is_recording && kind != nullptr && kind->of_cloud != nullptr;
+    if (o.thin > 0.0 && !is_cloud && !of_cloud) {
         throw ConfigError("--thin is for one cloud (" + io::cloud_kinds_written() + ")");
+    }
+    if (o.cell > 0.0 && (kind == nullptr || !kind->from_sensor)) {
+        throw ConfigError("--cell is for OctoMap and for --to nav2; --thin thins a cloud");
+    }
+    const ConvertOptions usual;
+    const bool is_of_robot =
+        o.robot_height != usual.robot_height || o.step != usual.step || o.storey != usual.storey;
+    if (is_of_robot && (kind == nullptr || kind->name != "nav2")) {
+        throw ConfigError("--robot-height, --step and --storey are for --to nav2");
     }
     if (!o.crs.empty() && !is_cloud) {
         throw ConfigError("--crs is for one cloud (" + io::cloud_kinds_written() +
@@ -91,6 +102,9 @@ void refuse_idle_options(const ConvertOptions& o, const Output* kind, bool is_re
                           " has a label for each point of the recording");
     }
     if (is_recording) return;
+    if (o.labels) {
+        throw ConfigError(o.data.data.string() + ": --labels is for a recording; a cloud has none");
+    }
     if (!o.only.empty() || o.max_range > 0.0) {
         throw ConfigError(o.data.data.string() + ": " +
                           (o.only.empty() ? "--max-range" : "--only") +
@@ -100,21 +114,21 @@ void refuse_idle_options(const ConvertOptions& o, const Output* kind, bool is_re
 }
 
 /// What is wanted of a recording.
-Cut cut_of(const ConvertOptions& o) {
-    Cut cut{box_of(o.box), o.max_range, {}, o.keep_unknown};
-    if (!o.only.empty()) cut.only = o.only == "static" ? Kept::in_map : Kept::removed;
-    return cut;
+Wanted wanted_of(const ConvertOptions& o) {
+    Wanted part{box_of(o.box), o.max_range, o.sensor, {}, o.keep_unknown};
+    if (!o.only.empty()) part.only = o.only == "static" ? Kept::in_map : Kept::removed;
+    return part;
 }
 
 /// Gives the sink what is wanted of the scan; false if that is nothing.
-bool append_part(Sink& sink, const Cut& cut, const io::FullScan& scan, const Labels& labels,
+bool append_part(Sink& sink, const Wanted& part, const io::FullScan& scan, const Labels& labels,
                  const std::string& stem) {
-    if (cut.only) require_labels(labels, "--only");
-    if (cut.takes_all()) {
+    if (part.only) require_labels(labels, "--only");
+    if (part.takes_all()) {
         sink.append(scan, labels, stem);
         return true;
     }
-    const std::vector<std::uint32_t> wanted = wanted_points(cut, scan, labels);
+    const std::vector<std::uint32_t> wanted = wanted_points(part, scan, labels);
     if (!wanted.empty()) sink.append(part_of(scan, wanted), part_of(labels, wanted), stem);
     return !wanted.empty();
 }
@@ -141,27 +155,28 @@ int convert_recording(const ConvertOptions& o) {
         o.labels ? open_for_result(o.data, *o.labels) : RecordingOfResult{open(o.data)};
     io::Recording recording = opened.recording;
     say(opened.note);
-    ensure_poses(recording, preset("default"), {.deskew = o.data.deskew, .quiet = false});
+    ensure_poses(recording, preset("default"), {.deskew = o.data.deskew, .quiet = o.quiet});
+    ConvertOptions of_sink = o;
     // What is written is of the frame that the files have, unless the output follows the beams.
     if (kind == nullptr || !kind->from_sensor) {
+        of_sink.sensor = recording.info().sensor_at.value_or(Eigen::Vector3d::Zero());
         recording = io::with_sensor_at(recording, Eigen::Vector3d::Zero());
     }
     for (const std::string& note : recording.info().notes) fmt::print(stderr, "note: {}\n", note);
     for (const std::string& line : recording.info().losses)
         fmt::print(stderr, "lost     {}\n", line);
     catch_interrupts();
-    ConvertOptions of_sink = o;
     if (io::BagWriter::recognises(o.output) || !o.only.empty()) {  // only these ask for it
         of_sink.keep_unknown = settings_of(o).map.keep_unknown;
     }
-    const Cut cut = cut_of(of_sink);
+    const Wanted part = wanted_of(of_sink);
     const std::unique_ptr<Sink> sink = make_sink(of_sink);
     std::size_t written = 0;
     std::vector<std::size_t> scans(recording.size());
     std::iota(scans.begin(), scans.end(), 0U);
     std::vector<std::string> rejected, notes;
     {
-        Progress progress("convert", scans.size());
+        Progress progress("convert", scans.size(), o.quiet);
         for_each_scan(recording, scans, {}, [&](std::size_t i, MaybeScan& maybe) {
             progress.advance();
             if (interrupted()) return false;
@@ -172,8 +187,8 @@ int convert_recording(const ConvertOptions& o) {
             if (!o.labels && !maybe.scan->truth_fault.empty()) {
                 notes.push_back(maybe.scan->truth_fault + "; its points are unknown");
             }
-            written += append_part(*sink, cut, *maybe.scan, labels_of(o, recording, i, *maybe.scan),
-                                   io::stem(recording, i));
+            written += append_part(*sink, part, *maybe.scan,
+                                   labels_of(o, recording, i, *maybe.scan), io::stem(recording, i));
             return true;
         });
     }
@@ -188,7 +203,7 @@ int convert_recording(const ConvertOptions& o) {
     const std::size_t empty = scans.size() - rejected.size() - written;
     if (empty > 0) say(fmt::format("{} scans have no point there, and are left out", empty));
     say(sink->commit());
-    fmt::print("written  {} ({} scans)\n", o.output.string(), written);
+    if (!o.quiet) fmt::print("written  {} ({} scans)\n", o.output.string(), written);
     return rejected.empty() && recording.info().losses.empty() ? kDone : kRejected;
 }
 
@@ -201,7 +216,12 @@ io::Cloud wanted_cloud(const ConvertOptions& o) {
                               " lies there");
         }
     }
-    if (o.thin > 0.0) cloud = thinned(cloud, o.thin);
+    if (o.thin > 0.0) {
+        const std::size_t lost = unplaced_points(cloud);
+        if (lost == cloud.size()) throw InputError(o.data.data, "", "no point is finite");
+        cloud = thinned(cloud, o.thin);
+        if (lost > 0) say(fmt::format("{} points that are not finite are left out", lost));
+    }
     return o.crs.empty() ? cloud : Georeference(o.crs, o.origin).cloud(cloud);
 }
 
@@ -213,7 +233,7 @@ int convert_cloud(const ConvertOptions& o) {
         const WrittenMap tiles = kind->of_cloud(wanted_cloud(o), o, output.path());
         output.commit();
         say(tiles.note);
-        fmt::print("written  {} ({} tiles)\n", output.name().string(), tiles.files);
+        if (!o.quiet) fmt::print("written  {} ({} tiles)\n", output.name().string(), tiles.files);
         return kDone;
     }
     if (kind != nullptr) {
@@ -225,7 +245,7 @@ int convert_cloud(const ConvertOptions& o) {
     check_cloud_output(o);
     const io::Written written = io::write_cloud(o.output, wanted_cloud(o));
     say(written.loss);
-    fmt::print("written  {} ({} points)\n", o.output.string(), written.points);
+    if (!o.quiet) fmt::print("written  {} ({} points)\n", o.output.string(), written.points);
     return kDone;
 }
 
@@ -270,26 +290,22 @@ void add_convert(Program& program) {
            "(default: coordinates stay those of the poses)");
     c.path("--labels", o->labels,
            "output folder of a run, or its labels (default: the ground truth of the recording)");
-    c.number("--cell", o->cell, {0.02, 2.0},
-             "width of a cell [m]: of OctoMap (default 0.1), and with --to nav2 (default 0.05)");
-    c.number("--robot-height", o->robot_height, {0.05, 10.0},
-             "with --to nav2: what hangs higher above the floor is no obstacle [m]");
-    c.number("--step", o->step, {0.01, 0.5}, "with --to nav2: what the robot may climb [m]");
+    visit_numbers(*o, [&](const NumberOption& option, double& value) {
+        std::string name = std::string("--") + option.name;
+        std::replace(name.begin(), name.end(), '_', '-');
+        c.number(name.c_str(), value, {option.low, option.high}, option.help);
+    });
     c.whole("--storey", o->storey, {1, 100},
             "with --to nav2: which floor, where several lie one above the other; 1 is the lowest");
     c.text("--box", o->box,
            "two corners of a box in the world, X,Y,Z,X,Y,Z or X,Y,X,Y [m]: what lies outside "
            "counts as not measured");
-    c.number("--max-range", o->max_range, {0.1, 1e6},
-             "of a recording: what lies farther from the sensor counts as not measured [m]");
     c.choice("--only", o->only, {"static", "dynamic"},
              "of a recording, with --labels: only what stands, or only what moves");
-    c.number(
-        "--thin", o->thin, {0.001, 100.0},
-        "of a cloud: one point for each cell of this width [m], the one nearest to the sensor");
     add_reading_options(c, o->data);
     add_selection_options(c, o->data);
     c.flag("--overwrite", o->overwrite, "replace an existing output");
+    add_quiet(c, o->quiet);
     c.action([o] { return convert(*o); });
 }
 

@@ -18,7 +18,7 @@ namespace {
 /// the sensor is.
 class BagSink final : public Sink {
 public:
-    /// `map`: a cloud in the world's frame that is written, too.
+    /// `map`: a cloud in the world's frame that is written, too; not of a part of the space.
     BagSink(const fs::path& file, std::optional<fs::path> map, const ConvertOptions& o)
         : writer_(io::BagWriter::create(file)),
           encoding_(writer_->encoding()),
@@ -93,9 +93,9 @@ private:
 std::unique_ptr<Sink> make_bag_sink(const ConvertOptions& o) {
     refuse_existing(o.output, o.overwrite);
     const fs::path map = o.labels.value_or("") / "static_map.pcd";
+    const bool takes_map = o.only != "dynamic" && o.box.empty() && o.max_range == 0.0;
     return std::make_unique<BagSink>(
-        o.output,
-        o.labels && o.only != "dynamic" && fs::exists(map) ? std::optional(map) : std::nullopt, o);
+        o.output, o.labels && takes_map && fs::exists(map) ? std::optional(map) : std::nullopt, o);
 }
 
 }  // namespace dynamic_filter::app

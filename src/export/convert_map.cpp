@@ -46,8 +46,9 @@ int convert_map(const ConvertOptions& o) {
     const WrittenMap written = kind.of_map(index, map, o, output.path());
     output.commit();
     if (!written.note.empty()) fmt::print(stderr, "note: {}\n", written.note);
-    fmt::print("written  {} ({} tiles as {} files)\n", output.name().string(), index.tiles.size(),
-               written.files);
+    if (!o.quiet)
+        fmt::print("written  {} ({} tiles as {} files)\n", output.name().string(),
+                   index.tiles.size(), written.files);
     return kDone;
 }
 

@@ -101,6 +101,13 @@ std::vector<Eigen::Vector3d> Georeference::places(std::vector<Eigen::Vector3d> p
 }
 
 io::Cloud Georeference::cloud(const io::Cloud& in_world) const {
+    if (!in_world.crs.empty() && (in_world.crs != system_->wkt() || !origin_text_.empty())) {
+        throw ConfigError("--crs " + name_ +
+                          ": the cloud names a coordinate system already, and coordinates are not "
+                          "turned from one into another; `pdal translate IN OUT reprojection "
+                          "--filters.reprojection.out_srs=" +
+                          name_ + "` does that");
+    }
     const std::vector<Eigen::Vector3d> there = places(places_of(in_world));
     io::Cloud cloud = without_records(in_world);
     cloud.crs = system_->wkt();

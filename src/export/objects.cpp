@@ -55,8 +55,8 @@ public:
         io::write_file(folder / "objects.json", objects_json(objects, stems_));
         io::write_file(folder / "kitti_tracking.txt", kitti_tracking(boxes_, poses_));
         io::write_file(folder / "index.html", objects_page(objects));
-        for (const auto& [number, points] : drawn_) {
-            io::write_png(pictures_ / fmt::format("{:06}.png", number), picture_of(points));
+        for (const auto& [number, drawn] : drawn_) {
+            io::write_png(pictures_ / fmt::format("{:06}.png", number), picture_of(drawn.points));
         }
         output_.commit();
         std::string note = fmt::format("{} objects moved", objects.size());
@@ -125,8 +125,9 @@ private:
         box.stamp = sighting->stamp;
         box.velocity = sighting->velocity;
         boxes_.push_back(box);
-        Points& drawn = drawn_[box.object];
-        if (drawn.size() >= std::min(places.size(), kMostDrawn)) return;
+        auto& [most, drawn] = drawn_[box.object];
+        if (most >= places.size()) return;
+        most = places.size();
         drawn.clear();
         const std::size_t step = 1 + (places.size() - 1) / kMostDrawn;
         for (std::size_t i = 0; i < places.size(); i += step) {
@@ -149,9 +150,13 @@ private:
     std::map<std::uint32_t, std::uint32_t> numbers_;  // of the files, by the tracker's
     std::size_t unnumbered_ = 0;
     std::vector<ObjectBox> boxes_;
-    std::map<std::uint32_t, Points> drawn_;  // of the scan with most points, by number
-    std::vector<std::string> stems_;         // by scan
-    std::vector<Pose> poses_;                // by scan
+    struct Drawn {
+        std::size_t most = 0;  // points of the scan
+        Points points{};
+    };
+    std::map<std::uint32_t, Drawn> drawn_;  // of the scan with most points, by number
+    std::vector<std::string> stems_;        // by scan
+    std::vector<Pose> poses_;               // by scan
 };
 
 }  // namespace

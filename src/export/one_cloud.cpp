@@ -23,7 +23,7 @@ namespace {
 /// `dynamic` says what moves.
 class CloudSink final : public Sink {
 public:
-    explicit CloudSink(const ConvertOptions& o) : file_(o.output) {
+    explicit CloudSink(const ConvertOptions& o) : file_(o.output), sensor_(o.sensor) {
         if (o.thin > 0.0) thinned_.emplace(o.thin);
         if (o.crs.empty()) return;
         refuse_existing(path_file(), o.overwrite);
@@ -38,7 +38,7 @@ public:
             if (!labels.empty()) io::add_field(map_, "dynamic", io::FieldType::u8);
         }
         if (georeference_) {
-            path_.push_back(georeference_->places({scan.T_world_sensor.translation()}).front());
+            path_.push_back(georeference_->places({scan.T_world_sensor * sensor_}).front());
             stamps_.push_back(scan.stamp);
         }
         const auto records = world_records(scan, layout_);
@@ -54,7 +54,8 @@ public:
             if (map_.point_bytes != layout_.point_bytes) to.push_back(std::byte{moves});
             if (!thinned_) continue;
             thinned_->add(scan.T_world_sensor * scan.points[i].cast<double>(),
-                          scan.points[i].norm(), moves, record_);
+                          static_cast<float>((scan.points[i].cast<double>() - sensor_).norm()),
+                          moves, record_);
         }
     }
     std::string commit() override {
@@ -62,11 +63,9 @@ public:
         std::string loss = "left out: poses, stamps, and where a scan ends";
         if (unmeasured_ > 0)
             loss += fmt::format(", {} points that are no measurement", unmeasured_);
-        if (georeference_) {
-            map_ = georeference_->cloud(map_);
-            io::write_file(path_file(), path_as_text());
-        }
+        if (georeference_) map_ = georeference_->cloud(map_);
         const std::string by_format = io::write_cloud(file_, map_).loss;
+        if (georeference_) io::write_file(path_file(), path_as_text());
         return by_format.empty() ? loss : loss + "; " + by_format;
     }
 
@@ -85,6 +84,7 @@ private:
     }
 
     fs::path file_;
+    Eigen::Vector3d sensor_;  // [m] in the frame of the scans
     std::optional<Georeference> georeference_;
     std::vector<Eigen::Vector3d> path_;  // of the sensor, in the coordinate system
     std::vector<double> stamps_;         // [s]
@@ -99,8 +99,8 @@ private:
 void check_cloud_output(const ConvertOptions& o) {
     if (!io::can_write_cloud(o.output)) {  // before hours of reading, not after
         throw ConfigError(
-            fmt::format("{}: unknown extension; expected {}, .mcap, .bag, .db3, or "
-                        "none for a folder",
+            fmt::format("{}: unknown extension; expected {}, .mcap, .bag, .db3, .bt, .ot, "
+                        "or none for a folder",
                         o.output.string(), io::cloud_kinds_written()));
     }
     refuse_existing(o.output, o.overwrite);

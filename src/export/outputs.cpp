@@ -42,14 +42,17 @@ std::vector<std::string> output_names() {
 }
 
 const Output* chosen_output(const ConvertOptions& o) {
+    const auto ends_in = [&](const std::string& ending) { return o.output.extension() == ending; };
     for (const Output& output : outputs()) {
-        const auto& endings = output.extensions;
-        const bool is_named = o.to.empty() ? std::find(endings.begin(), endings.end(),
-                                                       o.output.extension()) != endings.end()
-                                           : endings.empty() && output.name == o.to;
-        if (is_named) return &output;
+        if (std::none_of(output.extensions.begin(), output.extensions.end(), ends_in)) continue;
+        if (o.to.empty()) return &output;
+        throw ConfigError(o.output.string() + ": is named as a file of " + output.name +
+                          ", but --to " + o.to + " makes a folder");
     }
     if (o.to.empty()) return nullptr;
+    for (const Output& output : outputs()) {
+        if (output.extensions.empty() && output.name == o.to) return &output;
+    }
     throw ConfigError("--to " + o.to + ": there is no such output");
 }
 

@@ -20,6 +20,22 @@ void check_prefix(const LiveConfig& config) {
     }
 }
 
+void check_grid(const LiveConfig::Grid& grid) {
+    constexpr double kMostCells = 4e6;
+    const double across = 2.0 * grid.radius / grid.cell;
+    if (across * across > kMostCells) {
+        throw ConfigError(fmt::format(
+            "settings 'grid.radius' and 'grid.cell': {:.1f} million cells; at most {:.0f} million "
+            "are published",
+            1e-6 * across * across, 1e-6 * kMostCells));
+    }
+    if (grid.robot_height <= grid.step) {
+        throw ConfigError(
+            fmt::format("setting 'grid.robot_height': {} must be greater than 'grid.step', {}",
+                        grid.robot_height, grid.step));
+    }
+}
+
 void use_domain_of_environment(LiveConfig& config) {
     const char* const domain = std::getenv("ROS_DOMAIN_ID");
     if (domain == nullptr || *domain == '\0') return;
@@ -48,6 +64,7 @@ void set(LiveConfig& config, const std::string& key, const std::string& value) {
 void validate(const LiveConfig& config) {
     validate(config.filter);
     check_prefix(config);
+    check_grid(config.grid);
 }
 
 LiveConfig load_live_config(const app::ConfigOptions& options,

@@ -131,7 +131,7 @@ void Session::add_notice(const Notice& notice) {
     const std::lock_guard hold(lock_);
     const bool new_map = notice.kind == NoticeKind::jump || notice.kind == NoticeKind::restart;
     if (new_map) {
-        grid_.clear();
+        grid_.begin_world(notice.index);
     } else {
         pending_.erase(notice.index);
     }
@@ -177,7 +177,9 @@ void Session::publish(Work& work) {
     note_latency(*work.scan);
     ++published_;
     record(*work.scan);
-    if (has_grid()) grid_.add(scan_of(*work.scan, work.verdict));
+    if (has_grid() && grid_.is_due(work.scan->stamp)) {
+        grid_.add(scan_of(*work.scan, work.verdict));
+    }
     if (config_.output.settle_after == 0 || !filter_->judges_each_scan()) return;
     unsettled_.push_back(
         {std::move(judged), scan_of(*work.scan, work.verdict), std::move(work.scan->own)});

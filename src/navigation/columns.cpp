@@ -45,13 +45,13 @@ Surface surface_of(const FilledBin* begin, const FilledBin* end) {
 
 }  // namespace
 
-void Columns::add(const Point& point) {
+void Columns::add(const Point& point, std::uint32_t count) {
     const Eigen::Array3f scaled = point.array() / Eigen::Array3f(cell_, cell_, kBin);
     if (!(scaled.abs() < static_cast<float>(kCellLimit)).all()) return;
     const Cell cell = scaled.floor().cast<int>().matrix();
     Bin& bin = bins_[pack(cell)];
-    ++bin.points;
-    bin.sum += point.z() - static_cast<float>(cell.z()) * kBin;
+    bin.points += count;
+    bin.sum += static_cast<float>(count) * (point.z() - static_cast<float>(cell.z()) * kBin);
 }
 
 std::vector<Surface> Columns::surfaces() const {

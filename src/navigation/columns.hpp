@@ -24,7 +24,8 @@ public:
     explicit Columns(float cell) : cell_(cell) {}
 
     /// `point` in a frame whose z points up, within 50 km of its origin.
-    void add(const Point& point);
+    /// It stands for so many points.
+    void add(const Point& point, std::uint32_t count = 1);
     /// In the order of x, y and height.
     [[nodiscard]] std::vector<Surface> surfaces() const;
     [[nodiscard]] float cell() const { return cell_; }

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "navigation/local_grid.hpp"
 
-#include <tsl/robin_set.h>
+#include <tsl/robin_map.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "dynamic_filter/error.hpp"
 #include "geometry/voxel.hpp"
 #include "navigation/survey.hpp"
 
@@ -44,51 +43,76 @@ io::OccupancyCells square_around(const Eigen::Vector3d& place, double radius,
     return cells;
 }
 
+/// Keeps the first point of each voxel, and counts those that lie in it.
+class VoxelCounts {
+public:
+    explicit VoxelCounts(double voxel) : inverse_(static_cast<float>(1.0 / voxel)) {}
+
+    void add(const Point& point, std::uint32_t count, Points& points,
+             std::vector<std::uint32_t>& counts) {
+        const auto voxel = cell_of(point, inverse_);
+        if (!voxel) return;
+        const auto next = static_cast<std::uint32_t>(points.size());
+        const auto [at, is_new] = numbers_.try_emplace(pack(*voxel), next);
+        if (is_new) {
+            points.push_back(point);
+            counts.push_back(count);
+        } else {
+            counts[at->second] += count;
+        }
+    }
+
+private:
+    float inverse_;
+    tsl::robin_map<VoxelKey, std::uint32_t, VoxelHash> numbers_;
+};
+
 }  // namespace
 
+bool LocalGrid::is_due(double stamp) const {
+    const std::lock_guard hold(lock_);
+    return kept_.empty() || std::abs(stamp - kept_.back().scan().stamp) >= kOften;
+}
+
 /// One point of all scans for each voxel as wide as a cell, as if the newest scan had seen them: so
-/// they are judged once, by what is known now.
-Scan LocalGrid::united(const std::deque<Kept>& kept) const {
-    const Scan& newest = *kept.back().scan;
-    Scan all{{}, newest.T_world_sensor, newest.stamp, newest.index, true, {}};
-    const auto inverse = static_cast<float>(1.0 / options_.cell);
-    tsl::robin_set<VoxelKey, VoxelHash> taken;
+/// they are judged once, by what is known now. Those beyond the grid tell nothing of it.
+LocalGrid::Thinned LocalGrid::united(const std::deque<Kept>& kept) const {
+    constexpr float kBeside = 2.0F;  // [m]
+    const float reach = static_cast<float>(options_.radius) + kBeside;
+    const Scan& newest = kept.back().scan();
+    const Eigen::Matrix3f turn = newest.T_world_sensor.linear().cast<float>();
+    Thinned all{{{}, newest.T_world_sensor, newest.stamp, newest.index, true, {}}, {}};
+    VoxelCounts voxels(options_.cell);
     for (const Kept& k : kept) {
         const Eigen::Isometry3f T =
-            (newest.T_world_sensor.inverse() * k.scan->T_world_sensor).cast<float>();
-        for (const Point& point : k.scan->points) {
-            const Point there = T * point;
-            const auto voxel = cell_of(there, inverse);
-            if (voxel && taken.insert(pack(*voxel)).second) all.points.push_back(there);
+            (newest.T_world_sensor.inverse() * k.scan().T_world_sensor).cast<float>();
+        for (std::size_t i = 0; i < k.scan().points.size(); ++i) {
+            const Point there = T * k.scan().points[i];
+            if ((turn * there).head<2>().cwiseAbs().maxCoeff() > reach) continue;
+            voxels.add(there, k.thinned->counts[i], all.scan.points, all.counts);
         }
     }
     return all;
 }
 
 /// One point for each voxel as wide as a cell, within the grid or the reach of free beams.
-Scan LocalGrid::thinned(const Scan& scan) const {
+LocalGrid::Thinned LocalGrid::thinned(const Scan& scan) const {
     const auto reach = std::max(static_cast<float>(options_.radius), kFarthestLook);
-    const auto inverse = static_cast<float>(1.0 / options_.cell);
-    tsl::robin_set<VoxelKey, VoxelHash> taken;
-    Scan thin{{}, scan.T_world_sensor, scan.stamp, scan.index, true, {}};
+    Thinned thin{{{}, scan.T_world_sensor, scan.stamp, scan.index, true, {}}, {}};
+    VoxelCounts voxels(options_.cell);
     for (const Point& point : scan.points) {
         if (!is_measured(point) || !(point.norm() <= reach)) continue;
-        const auto voxel = cell_of(point, inverse);
-        if (voxel && taken.insert(pack(*voxel)).second) thin.points.push_back(point);
+        voxels.add(point, 1, thin.scan.points, thin.counts);
     }
     return thin;
 }
 
 void LocalGrid::add(const Scan& scan) {
-    {
-        const std::lock_guard hold(lock_);
-        const bool is_soon =
-            !kept_.empty() && std::abs(scan.stamp - kept_.back().scan->stamp) < kOften;
-        if (is_soon) return;
-    }
-    const auto thin = std::make_shared<const Scan>(thinned(scan));
+    if (!is_due(scan.stamp)) return;
+    const auto thin = std::make_shared<const Thinned>(thinned(scan));
     const Eigen::Vector3d place = scan.T_world_sensor.translation();
     const std::lock_guard hold(lock_);
+    if (scan.index < first_index_) return;
     if (!kept_.empty() && !kept_.back().is_lasting) kept_.pop_back();
     kept_.push_back({thin, chooser_.chooses(place, scan.stamp)});
     const auto is_away = [&](const Eigen::Vector3d& other) {
@@ -96,19 +120,21 @@ void LocalGrid::add(const Scan& scan) {
         return way.head<2>().norm() > options_.radius || std::abs(way.z()) > kStorey;
     };
     std::erase_if(kept_,
-                  [&](const Kept& k) { return is_away(k.scan->T_world_sensor.translation()); });
+                  [&](const Kept& k) { return is_away(k.scan().T_world_sensor.translation()); });
     while (kept_.size() > kMostScans) kept_.pop_front();
     if (path_.empty() || (path_.back().place - place).norm() >= kPlaceStep) {
         path_.push_back({place, scan.stamp});
     }
-    std::erase_if(path_, [&](const Place& p) { return is_away(p.place); });
+    const double oldest = kept_.front().scan().stamp;
+    std::erase_if(path_, [&](const Place& p) { return p.stamp < oldest || is_away(p.place); });
 }
 
-void LocalGrid::clear() {
+void LocalGrid::begin_world(std::size_t first_index) {
     const std::lock_guard hold(lock_);
     kept_.clear();
     path_.clear();
     chooser_ = {};
+    first_index_ = first_index;
 }
 
 std::optional<io::OccupancyCells> LocalGrid::cells(const Judge& judge) const {
@@ -123,21 +149,19 @@ std::optional<io::OccupancyCells> LocalGrid::cells(const Judge& judge) const {
     Survey survey(options_.cell);
     auto next = path.begin();
     for (const Kept& k : kept) {
-        for (; next != path.end() && next->stamp <= k.scan->stamp; ++next) survey.pass(next->place);
-        survey.add_beams(k.scan->points, k.scan->T_world_sensor);
+        for (; next != path.end() && next->stamp <= k.scan().stamp; ++next)
+            survey.pass(next->place);
+        survey.add_beams(k.scan().points, k.scan().T_world_sensor);
     }
-    const Scan all = united(kept);
-    survey.add_surfaces(all.points, judge(all).labels, all.T_world_sensor);
-    try {
-        const NavigationMap map = survey.map(options_.robot, 0);
-        const bool has_floor =
-            std::find(map.cells.begin(), map.cells.end(), Passage::free) != map.cells.end();
-        if (!has_floor) return std::nullopt;
-        return square_around(kept.back().scan->T_world_sensor.translation(), options_.radius, map,
-                             survey);
-    } catch (const ConfigError&) {  // no floor below the sensor yet
-        return std::nullopt;
-    }
+    const Thinned all = united(kept);
+    survey.add_surfaces(all.scan.points, judge(all.scan).labels, all.scan.T_world_sensor,
+                        all.counts);
+    const NavigationMap map = survey.map(options_.robot, 0);
+    const bool has_floor =
+        std::find(map.cells.begin(), map.cells.end(), Passage::free) != map.cells.end();
+    if (!has_floor) return std::nullopt;
+    return square_around(kept.back().scan().T_world_sensor.translation(), options_.radius, map,
+                         survey);
 }
 
 }  // namespace dynamic_filter::app

@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <vector>
 
 #include "dynamic_filter/bag.hpp"
 #include "dynamic_filter/filter.hpp"
@@ -31,21 +32,30 @@ public:
 
     explicit LocalGrid(const GridOptions& options) : options_(options) {}
 
+    /// Whether a scan of that stamp [s] would be taken; others come too soon after the last one.
+    [[nodiscard]] bool is_due(double stamp) const;
     /// The newest scan, with the pose that the filter took.
     void add(const Scan& scan);
-    /// What was kept belongs to another world.
-    void clear();
+    /// A new world begins with the scan of that index: what was kept, and earlier scans that are
+    /// still to come, belong to another one.
+    void begin_world(std::size_t first_index);
     /// A square around the newest place of the robot; the rest is unknown. Nothing if there are no
     /// scans, or if no floor was seen.
     [[nodiscard]] std::optional<io::OccupancyCells> cells(const Judge& judge) const;
 
 private:
-    struct Kept {
-        std::shared_ptr<const Scan> scan;
-        bool is_lasting;  // false: only until a newer one comes
+    /// Points that each stand for several of a scan.
+    struct Thinned {
+        Scan scan;
+        std::vector<std::uint32_t> counts;
     };
-    [[nodiscard]] Scan thinned(const Scan& scan) const;
-    [[nodiscard]] Scan united(const std::deque<Kept>& kept) const;
+    struct Kept {
+        std::shared_ptr<const Thinned> thinned;
+        bool is_lasting;  // false: only until a newer one comes
+        [[nodiscard]] const Scan& scan() const { return thinned->scan; }
+    };
+    [[nodiscard]] Thinned thinned(const Scan& scan) const;
+    [[nodiscard]] Thinned united(const std::deque<Kept>& kept) const;
 
     GridOptions options_;
     mutable std::mutex lock_;  // guards what follows
@@ -56,6 +66,7 @@ private:
     };
     std::deque<Place> path_;
     LookChooser chooser_;
+    std::size_t first_index_ = 0;  // of this world
 };
 
 }  // namespace dynamic_filter::app

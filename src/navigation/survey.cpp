@@ -54,12 +54,13 @@ Pose Survey::to_map(const Pose& T_world_sensor) const {
     return Eigen::Translation3d(-origin_) * T_world_sensor;
 }
 
-void Survey::add_surfaces(const Points& points, const Labels& labels, const Pose& T_world_sensor) {
+void Survey::add_surfaces(const Points& points, const Labels& labels, const Pose& T_world_sensor,
+                          std::span<const std::uint32_t> counts) {
     pass(T_world_sensor.translation());
     const Eigen::Isometry3f T_map_sensor = to_map(T_world_sensor).cast<float>();
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (labels[i] != Label::static_ || !is_measured(points[i])) continue;
-        columns_.add(T_map_sensor * points[i]);
+        columns_.add(T_map_sensor * points[i], counts.empty() ? 1 : counts[i]);
     }
 }
 

@@ -2,6 +2,7 @@
 /// Collects what a map for navigation is made of, scan by scan.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "navigation/columns.hpp"
@@ -19,7 +20,9 @@ public:
     /// them end a beam. Points without a measurement count for nothing.
     void add(const Points& points, const Labels& labels, const Pose& T_world_sensor, double stamp);
     // The parts of add(): the first scan, or place, chooses the frame of the map.
-    void add_surfaces(const Points& points, const Labels& labels, const Pose& T_world_sensor);
+    /// `counts`: how many points each of them stands for; empty: one.
+    void add_surfaces(const Points& points, const Labels& labels, const Pose& T_world_sensor,
+                      std::span<const std::uint32_t> counts = {});
     void add_beams(const Points& points, const Pose& T_world_sensor);
     /// A place of the sensor between two scans that are added.
     void pass(const Eigen::Vector3d& place);

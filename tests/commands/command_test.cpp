@@ -952,6 +952,12 @@ TEST_F(Command, ConvertTakesAPart) {
     EXPECT_EQ(points_of("moving.pcd"), points_of("out/dynamic_points.pcd"));
 
     ASSERT_EQ(run("convert " + data + " near.pcd --max-range 8"), 0) << said();
+    std::size_t near = 0;
+    const io::Recording scans = io::open_recording(data);
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+        for (const Point& p : scans.read(i).points) near += is_measured(p) && p.norm() <= 8.0F;
+    }
+    EXPECT_NEAR(static_cast<double>(points_of("near.pcd")), static_cast<double>(near), 50.0);
     ASSERT_EQ(run("convert still.pcd box.pcd --box=-5,-5,0,5,5,2"), 0) << said();
     ASSERT_EQ(run("convert " + data + " same.pcd --labels out --only static --box=-5,-5,0,5,5,2"),
               0);
@@ -986,13 +992,16 @@ TEST_F(Command, ConvertRefusesAPartThatIsNone) {
              {"x.pcd --box 500,500,501,501", "no scan has a point"},
              {"x.pcd --box 1,2,3", "two corners"},
              {"x --thin 0.1", "--thin is for one cloud"},
+             {"x.pcd --cell 0.5", "--cell is for OctoMap"},
+             {"x.pcd --step 0.2", "are for --to nav2"},
+             {"x.bt --to nav2", "makes a folder"},
              {"x.pcd --max-range 0", "--max-range"},
              {"x.pcd --origin 48,11", "--origin is for"}}) {
         EXPECT_EQ(run("convert " + data + " " + options), 2) << options;
         expect_said(what);
     }
     ASSERT_EQ(run("convert " + data + " cloud.pcd"), 0) << said();
-    for (const char* options : {"--only static", "--max-range 5"}) {
+    for (const char* options : {"--only static", "--max-range 5", "--labels out"}) {
         EXPECT_EQ(run(fmt::format("convert cloud.pcd x.pcd {}", options)), 2) << options;
         expect_said("is for a recording");
     }

@@ -44,8 +44,19 @@ for _ in range(records):
     if user.rstrip(b"\0") == b"LASF_Projection" and number == 2112:
         open("map.wkt", "wb").write(data[at + 54:at + 54 + length].rstrip(b"\0"))
     at += 54 + length
-max_x, min_x, max_y, min_y = struct.unpack_from("<4d", data, 179)
-assert min_x < place[0] < max_x and min_y < place[1] < max_y, "the bounds hold the sensor"
+
+# The first point of the first scan, in metres from the sensor: as far from it in the cloud, and in the same direction, but for
+# the scale of the projection and the angle between its north and the true one, which is 1.9 degrees there.
+x, y, z, _ = struct.unpack_from("<4f", open("rec/velodyne/000000.bin", "rb").read())
+row = [float(word) for word in open("rec/poses.txt").readline().split()]
+east, north, up = (row[4 * axis] * x + row[4 * axis + 1] * y + row[4 * axis + 2] * z for axis in range(3))
+begin, = struct.unpack_from("<I", data, 96)
+steps = struct.unpack_from("<3i", data, begin)
+scales, offsets = struct.unpack_from("<3d", data, 131), struct.unpack_from("<3d", data, 155)
+point = [step * scale + offset for step, scale, offset in zip(steps, scales, offsets)]
+length = (east * east + north * north) ** 0.5
+for got, expected in zip(point, (place[0] + east, place[1] + north, place[2] + up)):
+    assert abs(got - expected) < 0.04 * length + 0.01, (point, place, east, north, up)
 PYTHON
 projinfo @map.wkt --identify | grep -qF "EPSG:32632: 100 %"
 
@@ -58,6 +69,11 @@ for file in again.las part.las; do
     grep -qaF "WGS 84 / UTM zone 32N" $file || { echo "$file has no coordinate system"; exit 1; }
 done
 
+fails "not metres to the east" rec none.las --crs EPSG:2263 --origin 40.7,-73.9
+fails "names a coordinate system already" map.las none.las --crs EPSG:32633
+fails "names a coordinate system already" map.las none.las --crs EPSG:32632 --origin $origin
+printf 'x,y,z\n1,2,3\nnan,1,1\n' > gap.csv
+"$command" convert gap.csv gap.las --crs EPSG:32632 --origin $origin 2>&1 | grep -qF "1 points that are not finite"
 fails "is not a projected coordinate system" rec none.las --crs EPSG:4326
 fails "knows no such coordinate system" rec none.las --crs EPSG:1
 fails "expected LAT,LON" rec none.las --crs EPSG:32632 --origin 1,2,3,4

@@ -65,6 +65,20 @@ TEST(LocalGrid, ForgetsWhatTheFilterForgets) {
     EXPECT_EQ(at(*grid.cells(judge(Label::dynamic)), 3.05, 0.05), 0);
 }
 
+/// A table: points that lie flat, one above the other in no column.
+TEST(LocalGrid, SeesWhatIsThin) {
+    LocalGrid grid({.radius = 10.0});
+    for (int i = 0; i < 10; ++i) {
+        Scan scan = scan_at(0.0, 0.5 * i);
+        for (float x = 1.0F; x < 2.0F; x += 0.05F) {
+            for (float y = 2.0F; y < 3.0F; y += 0.05F) scan.points.emplace_back(x, y, -0.25F);
+        }
+        grid.add(scan);
+    }
+    const auto cells = grid.cells(judge(Label::static_));
+    for (double x = 1.15; x < 1.9; x += 0.1) EXPECT_EQ(at(*cells, x, 2.55), 100) << x;
+}
+
 TEST(LocalGrid, GoesWithTheRobot) {
     LocalGrid grid({.radius = 5.0});
     for (int i = 0; i < 40; ++i) grid.add(scan_at(0.5 * i, 0.5 * i));
@@ -81,7 +95,8 @@ TEST(LocalGrid, IsNothingWithoutAFloorAndAfterABreak) {
     EXPECT_FALSE(grid.cells(judge(Label::unknown)).has_value());
     grid.add(scan_at(0.0, 1.0));
     EXPECT_TRUE(grid.cells(judge(Label::static_)).has_value());
-    grid.clear();
+    grid.begin_world(11);
+    grid.add(scan_at(0.0, 1.0));
     EXPECT_FALSE(grid.cells(judge(Label::static_)).has_value());
 }
 

@@ -43,6 +43,20 @@ class Programs(unittest.TestCase):
         self.assertEqual(of_map["scans"], SCANS)
         self.assertRaises(TypeError, df.evaluate, recording())
 
+    def test_convert_gives_what_the_command_gives(self):
+        result = self.result["output"]
+        for name, options in (("map.bt", []), ("thin.pcd", ["--only", "static", "--thin", "0.2"])):
+            by_command, here = scratch("by-command-" + name), scratch(name)
+            subprocess.run([COMMAND, "convert", recording(), by_command, "--labels", result, *options], check=True,
+                           capture_output=True)
+            df.convert(recording(), here, labels=result, **({"only": "static", "thin": 0.2} if options else {}))
+            self.assertTrue(filecmp.cmp(by_command, here, shallow=False), name)
+        self.assertRaises(df.ConfigError, df.convert, recording(), scratch("map.bt"), labels=result)
+        self.assertRaises(df.ConfigError, df.convert, recording(), scratch("x.pcd"), labels=result, only="all")
+        self.assertRaises(ValueError, df.convert, recording(), scratch("x.pcd"), thin=-1.0)
+        self.assertRaises(TypeError, df.convert, recording(), scratch("x.pcd"), thinn=1.0)
+        self.assertFalse(os.path.exists(scratch("x.pcd")))
+
     def test_simulate_gives_what_the_command_gives(self):
         folder = scratch("simulated")
         subprocess.run([COMMAND, "simulate", "crowd", "-o", folder, "--frames", str(SCANS)],

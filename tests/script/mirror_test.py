@@ -13,7 +13,7 @@ COVERED = {  # test -> the units that it covers
         "export/convert_map export/kitti export/nav2 export/objects export/octomap export/one_cloud export/outputs export/sink recording/scans "
         "recording/world_records run/run run/filter_whole run/run_state run/scored_scans run/summary run/write_scans",
     "export/crs_test.sh": "export/crs/plugin",
-    "export/cut_test.cpp": "export/places",
+    "export/part_test.cpp": "export/places",
     "navigation/navigation_map_test.cpp": "navigation/floor navigation/surface_map",
     "export/tileset_test.cpp": "export/glb",
     "formats/clouds/cloud_test.cpp": "formats/clouds/bin",

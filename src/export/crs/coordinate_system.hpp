@@ -9,8 +9,7 @@
 
 namespace dynamic_filter::app {
 
-/// A projected coordinate system of the earth: metres (or its own unit) to the east, to the north,
-/// and upward.
+/// A projected coordinate system of the earth: metres to the east, to the north, and upward.
 class CoordinateSystem {
 public:
     CoordinateSystem() = default;
@@ -20,8 +19,8 @@ public:
 
     /// Its description in OGC's Well Known Text of 2001, which LAS wants.
     [[nodiscard]] virtual std::string wkt() const = 0;
-    /// Turns earth-centred coordinates (WGS 84, EPSG:4978) [m] into its own. Returns what went
-    /// wrong; empty if nothing did.
+    /// Turns earth-centred coordinates (WGS 84, EPSG:4978) [m] into its own; places that are not
+    /// finite stay so. Returns what went wrong; empty if nothing did.
     virtual std::string from_earth(std::vector<Eigen::Vector3d>& places) const = 0;
     /// Empty if the place, in its own coordinates, is within or near the area that it is meant for;
     /// otherwise a description of that area.

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <memory>
+#include <string_view>
 
 #include "export/crs/coordinate_system.hpp"
 
@@ -43,11 +44,14 @@ public:
     }
     std::string from_earth(std::vector<Eigen::Vector3d>& places) const override {
         for (Eigen::Vector3d& place : places) {
+            if (!place.allFinite()) continue;
             proj_errno_reset(from_earth_.get());
             const PJ_COORD there = proj_trans(from_earth_.get(), PJ_FWD,
                                               proj_coord(place.x(), place.y(), place.z(), 0.0));
             if (!std::isfinite(there.xyz.x)) {
-                return proj_context_errno_string(context_.get(), proj_errno(from_earth_.get()));
+                const char* const why =
+                    proj_context_errno_string(context_.get(), proj_errno(from_earth_.get()));
+                return why == nullptr ? "a point has no place in it" : why;
             }
             place = {there.xyz.x, there.xyz.y, there.xyz.z};
         }
@@ -85,6 +89,24 @@ bool is_projected(PJ_CONTEXT* context, const PJ* system) {
     return horizontal && proj_get_type(horizontal.get()) == PJ_TYPE_PROJECTED_CRS;
 }
 
+/// East and north, in either order, in metres.
+bool has_usual_axes(PJ_CONTEXT* context, const PJ* system) {
+    const Object horizontal(proj_get_type(system) == PJ_TYPE_COMPOUND_CRS
+                                ? proj_crs_get_sub_crs(context, system, 0)
+                                : proj_clone(context, system));
+    const Object axes(proj_crs_get_coordinate_system(context, horizontal.get()));
+    if (!axes) return false;
+    for (int axis = 0; axis < 2; ++axis) {
+        double metres = 0.0;
+        const char* direction = nullptr;
+        proj_cs_get_axis_info(context, axes.get(), axis, nullptr, nullptr, &direction, &metres,
+                              nullptr, nullptr, nullptr);
+        const std::string_view towards = direction == nullptr ? "" : direction;
+        if (metres != 1.0 || (towards != "east" && towards != "north")) return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 extern "C" const char* dynamicfilter_crs_version() { return DYNAMIC_FILTER_VERSION; }
@@ -107,7 +129,17 @@ extern "C" CoordinateSystem* dynamicfilter_crs_make(const char* name, const char
             "such as EPSG:32633 (UTM zone 33 north)";
         return nullptr;
     }
+    if (!has_usual_axes(context.get(), system.get())) {
+        *fault =
+            "its coordinates are not metres to the east and to the north, as those of poses are; "
+            "choose a metric one of the same region";
+        return nullptr;
+    }
     auto made = std::make_unique<ProjSystem>(std::move(context), std::move(system));
+    if (made->wkt().empty()) {
+        *fault = "PROJ has no WKT of 2001 for it, which LAS needs";
+        return nullptr;
+    }
     if (!made->is_reached()) {
         *fault =
             "PROJ knows no exact way from WGS 84 to it; `projsync` of the package proj-bin brings "

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "export/cut.hpp"
+#include "export/part.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "support/random.hpp"
 
 namespace dynamic_filter::app {
-namespace cut_test {
+namespace part_test {
 
 io::Cloud cloud_of(const Points& points) {
     io::Cloud cloud;
@@ -35,7 +35,7 @@ io::FullScan sample_scan() {
     return scan;
 }
 
-TEST(Cut, ReadsBoxes) {
+TEST(Part, ReadsBoxes) {
     EXPECT_FALSE(box_of("").has_value());
     const Box box = *box_of("3,-2,1,-3,2,-1.5");
     EXPECT_EQ(box.min(), Eigen::Vector3d(-3, -2, -1.5));
@@ -49,10 +49,10 @@ TEST(Cut, ReadsBoxes) {
     }
 }
 
-TEST(Cut, TakesWhatIsWithinBoxAndRange) {
+TEST(Part, TakesWhatIsWithinBoxAndRange) {
     const io::FullScan scan = sample_scan();
-    Cut cut{box_of("-10,-10,-5,15,12,9"), 12.0};
-    const auto wanted = wanted_points(cut, scan, {});
+    Wanted part{box_of("-10,-10,-5,15,12,9"), 12.0};
+    const auto wanted = wanted_points(part, scan, {});
     std::vector<std::uint32_t> expected;
     for (std::uint32_t i = 0; i < scan.points.size(); ++i) {
         const Eigen::Vector3d at = scan.T_world_sensor * scan.points[i].cast<double>();
@@ -62,21 +62,23 @@ TEST(Cut, TakesWhatIsWithinBoxAndRange) {
     }
     EXPECT_EQ(wanted, expected);
     EXPECT_GT(wanted.size(), 20U);
+    part.sensor = {0.0, 0.0, 100.0};
+    EXPECT_TRUE(wanted_points(part, scan, {}).empty()) << "the range is that from the sensor";
 }
 
-TEST(Cut, TakesAllUnlessAskedFor) {
+TEST(Part, TakesAllUnlessAskedFor) {
     const io::FullScan scan = sample_scan();
-    EXPECT_TRUE(Cut{}.takes_all());
+    EXPECT_TRUE(Wanted{}.takes_all());
     EXPECT_EQ(wanted_points({}, scan, {}).size(), scan.points.size());
 }
 
-TEST(Cut, TakesWhatStandsOrWhatMoves) {
+TEST(Part, TakesWhatStandsOrWhatMoves) {
     const io::FullScan scan = sample_scan();
     const auto count = [&](Kept only, bool keep_unknown) {
-        Cut cut;
-        cut.only = only;
-        cut.keep_unknown = keep_unknown;
-        return wanted_points(cut, scan, scan.truth).size();
+        Wanted part;
+        part.only = only;
+        part.keep_unknown = keep_unknown;
+        return wanted_points(part, scan, scan.truth).size();
     };
     const auto of = [&](Label label) {
         std::size_t n = 0;
@@ -88,7 +90,7 @@ TEST(Cut, TakesWhatStandsOrWhatMoves) {
     EXPECT_EQ(count(Kept::in_map, false), of(Label::static_));
 }
 
-TEST(Cut, PartOfAScanHasAllThatBelongsToItsPoints) {
+TEST(Part, PartOfAScanHasAllThatBelongsToItsPoints) {
     const io::FullScan scan = sample_scan();
     const std::vector<std::uint32_t> points = {3, 4, 99};
     const io::FullScan part = part_of(scan, points);
@@ -101,7 +103,7 @@ TEST(Cut, PartOfAScanHasAllThatBelongsToItsPoints) {
     EXPECT_TRUE(part.own.empty());
 }
 
-TEST(Cut, OfACloud) {
+TEST(Part, OfACloud) {
     io::Cloud cloud = cloud_of({{0, 0, 0}, {5, 0, 0}, {0, 0, 5}});
     cloud.crs = "a system";
     const auto wanted = wanted_points(*box_of("-1,-1,1,1"), cloud);
@@ -109,7 +111,7 @@ TEST(Cut, OfACloud) {
     EXPECT_EQ(part_of(cloud, wanted).crs, "a system");
 }
 
-TEST(Cut, ThinnedCloudsKeepThePointNearestToTheMiddle) {
+TEST(Part, ThinnedCloudsKeepThePointNearestToTheMiddle) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const io::Cloud cloud =
         cloud_of({{0.1F, 0.1F, 0.1F}, {0.4F, 0.5F, 0.6F}, {1.5F, 0, 0}, {nan, 0, 0}});
@@ -117,5 +119,5 @@ TEST(Cut, ThinnedCloudsKeepThePointNearestToTheMiddle) {
     EXPECT_EQ(kept, (Points{{0.4F, 0.5F, 0.6F}, {1.5F, 0, 0}}));
 }
 
-}  // namespace cut_test
+}  // namespace part_test
 }  // namespace dynamic_filter::app

@@ -20,21 +20,24 @@ using Box = Eigen::AlignedBox3d;
 /// Throws ConfigError if it is neither.
 std::optional<Box> box_of(const std::string& text);
 
-struct Cut {
-    std::optional<Box> box{};    ///< in the world
-    double max_range = 0.0;      ///< [m] from the sensor; 0: any
-    std::optional<Kept> only{};  ///< points that the verdict puts there
-    bool keep_unknown = true;    ///< as Config::map.keep_unknown, for `only`
+struct Wanted {
+    std::optional<Box> box{};                          ///< in the world
+    double max_range = 0.0;                            ///< [m] from the sensor; 0: any
+    Eigen::Vector3d sensor = Eigen::Vector3d::Zero();  ///< [m] in the frame of the scan
+    std::optional<Kept> only{};                        ///< points that the verdict puts there
+    bool keep_unknown = true;                          ///< as Config::map.keep_unknown, for `only`
     [[nodiscard]] bool takes_all() const { return !box && max_range == 0.0 && !only; }
 };
 
 /// The points of a scan that are wanted, by index. Points without a measurement are wanted only if
 /// all are.
-std::vector<std::uint32_t> wanted_points(const Cut& cut, const io::FullScan& scan,
+std::vector<std::uint32_t> wanted_points(const Wanted& part, const io::FullScan& scan,
                                          const Labels& labels);
 /// The points of a cloud within the box.
 std::vector<std::uint32_t> wanted_points(const Box& box, const io::Cloud& cloud);
 
+/// Number of points that are not finite.
+std::size_t unplaced_points(const io::Cloud& cloud);
 /// The point of each cell of a grid that lies closest to its middle; points that are not finite are
 /// left out.
 io::Cloud thinned(const io::Cloud& cloud, double cell);

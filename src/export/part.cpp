@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "export/cut.hpp"
+#include "export/part.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "base/text.hpp"
@@ -30,15 +31,17 @@ std::optional<Box> box_of(const std::string& text) {
     return box;
 }
 
-std::vector<std::uint32_t> wanted_points(const Cut& cut, const io::FullScan& scan,
+std::vector<std::uint32_t> wanted_points(const Wanted& part, const io::FullScan& scan,
                                          const Labels& labels) {
     std::vector<std::uint32_t> wanted;
     for (std::uint32_t i = 0; i < scan.points.size(); ++i) {
         const Point& point = scan.points[i];
-        if (!cut.takes_all() && !is_measured(point)) continue;
-        if (cut.max_range > 0.0 && !(point.cast<double>().norm() <= cut.max_range)) continue;
-        if (cut.box && !cut.box->contains(scan.T_world_sensor * point.cast<double>())) continue;
-        if (cut.only && where(labels[i], false, cut.keep_unknown) != *cut.only) continue;
+        if (!part.takes_all() && !is_measured(point)) continue;
+        if (part.max_range > 0.0 &&
+            !((point.cast<double>() - part.sensor).norm() <= part.max_range))
+            continue;
+        if (part.box && !part.box->contains(scan.T_world_sensor * point.cast<double>())) continue;
+        if (part.only && where(labels[i], false, part.keep_unknown) != *part.only) continue;
         wanted.push_back(i);
     }
     return wanted;
@@ -51,6 +54,13 @@ std::vector<std::uint32_t> wanted_points(const Box& box, const io::Cloud& cloud)
         if (box.contains(places[i])) wanted.push_back(i);
     }
     return wanted;
+}
+
+std::size_t unplaced_points(const io::Cloud& cloud) {
+    const std::vector<Eigen::Vector3d> places = places_of(cloud);
+    const auto count = std::count_if(places.begin(), places.end(),
+                                     [](const Eigen::Vector3d& p) { return !p.allFinite(); });
+    return static_cast<std::size_t>(count);
 }
 
 io::Cloud thinned(const io::Cloud& cloud, double cell) {
