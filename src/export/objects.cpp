@@ -4,7 +4,6 @@
 
 #include <deque>
 #include <map>
-#include <numeric>
 
 #include "base/output_folder.hpp"
 #include "draw/canvas.hpp"
@@ -48,6 +47,7 @@ public:
 
     std::string commit() override {
         while (!waiting_.empty()) write_next();
+        io::sync_folder(labels_);
         const std::vector<ObjectSummary> objects = summaries_of(boxes_);
         const fs::path& folder = output_.path();
         io::write_file(folder / "objects.csv", objects_csv(objects));

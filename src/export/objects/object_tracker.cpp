@@ -7,8 +7,6 @@
 #include <algorithm>
 #include <limits>
 #include <map>
-#include <numeric>
-#include <optional>
 
 namespace dynamic_filter::app {
 
