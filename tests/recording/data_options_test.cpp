@@ -49,7 +49,8 @@ TEST(DataOptions, FaultsAreNamedAsTheAskerTypesThem) {
 
 TEST(DataOptions, APlaceIsThreeNumbersWithCommas) {
     EXPECT_EQ(place_of("0.9,-1,1.6"), Eigen::Vector3d(0.9, -1, 1.6));
-    for (const char* text : {"", "1,2", "1,2,3,4", "1, 2,3", "1,2,nan", "1;2;3", "1,2,3m"}) {
+    EXPECT_EQ(place_of("1, 2, 3"), Eigen::Vector3d(1, 2, 3));
+    for (const char* text : {"", "1,2", "1,2,3,4", "1,2,nan", "1;2;3", "1,2,3m"}) {
         EXPECT_FALSE(place_of(text)) << text;
     }
     DataOptions options;
