@@ -217,10 +217,12 @@ io::Cloud wanted_cloud(const ConvertOptions& o) {
         }
     }
     if (o.thin > 0.0) {
-        const std::size_t lost = unplaced_points(cloud);
-        if (lost == cloud.size()) throw InputError(o.data.data, "", "no point is finite");
-        cloud = thinned(cloud, o.thin);
-        if (lost > 0) say(fmt::format("{} points that are not finite are left out", lost));
+        ThinnedPart thin = thinned(cloud, o.thin);
+        if (thin.cloud.size() == 0) throw InputError(o.data.data, "", "no point is finite");
+        if (thin.left_out > 0) {
+            say(fmt::format("{} points that are not finite are left out", thin.left_out));
+        }
+        cloud = std::move(thin.cloud);
     }
     return o.crs.empty() ? cloud : Georeference(o.crs, o.origin).cloud(cloud);
 }
@@ -229,7 +231,7 @@ int convert_cloud(const ConvertOptions& o) {
     const Output* const kind = chosen_output(o);
     refuse_idle_options(o, kind, false);
     if (kind != nullptr && kind->of_cloud != nullptr) {
-        OutputFolder output(o.output, kind->files, replaced_if(o.overwrite));
+        OutputFolder output(o.output, *kind->files, replaced_if(o.overwrite));
         const WrittenMap tiles = kind->of_cloud(wanted_cloud(o), o, output.path());
         output.commit();
         say(tiles.note);
@@ -291,9 +293,7 @@ void add_convert(Program& program) {
     c.path("--labels", o->labels,
            "output folder of a run, or its labels (default: the ground truth of the recording)");
     visit_numbers(*o, [&](const NumberOption& option, double& value) {
-        std::string name = std::string("--") + option.name;
-        std::replace(name.begin(), name.end(), '_', '-');
-        c.number(name.c_str(), value, {option.low, option.high}, option.help);
+        c.number(as_option(option.name).c_str(), value, {option.low, option.high}, option.help);
     });
     c.whole("--storey", o->storey, {1, 100},
             "with --to nav2: which floor, where several lie one above the other; 1 is the lowest");

@@ -42,7 +42,7 @@ int convert_map(const ConvertOptions& o) {
     const Output& kind = checked_output(o);
     const std::filesystem::path map = map_folder_of(o.data.data);
     const MapIndex index = read_map_index(map);
-    OutputFolder output(o.output, kind.files, replaced_if(o.overwrite));
+    OutputFolder output(o.output, *kind.files, replaced_if(o.overwrite));
     const WrittenMap written = kind.of_map(index, map, o, output.path());
     output.commit();
     if (!written.note.empty()) fmt::print(stderr, "note: {}\n", written.note);

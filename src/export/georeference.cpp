@@ -31,13 +31,21 @@ std::unique_ptr<CoordinateSystem> system_named(const std::string& name) {
     return system;
 }
 
+/// Two numbers, and perhaps a height.
+bool is_place(const std::vector<double>& values) {
+    return values.size() == 2 || values.size() == 3;
+}
+
+/// Whether a place may be a latitude and a longitude.
+bool are_degrees(const std::vector<double>& place) {
+    return std::abs(place[0]) <= 90.0 && std::abs(place[1]) <= 180.0;
+}
+
 }  // namespace
 
 GeoOrigin geo_origin(const std::string& text) {
     const std::vector<double> values = io::parse_reals(text);
-    const bool fits = (values.size() == 2 || values.size() == 3) && std::abs(values[0]) <= 90.0 &&
-                      std::abs(values[1]) <= 180.0;
-    if (!fits) {
+    if (!is_place(values) || !are_degrees(values)) {
         throw ConfigError("--origin " + text +
                           ": expected LAT,LON or LAT,LON,HEIGHT in degrees and metres, for "
                           "instance 48.1374,11.5755,520");
@@ -67,12 +75,10 @@ Georeference::Georeference(const std::string& crs, const std::string& origin)
     : name_(crs), origin_text_(origin), system_(system_named(crs)) {
     if (origin.empty()) return;
     const std::vector<double> values = io::parse_reals(origin);
-    const bool are_degrees =
-        values.size() < 2 || (std::abs(values[0]) <= 90.0 && std::abs(values[1]) <= 180.0);
-    if (are_degrees || values.size() > 3) {
-        origin_ = geo_origin(origin);
-    } else {
+    if (is_place(values) && !are_degrees(values)) {
         shift_ = {values[0], values[1], values.size() == 3 ? values[2] : 0.0};
+    } else {
+        origin_ = geo_origin(origin);
     }
 }
 

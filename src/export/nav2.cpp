@@ -89,7 +89,7 @@ public:
 
 private:
     void check(const NavigationMap& map) const {
-        if (std::find(map.cells.begin(), map.cells.end(), Passage::free) == map.cells.end()) {
+        if (!map.has_free_cell()) {
             throw ConfigError(
                 "no floor was seen below the sensor, so there is no map to drive on; z of the "
                 "poses "

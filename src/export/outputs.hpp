@@ -23,8 +23,8 @@ struct WrittenMap {
 /// A folder that --to names, or a file by its extension. A function is nullptr if the output cannot
 /// be made of that.
 struct Output {
-    std::string name;            ///< "3dtiles"
-    const FolderFiles& files{};  ///< of a folder
+    std::string name;                    ///< "3dtiles"
+    const FolderFiles* files = nullptr;  ///< of a folder
     std::unique_ptr<Sink> (*of_recording)(const ConvertOptions& options) = nullptr;
     /// `map`: the folder of the index.
     WrittenMap (*of_map)(const MapIndex& index, const std::filesystem::path& map,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "export/part.hpp"
 
-#include <algorithm>
 #include <limits>
 
 #include "base/text.hpp"
@@ -56,27 +55,24 @@ std::vector<std::uint32_t> wanted_points(const Box& box, const io::Cloud& cloud)
     return wanted;
 }
 
-std::size_t unplaced_points(const io::Cloud& cloud) {
-    const std::vector<Eigen::Vector3d> places = places_of(cloud);
-    const auto count = std::count_if(places.begin(), places.end(),
-                                     [](const Eigen::Vector3d& p) { return !p.allFinite(); });
-    return static_cast<std::size_t>(count);
-}
-
-io::Cloud thinned(const io::Cloud& cloud, double cell) {
+ThinnedPart thinned(const io::Cloud& cloud, double cell) {
     const std::vector<Eigen::Vector3d> places = places_of(cloud);
     const io::Field* const dynamic = cloud.find("dynamic");
     const std::vector<double> moves =
         dynamic != nullptr ? io::values(cloud, *dynamic) : std::vector<double>(cloud.size());
     ThinnedRecords records(cell);
+    std::size_t left_out = 0;
     for (std::size_t i = 0; i < places.size(); ++i) {
-        if (!places[i].allFinite()) continue;
+        if (!places[i].allFinite()) {
+            ++left_out;
+            continue;
+        }
         records.add(places[i], records.distance_to_middle(places[i]), moves[i] != 0.0,
                     std::span(cloud.data).subspan(i * cloud.point_bytes, cloud.point_bytes));
     }
     io::Cloud part = without_records(cloud);
     part.data = records.records();
-    return part;
+    return {std::move(part), left_out};
 }
 
 io::Cloud part_of(const io::Cloud& cloud, std::span<const std::uint32_t> points) {

@@ -36,11 +36,13 @@ std::vector<std::uint32_t> wanted_points(const Wanted& part, const io::FullScan&
 /// The points of a cloud within the box.
 std::vector<std::uint32_t> wanted_points(const Box& box, const io::Cloud& cloud);
 
-/// Number of points that are not finite.
-std::size_t unplaced_points(const io::Cloud& cloud);
 /// The point of each cell of a grid that lies closest to its middle; points that are not finite are
 /// left out.
-io::Cloud thinned(const io::Cloud& cloud, double cell);
+struct ThinnedPart {
+    io::Cloud cloud;
+    std::size_t left_out = 0;
+};
+ThinnedPart thinned(const io::Cloud& cloud, double cell);
 
 /// The scan with only those of its points.
 io::FullScan part_of(const io::FullScan& scan, std::span<const std::uint32_t> points);

@@ -177,12 +177,13 @@ void Session::publish(Work& work) {
     note_latency(*work.scan);
     ++published_;
     record(*work.scan);
-    if (has_grid() && grid_.is_due(work.scan->stamp)) {
-        grid_.add(scan_of(*work.scan, work.verdict));
-    }
-    if (config_.output.settle_after == 0 || !filter_->judges_each_scan()) return;
-    unsettled_.push_back(
-        {std::move(judged), scan_of(*work.scan, work.verdict), std::move(work.scan->own)});
+    const bool for_grid = has_grid() && grid_.is_due(work.scan->stamp);
+    const bool for_settling = config_.output.settle_after > 0 && filter_->judges_each_scan();
+    if (!for_grid && !for_settling) return;
+    Scan scan = scan_of(*work.scan, work.verdict);
+    if (for_grid) grid_.add(scan);
+    if (!for_settling) return;
+    unsettled_.push_back({std::move(judged), std::move(scan), std::move(work.scan->own)});
     if (unsettled_.size() <= static_cast<std::size_t>(config_.output.settle_after)) return;
     const Unsettled due = std::move(unsettled_.front());
     unsettled_.pop_front();

@@ -157,9 +157,7 @@ std::optional<io::OccupancyCells> LocalGrid::cells(const Judge& judge) const {
     survey.add_surfaces(all.scan.points, judge(all.scan).labels, all.scan.T_world_sensor,
                         all.counts);
     const NavigationMap map = survey.map(options_.robot, 0);
-    const bool has_floor =
-        std::find(map.cells.begin(), map.cells.end(), Passage::free) != map.cells.end();
-    if (!has_floor) return std::nullopt;
+    if (!map.has_free_cell()) return std::nullopt;  // no floor was seen
     return square_around(kept.back().scan().T_world_sensor.translation(), options_.radius, map,
                          survey);
 }

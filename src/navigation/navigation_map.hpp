@@ -3,6 +3,7 @@
 /// nobody looked.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -23,6 +24,10 @@ struct NavigationMap {
     Area area;
     std::vector<Passage> cells;  ///< of the area, by Area::index()
     Floor floor;
+
+    [[nodiscard]] bool has_free_cell() const {
+        return std::find(cells.begin(), cells.end(), Passage::free) != cells.end();
+    }
 };
 
 /// A cell is free if a floor was seen there that the robot reaches, and nothing static stands on

@@ -49,10 +49,10 @@ std::optional<Eigen::Vector3d> place_of(const std::string& text) {
     return Eigen::Vector3d(numbers[0], numbers[1], numbers[2]);
 }
 
-std::string as_option(const ReadingOption& option) {
-    std::string name = std::string("--") + option.name;
-    std::replace(name.begin(), name.end(), '_', '-');
-    return name;
+std::string as_option(const char* name) {
+    std::string option = std::string("--") + name;
+    std::replace(option.begin(), option.end(), '_', '-');
+    return option;
 }
 
 void refuse_invalid(const DataOptions& options, Asker asker) {

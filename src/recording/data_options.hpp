@@ -103,8 +103,9 @@ void visit_reading(Options& options, const Visit& visit) {
         options.stride);
 }
 
-/// Name of a row as the command spells it: "--pose-fix".
-std::string as_option(const ReadingOption& option);
+/// The word of Python as the command spells it: "--pose-fix" for "pose_fix".
+std::string as_option(const char* name);
+inline std::string as_option(const ReadingOption& option) { return as_option(option.name); }
 
 /// The numbers of "X,Y,Z"; empty if they are no three finite numbers.
 std::optional<Eigen::Vector3d> place_of(const std::string& text);

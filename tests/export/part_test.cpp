@@ -115,7 +115,8 @@ TEST(Part, ThinnedCloudsKeepThePointNearestToTheMiddle) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const io::Cloud cloud =
         cloud_of({{0.1F, 0.1F, 0.1F}, {0.4F, 0.5F, 0.6F}, {1.5F, 0, 0}, {nan, 0, 0}});
-    const Points kept = io::positions(thinned(cloud, 1.0));
+    const Points kept = io::positions(thinned(cloud, 1.0).cloud);
+    EXPECT_EQ(thinned(cloud, 1.0).left_out, 1U);
     EXPECT_EQ(kept, (Points{{0.4F, 0.5F, 0.6F}, {1.5F, 0, 0}}));
 }
 

@@ -2,6 +2,7 @@
 #include "export/objects/object_tracker.hpp"
 
 #include "base/numbers.hpp"
+#include "export/objects/pieces.hpp"
 #include "geometry/angle.hpp"
 
 #include <algorithm>
@@ -120,10 +121,8 @@ void note_motion(MovingObject& object) {
     for (Sighting& before : sightings) before.heading = heading;
 }
 
-}  // namespace
-
 /// An object, where it should be by now.
-struct ObjectTracker::Candidate {
+struct Candidate {
     std::uint32_t object;
     Eigen::AlignedBox3d box;
     double slack;                    // [m]
@@ -139,46 +138,21 @@ struct ObjectTracker::Candidate {
     }
 };
 
-ObjectTracker::Candidate ObjectTracker::candidate(std::uint32_t object) const {
-    const MovingObject& o = objects_[object];
-    const Sighting& last = o.sightings.back();
-    const double since = stamp_ - last.stamp;
-    const bool once = o.sightings.size() == 1;
-    const double unsure = once ? kFastest * since : kTurns * (o.velocity.norm() * since + since);
+Candidate candidate(std::uint32_t number, const MovingObject& object, double stamp) {
+    const Sighting& last = object.sightings.back();
+    const double since = stamp - last.stamp;
+    const bool once = object.sightings.size() == 1;
+    const double unsure =
+        once ? kFastest * since : kTurns * (object.velocity.norm() * since + since);
     Eigen::AlignedBox3d box = last.box;
-    box.translate(Eigen::Vector3d(o.velocity * since));
-    return {object, box, std::min(kNear + unsure, kFarthest), o.largest, usual_extent(o), once};
+    box.translate(Eigen::Vector3d(object.velocity * since));
+    return {number, box, std::min(kNear + unsure, kFarthest), object.largest, usual_extent(object),
+            once};
 }
 
-bool ObjectTracker::may_go_on(std::uint32_t object) const {
-    const MovingObject& o = objects_[object];
-    return !o.has_ended && stamp_ - o.sightings.back().stamp <= kLongestGap;
-}
-
-/// Each point goes to the object whose box is nearest.
-void ObjectTracker::divide(Piece& piece, std::span<const Candidate*> claims,
-                           std::span<const Eigen::Vector3d> places,
-                           std::vector<std::uint32_t>& owners) const {
-    for (const std::uint32_t i : piece.points) {
-        const auto cost = [&](const Candidate* c) {
-            return c->box.exteriorDistance(places[i]) +
-                   0.01 * flat(places[i] - c->box.center()).norm();
-        };
-        const Candidate* nearest = *std::min_element(
-            claims.begin(), claims.end(),
-            [&](const Candidate* a, const Candidate* b) { return cost(a) < cost(b); });
-        owners[i] = nearest->object;
-    }
-}
-
-std::vector<std::uint32_t> ObjectTracker::follow(std::span<const Eigen::Vector3d> places,
-                                                 std::size_t scan, double stamp) {
-    stamp_ = stamp;
-    std::erase_if(open_, [&](std::uint32_t object) { return !may_go_on(object); });
-    std::vector<Candidate> candidates;
-    for (const std::uint32_t object : open_) candidates.push_back(candidate(object));
-    std::vector<Piece> pieces = pieces_of(places, kCell);
-
+/// The objects that go on as each piece, in the order of the pieces.
+using Claims = std::vector<std::vector<const Candidate*>>;
+Claims claims_on(const std::vector<Piece>& pieces, const std::vector<Candidate>& candidates) {
     struct Pair {
         double cost;
         std::size_t piece;
@@ -195,7 +169,7 @@ std::vector<std::uint32_t> ObjectTracker::follow(std::span<const Eigen::Vector3d
                      [](const Pair& a, const Pair& b) { return a.cost < b.cost; });
     // First each object takes the piece that continues it best and that nobody took; what was seen
     // once comes last.
-    std::vector<std::vector<const Candidate*>> claims(pieces.size());
+    Claims claims(pieces.size());
     std::vector<bool> has_piece(candidates.size());
     const auto take = [&](const Pair& pair) {
         claims[pair.piece].push_back(&candidates[pair.candidate]);
@@ -222,6 +196,41 @@ std::vector<std::uint32_t> ObjectTracker::follow(std::span<const Eigen::Vector3d
             if (is_two) take(pair);
         }
     }
+    return claims;
+}
+
+/// Each point goes to the object whose box is nearest.
+void divide(const Piece& piece, std::span<const Candidate* const> claims,
+            std::span<const Eigen::Vector3d> places, std::vector<std::uint32_t>& owners) {
+    for (const std::uint32_t i : piece.points) {
+        const auto cost = [&](const Candidate* c) {
+            return c->box.exteriorDistance(places[i]) +
+                   0.01 * flat(places[i] - c->box.center()).norm();
+        };
+        const Candidate* nearest = *std::min_element(
+            claims.begin(), claims.end(),
+            [&](const Candidate* a, const Candidate* b) { return cost(a) < cost(b); });
+        owners[i] = nearest->object;
+    }
+}
+
+}  // namespace
+
+bool ObjectTracker::may_go_on(std::uint32_t object) const {
+    const MovingObject& o = objects_[object];
+    return !o.has_ended && stamp_ - o.sightings.back().stamp <= kLongestGap;
+}
+
+std::vector<std::uint32_t> ObjectTracker::follow(std::span<const Eigen::Vector3d> places,
+                                                 std::size_t scan, double stamp) {
+    stamp_ = stamp;
+    std::erase_if(open_, [&](std::uint32_t object) { return !may_go_on(object); });
+    std::vector<Candidate> candidates;
+    for (const std::uint32_t object : open_) {
+        candidates.push_back(candidate(object, objects_[object], stamp));
+    }
+    const std::vector<Piece> pieces = pieces_of(places, kCell);
+    const Claims claims = claims_on(pieces, candidates);
     std::vector<std::uint32_t> owners(places.size(), kNoObject);
     for (std::size_t p = 0; p < pieces.size(); ++p) {
         if (!claims[p].empty()) {

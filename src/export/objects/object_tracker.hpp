@@ -8,8 +8,6 @@
 #include <span>
 #include <vector>
 
-#include "export/objects/pieces.hpp"
-
 namespace dynamic_filter::app {
 
 /// Stands for "no object" in place of the number of one.
@@ -55,10 +53,6 @@ public:
     [[nodiscard]] bool may_go_on(std::uint32_t object) const;
 
 private:
-    struct Candidate;
-    [[nodiscard]] Candidate candidate(std::uint32_t object) const;
-    void divide(Piece& piece, std::span<const Candidate*> claims,
-                std::span<const Eigen::Vector3d> places, std::vector<std::uint32_t>& owners) const;
     void note(std::span<const Eigen::Vector3d> places, const std::vector<std::uint32_t>& owners,
               std::size_t scan);
     void unite(const std::map<std::uint32_t, Sighting>& seen);
