@@ -43,7 +43,9 @@ struct Cloud {
     std::size_t point_bytes = 0;    ///< [bytes] of one record
     std::vector<std::byte> data;    ///< all records
     std::optional<Pose> viewpoint;  ///< VIEWPOINT of a PCD file, unless it is the identity
-    std::string crs{};  ///< coordinate system of x y z as WKT, of a LAS file; empty: not known
+    /// Coordinate system of x y z as WKT, of a LAS file, or "EPSG:CODE" if it has GeoTIFF keys
+    /// instead; empty: not known.
+    std::string crs{};
     bool gps_time_is_adjusted = false;  ///< of a LAS file: gps_time counts from 1980, less 1e9 s
 
     /// Number of points N.

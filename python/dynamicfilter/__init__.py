@@ -14,6 +14,7 @@ Labels are N uint8, one per point: UNKNOWN (0), STATIC (9) or DYNAMIC (251), as 
 Lengths are in metres, stamps in seconds, poses 4 x 4 matrices T_world_sensor.
 """
 import json as _json
+import os as _os
 import warnings as _warnings
 
 import numpy as _np
@@ -27,7 +28,7 @@ __version__ = _dynamicfilter.__version__
 UNKNOWN, STATIC, DYNAMIC = 0, 9, 251
 
 __all__ = ["ConfigError", "DYNAMIC", "DynamicFilter", "Error", "Frame", "InputError",
-           "OutputError", "Recording", "STATIC", "UNKNOWN", "check", "convert", "evaluate", "open_recording",
+           "OutputError", "Recording", "STATIC", "UNKNOWN", "check", "convert", "diff", "evaluate", "open_recording",
            "read_cloud", "run", "simulate", "write_cloud"]
 
 
@@ -98,18 +99,19 @@ def run(data, output=None, **options):
     return {"output": str(folder), "metrics": _json.loads(metrics), "timing": _json.loads(timing)}
 
 
-def evaluate(truth, *, labels=None, map=None, voxel=0.2, min_range=0.0, max_range=float("inf"), **options):
+def evaluate(truth, *, labels=None, map=None, voxel=0.2, min_range=0.0, max_range=float("inf"), box="", **options):
     """Scores labels or a map against a recording's ground truth, as `dynamicfilter eval` does.
 
     labels: folder of label files (N uint32 per scan), or of a run. Or map: cloud file in the world
     frame [m]. voxel: edge length of a voxel [m]. min_range, max_range: only points at this
-    distance from the sensor [m] are scored. Options: as in open_recording().
+    distance from the sensor [m] are scored. box: only points within it ("X,Y,Z,X,Y,Z" [m], in the
+    world). Options: as in open_recording().
     Returns the scores as a dict of shares 0..1, and the numbers of `scans` scored, `left_out`, and
     not scored because only some scans were to have ground truth (`without_truth`). Scores under
     `voxel_shifted` are those of the grid that is shifted by half a voxel.
     Raises ConfigError, InputError, TypeError and ValueError.
     """
-    return _json.loads(_dynamicfilter.evaluate(truth, labels, map, voxel, min_range, max_range, options))
+    return _json.loads(_dynamicfilter.evaluate(truth, labels, map, voxel, min_range, max_range, box, options))
 
 
 def convert(data, output, **options):
@@ -120,12 +122,26 @@ def convert(data, output, **options):
     Options: labels (folder of a run, or of label files; default: the ground truth), to (layout of the output folder: kitti,
     benchmark, nav2, objects, autoware, 3dtiles or las), box ("X,Y,Z,X,Y,Z" [m]), max_range [m], only ("static" or
     "dynamic"), thin (width of a cell [m]), crs ("EPSG:32633"), origin ("LAT,LON,HEIGHT"), cell [m], robot_height [m], step [m],
-    storey, overwrite, quiet (False prints progress and what was written), and the options of open_recording().
+    storey, normals, ground, moving_class, overwrite, quiet (False prints progress and what was written), and the options of open_recording().
     Notes on what a format could not hold go to stderr.
     Raises ConfigError (also if the output is there already), InputError, OutputError, TypeError, ValueError, and
     KeyboardInterrupt, after which no file is left.
     """
     _dynamicfilter.convert(data, output, options)
+
+
+def diff(old_run, new_run, output, *, threads=0, memory="", overwrite=False, quiet=True):
+    """Says what came and went between two runs of one place, as `dynamicfilter diff` does.
+
+    old_run, new_run: output folders of runs, in one world. output: folder for clouds, tables and a page. threads: 0 uses all
+    cores. memory: most memory to use, such as "1.5G". Files in `output`: docs/upkeep.md.
+    Returns {"went": number, "came": number, "voxels": {"seen_at_both", "old_only", "new_only"}, "changes": [{"change":
+    "went" or "came", "number", "center" [m], "size" [m], "points", "scans", "first" [s], "last" [s]}]}.
+    Raises ConfigError, InputError, OutputError, and KeyboardInterrupt, after which the same call goes on.
+    """
+    _dynamicfilter.diff(old_run, new_run, output, threads, memory, overwrite, quiet)
+    with open(_os.path.join(output, "changes.json"), encoding="utf-8") as file:
+        return _json.load(file)
 
 
 def check(data, **options):

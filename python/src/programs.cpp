@@ -17,10 +17,12 @@
 #include "dynamic_filter/check.hpp"
 #include "dynamic_filter/file.hpp"
 #include "export/outputs.hpp"
+#include "export/part.hpp"
 #include "python/src/module.hpp"
 #include "recording/scans.hpp"
 #include "run/run.hpp"
 #include "score/report.hpp"
+#include "upkeep/diff.hpp"
 
 namespace dynamic_filter::python {
 
@@ -100,7 +102,7 @@ py::tuple run(const fs::path& data, const std::optional<fs::path>& output, py::d
 
 std::string evaluate(const fs::path& truth, const std::optional<fs::path>& labels,
                      const std::optional<fs::path>& map, double voxel, double min_range,
-                     double max_range, py::dict options) {
+                     double max_range, const std::string& box, py::dict options) {
     if (labels.has_value() == map.has_value()) {
         throw py::type_error("evaluate() takes either labels or map");
     }
@@ -113,7 +115,7 @@ std::string evaluate(const fs::path& truth, const std::optional<fs::path>& label
                              .map = map,
                              .json = std::nullopt,
                              .voxel = voxel,
-                             .ranges = {min_range, max_range}};
+                             .part = {min_range, max_range, app::box_of(box)}};
     refuse_unknown("evaluate", options);
     const py::gil_scoped_release others_go_on;
     const app::Evaluation e = app::scores_of(o);
@@ -135,6 +137,12 @@ void convert(const fs::path& data, const fs::path& output, py::dict options) {
     pop_option(options, "box", o.box);
     pop_option(options, "only", o.only);
     pop_option(options, "storey", o.storey);
+    pop_option(options, "normals", o.normals);
+    pop_option(options, "ground", o.ground);
+    pop_option(options, "moving_class", o.moving_class);
+    if (o.moving_class < 0 || o.moving_class > 255) {
+        throw py::value_error("moving_class: expected 0 to 255");
+    }
     pop_option(options, "overwrite", o.overwrite);
     pop_option(options, "quiet", o.quiet);
     app::visit_numbers(o, [&](const app::NumberOption& option, double& value) {
@@ -154,6 +162,24 @@ void convert(const fs::path& data, const fs::path& output, py::dict options) {
         const py::gil_scoped_release others_go_on;
         const Interruptible guard;
         code = app::convert(o);
+    }
+    raise_if(code == app::kInterrupted);
+}
+
+void diff(const fs::path& old_run, const fs::path& new_run, const fs::path& output, int threads,
+          const std::string& memory, bool overwrite, bool quiet) {
+    const app::DiffOptions o{.old_run = old_run,
+                             .new_run = new_run,
+                             .output = output,
+                             .threads = threads,
+                             .memory = memory,
+                             .overwrite = overwrite,
+                             .quiet = quiet};
+    int code = 0;
+    {
+        const py::gil_scoped_release others_go_on;
+        const Interruptible guard;
+        code = app::diff(o);
     }
     raise_if(code == app::kInterrupted);
 }
@@ -204,6 +230,7 @@ void bind_programs(py::module_& module) {
     module.def("run", &run);
     module.def("evaluate", &evaluate);
     module.def("check", &check);
+    module.def("diff", &diff);
     module.def("convert", &convert);
     module.def(
         "simulate",

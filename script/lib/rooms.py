@@ -41,6 +41,7 @@ ROOMS = {
     "export": "base geometry formats draw recording navigation",
     "page": "base geometry formats score recording dynamic_filter/filter.hpp",
     "run": "base geometry settings filter tracking online paper formats recording check score page",
+    "upkeep": "base geometry formats recording draw export page run",
     "live": "base geometry settings filter tracking online formats recording check/watch.hpp navigation page run",
     "commands": "*",
 }

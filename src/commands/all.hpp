@@ -10,6 +10,7 @@ namespace dynamic_filter::app {
 void add_run(Program& program);
 void add_plan(Program& program);
 void add_merge(Program& program);
+void add_diff(Program& program);
 void add_live(Program& program);
 void add_eval(Program& program);
 void add_simulate(Program& program);

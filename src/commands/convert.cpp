@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <numeric>
-
 #include "base/exit_code.hpp"
 #include "base/output_folder.hpp"
-#include "base/progress.hpp"
-#include "check/motion.hpp"
 #include "commands/all.hpp"
 #include "commands/convert.hpp"
+#include "commands/convert_recording.hpp"
 #include "commands/shared_options.hpp"
 #include "dynamic_filter/bag.hpp"
 #include "dynamic_filter/error.hpp"
@@ -18,55 +15,13 @@
 #include "export/georeference.hpp"
 #include "export/outputs.hpp"
 #include "export/part.hpp"
-#include "formats/label_files.hpp"
 #include "formats/voxel_map/map_index.hpp"
-#include "recording/scans.hpp"
-#include "run/open_for_result.hpp"
-#include "settings/config_file.hpp"
 
 namespace fs = std::filesystem;
 
 namespace dynamic_filter::app {
 
 namespace {
-
-/// Prints what a format could not hold, or what was wrong with its source.
-void say(const std::string& note) {
-    if (!note.empty()) fmt::print(stderr, "note: {}\n", note);
-}
-
-/// Reads the labels of a run if --labels is given, else the recording's own ground truth.
-Labels labels_of(const ConvertOptions& o, const io::Recording& recording, std::size_t i,
-                 const io::FullScan& scan) {
-    if (!o.labels) {
-        const bool has_own = !recording.info().has_truth() || !scan.truth.empty();
-        return has_own ? scan.truth : Labels(scan.points.size(), Label::unknown);
-    }
-    const fs::path folder = io::label_folder(*o.labels);
-    Labels labels = io::read_labels(io::label_file(folder, io::stem(recording, i)));
-    if (labels.size() == scan.points.size()) return labels;
-    throw ConfigError(
-        fmt::format("{}: {} labels for the {} points of scan {}; are they of another "
-                    "recording?",
-                    folder.string(), labels.size(), scan.points.size(), io::stem(recording, i)));
-}
-
-/// The settings of the run that left the labels; the default ones for other labels.
-Config settings_of(const ConvertOptions& o) {
-    if (!o.labels) return {};
-    const fs::path result = io::label_folder(*o.labels) / "..";
-    for (const fs::path& folder : {result, result / ".."}) {  // of one drive, or of several
-        const fs::path file = (folder / "config.toml").lexically_normal();
-        if (!fs::exists(folder / kRunState) || !fs::exists(file)) continue;
-        try {
-            return load_config({.file = file});
-        } catch (const ConfigError& error) {  // of another version
-            say(fmt::format("{}; so unknown points are written as with map.keep_unknown = true",
-                            error.what()));
-        }
-    }
-    return {};
-}
 
 /// Refuses options that the output has no use for.
 void refuse_idle_options(const ConvertOptions& o, const Output* kind, bool is_recording) {
@@ -75,10 +30,17 @@ void refuse_idle_options(const ConvertOptions& o, const Output* kind, bool is_re
     if (o.thin > 0.0 && !is_cloud && !of_cloud) {
         throw ConfigError("--thin is for one cloud (" + io::cloud_kinds_written() + ")");
     }
+    const ConvertOptions usual;
+    const bool is_of_clouds = o.normals || o.ground || o.moving_class != usual.moving_class;
+    if (is_of_clouds && !(is_cloud && is_recording)) {
+        throw ConfigError(
+            "--normals, --ground and --moving-class are for a recording that is written as one "
+            "cloud (" +
+            io::cloud_kinds_written() + ")");
+    }
     if (o.cell > 0.0 && (kind == nullptr || !kind->from_sensor)) {
         throw ConfigError("--cell is for OctoMap and for --to nav2; --thin thins a cloud");
     }
-    const ConvertOptions usual;
     const bool is_of_robot =
         o.robot_height != usual.robot_height || o.step != usual.step || o.storey != usual.storey;
     if (is_of_robot && (kind == nullptr || kind->name != "nav2")) {
@@ -113,26 +75,6 @@ void refuse_idle_options(const ConvertOptions& o, const Output* kind, bool is_re
     }
 }
 
-/// What is wanted of a recording.
-Wanted wanted_of(const ConvertOptions& o) {
-    Wanted part{box_of(o.box), o.max_range, o.sensor, {}, o.keep_unknown};
-    if (!o.only.empty()) part.only = o.only == "static" ? Kept::in_map : Kept::removed;
-    return part;
-}
-
-/// Gives the sink what is wanted of the scan; false if that is nothing.
-bool append_part(Sink& sink, const Wanted& part, const io::FullScan& scan, const Labels& labels,
-                 const std::string& stem) {
-    if (part.only) require_labels(labels, "--only");
-    if (part.takes_all()) {
-        sink.append(scan, labels, stem);
-        return true;
-    }
-    const std::vector<std::uint32_t> wanted = wanted_points(part, scan, labels);
-    if (!wanted.empty()) sink.append(part_of(scan, wanted), part_of(labels, wanted), stem);
-    return !wanted.empty();
-}
-
 /// Refuses options that are for the map of several drives only.
 void refuse_map_options(const ConvertOptions& o) {
     const Output* const kind = chosen_output(o);
@@ -143,68 +85,6 @@ void refuse_map_options(const ConvertOptions& o) {
         "{}: --to {} is for the map of several drives, which `dynamicfilter run A B ... -o OUT` "
         "makes; give OUT as IN",
         o.data.data.string(), o.to));
-}
-
-int convert_recording(const ConvertOptions& o) {
-    const Output* const kind = chosen_output(o);
-    refuse_idle_options(o, kind, true);
-    if (kind != nullptr && kind->of_recording == nullptr) {
-        throw ConfigError(kind->shown() + " is for a map: give a cloud file as IN");
-    }
-    const RecordingOfResult opened =
-        o.labels ? open_for_result(o.data, *o.labels) : RecordingOfResult{open(o.data)};
-    io::Recording recording = opened.recording;
-    say(opened.note);
-    ensure_poses(recording, preset("default"), {.deskew = o.data.deskew, .quiet = o.quiet});
-    ConvertOptions of_sink = o;
-    // What is written is of the frame that the files have, unless the output follows the beams.
-    if (kind == nullptr || !kind->from_sensor) {
-        of_sink.sensor = recording.info().sensor_at.value_or(Eigen::Vector3d::Zero());
-        recording = io::with_sensor_at(recording, Eigen::Vector3d::Zero());
-    }
-    for (const std::string& note : recording.info().notes) fmt::print(stderr, "note: {}\n", note);
-    for (const std::string& line : recording.info().losses)
-        fmt::print(stderr, "lost     {}\n", line);
-    catch_interrupts();
-    if (io::BagWriter::recognises(o.output) || !o.only.empty()) {  // only these ask for it
-        of_sink.keep_unknown = settings_of(o).map.keep_unknown;
-    }
-    const Wanted part = wanted_of(of_sink);
-    const std::unique_ptr<Sink> sink = make_sink(of_sink);
-    std::size_t written = 0;
-    std::vector<std::size_t> scans(recording.size());
-    std::iota(scans.begin(), scans.end(), 0U);
-    std::vector<std::string> rejected, notes;
-    {
-        Progress progress("convert", scans.size(), o.quiet);
-        for_each_scan(recording, scans, {}, [&](std::size_t i, MaybeScan& maybe) {
-            progress.advance();
-            if (interrupted()) return false;
-            if (!maybe.scan) {
-                rejected.push_back(maybe.error);
-                return true;
-            }
-            if (!o.labels && !maybe.scan->truth_fault.empty()) {
-                notes.push_back(maybe.scan->truth_fault + "; its points are unknown");
-            }
-            written += append_part(*sink, part, *maybe.scan,
-                                   labels_of(o, recording, i, *maybe.scan), io::stem(recording, i));
-            return true;
-        });
-    }
-    for (const std::string& line : rejected) fmt::print(stderr, "rejected {}\n", line);
-    for (const std::string& note : notes) say(note);
-    if (interrupted()) return kInterrupted;  // nothing is put in place
-    if (rejected.size() == scans.size()) throw InputError(o.data.data, "", "no scan is usable");
-    if (written == 0) {
-        throw ConfigError(
-            "no scan has a point that --box, --max-range and --only take; nothing is written");
-    }
-    const std::size_t empty = scans.size() - rejected.size() - written;
-    if (empty > 0) say(fmt::format("{} scans have no point there, and are left out", empty));
-    say(sink->commit());
-    if (!o.quiet) fmt::print("written  {} ({} scans)\n", o.output.string(), written);
-    return rejected.empty() && recording.info().losses.empty() ? kDone : kRejected;
 }
 
 io::Cloud wanted_cloud(const ConvertOptions& o) {
@@ -220,7 +100,7 @@ io::Cloud wanted_cloud(const ConvertOptions& o) {
         ThinnedPart thin = thinned(cloud, o.thin);
         if (thin.cloud.size() == 0) throw InputError(o.data.data, "", "no point is finite");
         if (thin.left_out > 0) {
-            say(fmt::format("{} points that are not finite are left out", thin.left_out));
+            tell_note(fmt::format("{} points that are not finite are left out", thin.left_out));
         }
         cloud = std::move(thin.cloud);
     }
@@ -229,12 +109,11 @@ io::Cloud wanted_cloud(const ConvertOptions& o) {
 
 int convert_cloud(const ConvertOptions& o) {
     const Output* const kind = chosen_output(o);
-    refuse_idle_options(o, kind, false);
     if (kind != nullptr && kind->of_cloud != nullptr) {
         OutputFolder output(o.output, *kind->files, replaced_if(o.overwrite));
         const WrittenMap tiles = kind->of_cloud(wanted_cloud(o), o, output.path());
         output.commit();
-        say(tiles.note);
+        tell_note(tiles.note);
         if (!o.quiet) fmt::print("written  {} ({} tiles)\n", output.name().string(), tiles.files);
         return kDone;
     }
@@ -246,7 +125,7 @@ int convert_cloud(const ConvertOptions& o) {
     }
     check_cloud_output(o);
     const io::Written written = io::write_cloud(o.output, wanted_cloud(o));
-    say(written.loss);
+    tell_note(written.loss);
     if (!o.quiet) fmt::print("written  {} ({} points)\n", o.output.string(), written.points);
     return kDone;
 }
@@ -264,10 +143,16 @@ int convert(const ConvertOptions& o) {
             throw ConfigError(o.output.string() + ": lies within the recording; choose another");
         }
     }
-    if (o.data.format.empty() && is_tiled_map(o.data.data)) return convert_map(o);
+    const Output* const kind = chosen_output(o);
+    if (o.data.format.empty() && is_tiled_map(o.data.data)) {
+        if (!is_of_drives(o)) return convert_map(o);
+        refuse_idle_options(o, kind, true);
+        return convert_drives(o);
+    }
     refuse_map_options(o);
     const bool is_recording = !o.data.format.empty() || fs::is_directory(o.data.data, ignored) ||
                               io::Bag::recognises(o.data.data);
+    refuse_idle_options(o, kind, is_recording);
     return is_recording ? convert_recording(o) : convert_cloud(o);
 }
 
@@ -297,6 +182,13 @@ void add_convert(Program& program) {
     });
     c.whole("--storey", o->storey, {1, 100},
             "with --to nav2: which floor, where several lie one above the other; 1 is the lowest");
+    c.flag("--normals", o->normals,
+           "of a recording as a cloud: the normal of the surface at each point, on the side of the "
+           "sensor, for meshing");
+    c.flag("--ground", o->ground,
+           "of a recording as a cloud: a field `classification`, 2 for what lies on the ground");
+    c.whole("--moving-class", o->moving_class, {0, 255},
+            "of a recording as a cloud: the class of what moves");
     c.text("--box", o->box,
            "two corners of a box in the world, X,Y,Z,X,Y,Z or X,Y,X,Y [m]: what lies outside "
            "counts as not measured");

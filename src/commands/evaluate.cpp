@@ -12,6 +12,7 @@
 #include "dynamic_filter/cloud.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
+#include "export/part.hpp"
 #include "formats/knowable_file.hpp"
 #include "formats/label_files.hpp"
 #include "recording/data_options.hpp"
@@ -22,8 +23,8 @@
 #include "run/scored_scans.hpp"
 #include "score/knowable_report.hpp"
 #include "score/protocols.hpp"
-#include "score/range_limits.hpp"
 #include "score/report.hpp"
+#include "score/scored_part.hpp"
 
 namespace dynamic_filter::app {
 
@@ -39,7 +40,7 @@ eval::ScanSource noting(eval::ScanSource source, std::vector<std::atomic<bool>>&
 }
 
 eval::ScanSource with_labels(const io::Recording& recording, const Eigen::Vector3d& origin,
-                             const std::filesystem::path& folder, const RangeLimits& ranges) {
+                             const std::filesystem::path& folder, const ScoredPart& part) {
     // Given the output folder of a run, its labels are meant.
     const auto labels = io::label_folder(folder);
     if (!std::filesystem::is_directory(labels)) throw InputError(labels, "", "is not a folder");
@@ -48,7 +49,7 @@ eval::ScanSource with_labels(const io::Recording& recording, const Eigen::Vector
         if (!std::filesystem::exists(file)) return std::nullopt;
         return io::read_labels(file);
     };
-    return scan_source(recording, origin, labels_of, ranges);
+    return scan_source(recording, origin, labels_of, part);
 }
 
 /// Nothing if the recording tells nothing of what could be known.
@@ -63,10 +64,15 @@ std::optional<eval::KnowableScores> knowable_scores(const EvalOptions& o,
     return eval::score_knowable(recording.size(), source, knowable, o.voxel);
 }
 
-std::string ranges_text(const RangeLimits& ranges) {
-    if (ranges.min <= 0.0 && std::isinf(ranges.max)) return "";
-    const std::string far = std::isinf(ranges.max) ? "" : fmt::format(" to {:g} m", ranges.max);
-    return fmt::format("scored are points from {:g} m{} of the sensor\n", ranges.min, far);
+std::string part_text(const ScoredPart& part) {
+    const bool is_whole = part.min <= 0.0 && std::isinf(part.max);
+    if (is_whole && !part.box) return "";
+    std::string text = "scored are points";
+    if (!is_whole) {
+        const std::string far = std::isinf(part.max) ? "" : fmt::format(" to {:g} m", part.max);
+        text += fmt::format(" from {:g} m{} of the sensor", part.min, far);
+    }
+    return text + (part.box ? " within the box\n" : "\n");
 }
 
 /// Opens the recording as it goes with what is to be scored.
@@ -112,7 +118,7 @@ std::string count_text(const Evaluation& e) {
 }  // namespace
 
 Evaluation scores_of(const EvalOptions& o) {
-    if (!(o.ranges.min >= 0.0 && o.ranges.max > o.ranges.min)) {
+    if (!(o.part.min >= 0.0 && o.part.max > o.part.min)) {
         throw ConfigError("--min-range must be 0 or more, and less than --max-range");
     }
     const RecordingOfResult truth = open_truth(o);
@@ -120,8 +126,8 @@ Evaluation scores_of(const EvalOptions& o) {
     const Eigen::Vector3d origin = scoring_origin(recording, o.voxel);
     std::vector<std::atomic<bool>> left_out(recording.size());
     const eval::ScanSource source =
-        noting(o.labels ? with_labels(recording, origin, *o.labels, o.ranges)
-                        : scan_source(recording, origin, {}, o.ranges),
+        noting(o.labels ? with_labels(recording, origin, *o.labels, o.part)
+                        : scan_source(recording, origin, {}, o.part),
                left_out);
     eval::Scores scores =
         o.labels ? eval::score_labels(recording.size(), source, o.voxel)
@@ -153,7 +159,7 @@ int evaluate(const EvalOptions& o) {
     if (o.json) require_extension(*o.json, ".json");
     const Evaluation e = scores_of(o);
     if (!e.note.empty()) fmt::print(stderr, "note: {}\n", e.note);
-    fmt::print("{}{}{}", count_text(e), ranges_text(o.ranges),
+    fmt::print("{}{}{}", count_text(e), part_text(o.part),
                protocol_table(o.protocol, e.scores, o.voxel));
     if (e.knowable) fmt::print("\n{}", table(*e.knowable));
     if (o.json) io::write_file(*o.json, text_of(to_json(e)));
@@ -177,12 +183,17 @@ void add_eval(Program& program) {
              "rules by which to score: voxel is this project's, strict FreeDOM's, benchmark "
              "DynamicMap_Benchmark's, mos "
              "SemanticKITTI-MOS'");
-    c.number("--min-range", o->ranges.min, {0.0, 1e6},
+    c.number("--min-range", o->part.min, {0.0, 1e6},
              "leave out points nearer to the sensor than this [m]");
-    c.number("--max-range", o->ranges.max, {0.0, 1e6},
+    c.number("--max-range", o->part.max, {0.0, 1e6},
              "leave out points farther from the sensor [m]");
+    const auto box = std::make_shared<std::string>();
+    c.text("--box", *box,
+           "two corners of a box in the world, X,Y,Z,X,Y,Z or X,Y,X,Y [m]: leave out points "
+           "outside");
     c.path("-o,--json", o->json, "also write all scores to this file");
-    c.action([o] {
+    c.action([o, box] {
+        o->part.box = box_of(*box);
         if (!o->labels && !o->map)
             throw ConfigError("give what is to be scored: --labels or --map");
         return evaluate(*o);

@@ -10,7 +10,7 @@
 #include "dynamic_filter/scores.hpp"
 #include "recording/data_options.hpp"
 #include "score/knowable_scores.hpp"
-#include "score/range_limits.hpp"
+#include "score/scored_part.hpp"
 
 namespace dynamic_filter::app {
 
@@ -18,7 +18,7 @@ struct EvalOptions {
     DataOptions truth;
     std::optional<std::filesystem::path> labels, map, json;
     double voxel = eval::kVoxelSize;
-    RangeLimits ranges;
+    ScoredPart part;
     std::string protocol = "all";  ///< of protocol_names()
 };
 

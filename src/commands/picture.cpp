@@ -5,6 +5,8 @@
 #include "commands/render.hpp"
 #include "draw/canvas.hpp"
 #include "dynamic_filter/cloud.hpp"
+#include "dynamic_filter/error.hpp"
+#include "export/part.hpp"
 #include "recording/scans.hpp"
 
 namespace dynamic_filter::app {
@@ -18,14 +20,24 @@ struct Maps {
     Points kept, removed;
 };
 
-Maps maps_of(const fs::path& in, bool clean) {
+io::Cloud read_part(const fs::path& file, const std::optional<Box>& box) {
+    io::Cloud cloud = io::read_cloud(file);
+    return box ? part_of(cloud, wanted_points(*box, cloud)) : cloud;
+}
+
+Maps maps_of(const RenderOptions& o) {
+    const fs::path& in = o.data.data;
     const bool is_run = fs::is_directory(in);
-    const io::Cloud kept = io::read_cloud(is_run ? in / "static_map.pcd" : in);
+    const std::optional<Box> box = box_of(o.box);
+    const io::Cloud kept = read_part(is_run ? in / "static_map.pcd" : in, box);
     const Eigen::Vector3d origin = origin_of(kept);
     Maps maps{positions_from(kept, origin), {}};
     std::erase_if(maps.kept, [](const Point& p) { return !p.allFinite(); });
-    if (is_run && !clean && fs::exists(in / "dynamic_points.pcd")) {
-        maps.removed = positions_from(io::read_cloud(in / "dynamic_points.pcd"), origin);
+    if (is_run && !o.clean && fs::exists(in / "dynamic_points.pcd")) {
+        maps.removed = positions_from(read_part(in / "dynamic_points.pcd", box), origin);
+    }
+    if (box && maps.kept.empty() && maps.removed.empty()) {
+        throw ConfigError("--box " + o.box + ": no point of " + in.string() + " lies there");
     }
     return maps;
 }
@@ -43,8 +55,6 @@ io::Image draw(const Maps& maps, const RenderOptions& o) {
 
 }  // namespace
 
-io::Image picture_of(const RenderOptions& options) {
-    return draw(maps_of(options.data.data, options.clean), options);
-}
+io::Image picture_of(const RenderOptions& options) { return draw(maps_of(options), options); }
 
 }  // namespace dynamic_filter::app

@@ -33,6 +33,7 @@ std::string extension_of(const fs::path& file) {
 int render(const RenderOptions& o) {
     const std::string extension = extension_of(o.output);
     if (extension == ".webp") {
+        if (!o.box.empty()) throw ConfigError("--box is for a picture, -o NAME.png");
         const Config config = load_config(o.config);
         io::Recording recording = open(o.data);
         ensure_poses(recording, config,
@@ -74,6 +75,10 @@ void add_render(Program& program) {
              "how far the camera looks down from the horizon [deg]")
         .excludes(above);
     c.number("--point-size", o->point_size, {0.5, 50.0}, "size of a point [pixels]");
+    c.text(
+        "--box", o->box,
+        "of a run or cloud: draw only what lies between two corners in the world, X,Y,Z,X,Y,Z or "
+        "X,Y,X,Y [m]");
     c.whole("--pictures", o->pictures, {2, 1000}, "number of pictures of an animation");
     add_reading_options(c, o->data);
     add_selection_options(c, o->data);

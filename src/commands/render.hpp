@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "recording/data_options.hpp"
 #include "settings/config_file.hpp"
@@ -15,6 +16,7 @@ struct RenderOptions {
     int width = 1600, height = 1000;
     double azimuth_deg = 60.0, elevation_deg = 35.0, point_size = 1.5;
     int pictures = 60;  ///< of an animation
+    std::string box;    ///< two corners in the world, as box_of() reads them; may be empty
     ConfigOptions config;
 };
 

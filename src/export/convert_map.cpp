@@ -17,7 +17,7 @@ const Output& checked_output(const ConvertOptions& o) {
     if (output == nullptr || output->of_map == nullptr) {
         throw ConfigError(o.data.data.string() +
                           ": is the map of several drives; choose what to make of it with " +
-                          outputs_of_maps());
+                          outputs_of_maps() + ", or name OUT as a cloud or an OctoMap");
     }
     if (o.labels) {
         throw ConfigError(

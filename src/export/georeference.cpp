@@ -107,7 +107,8 @@ std::vector<Eigen::Vector3d> Georeference::places(std::vector<Eigen::Vector3d> p
 }
 
 io::Cloud Georeference::cloud(const io::Cloud& in_world) const {
-    if (!in_world.crs.empty() && (in_world.crs != system_->wkt() || !origin_text_.empty())) {
+    const bool is_same = in_world.crs == system_->wkt() || in_world.crs == name_;
+    if (!in_world.crs.empty() && (!is_same || !origin_text_.empty())) {
         throw ConfigError("--crs " + name_ +
                           ": the cloud names a coordinate system already, and coordinates are not "
                           "turned from one into another; `pdal translate IN OUT reprojection "

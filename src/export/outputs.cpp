@@ -15,7 +15,8 @@ const std::vector<Output>& outputs() {
         {.name = "nav2",
          .files = &nav2_files(),
          .of_recording = make_nav2_sink,
-         .from_sensor = true},
+         .from_sensor = true,
+         .is_of_drives = true},
         {.name = "objects",
          .files = &object_files(),
          .of_recording = make_objects_sink,
@@ -29,6 +30,7 @@ const std::vector<Output>& outputs() {
         {.name = "OctoMap",
          .of_recording = make_octomap_sink,
          .from_sensor = true,
+         .is_of_drives = true,
          .extensions = {".bt", ".ot"}}};
     return rows;
 }
@@ -59,7 +61,8 @@ const Output* chosen_output(const ConvertOptions& o) {
 std::string outputs_of_maps() {
     std::vector<std::string> names;
     for (const Output& output : outputs()) {
-        if (output.of_map != nullptr) names.push_back("--to " + output.name);
+        if (output.extensions.empty() && (output.of_map != nullptr || output.is_of_drives))
+            names.push_back("--to " + output.name);
     }
     std::string text = names.front();
     for (std::size_t i = 1; i < names.size(); ++i) {

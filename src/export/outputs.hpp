@@ -36,6 +36,8 @@ struct Output {
     bool from_sensor = false;
     /// True: it writes something for each point of the recording, so no part of it will do.
     bool of_whole_scans = false;
+    /// True: it can be made of all drives of a map.
+    bool is_of_drives = false;
     std::vector<std::string> extensions{};  ///< of a file, such as ".bt"; --to does not name it
 
     /// As messages name it: "--to 3dtiles".

@@ -69,6 +69,14 @@ void Survey::add_beams(const Points& points, const Pose& T_world_sensor) {
     looks_.push_back(look_of(to_map(T_world_sensor).cast<float>(), points));
 }
 
+Ground Survey::ground(const Robot& robot) const {
+    const std::vector<Surface> surfaces = columns_.surfaces();
+    const Area area = area_of(surfaces);
+    Floor floor =
+        reached_floor(surfaces, area, static_cast<float>(cell_), path_, robot, /*storey=*/0);
+    return {origin_, cell_, area, std::move(floor.height)};
+}
+
 void Survey::add(const Points& points, const Labels& labels, const Pose& T_world_sensor,
                  double stamp) {
     add_surfaces(points, labels, T_world_sensor);

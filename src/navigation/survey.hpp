@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "navigation/columns.hpp"
+#include "navigation/ground.hpp"
 #include "navigation/look_chooser.hpp"
 #include "navigation/navigation_map.hpp"
 
@@ -29,6 +30,8 @@ public:
     [[nodiscard]] NavigationMap map(const Robot& robot, int storey) const {
         return navigation_map(columns_, path_, looks_, robot, storey);
     }
+    /// The floor alone, for which beams are of no use.
+    [[nodiscard]] Ground ground(const Robot& robot) const;
     /// The corner of cell (0, 0) in the world [m].
     [[nodiscard]] const Eigen::Vector3d& origin() const { return origin_; }
     [[nodiscard]] double cell() const { return cell_; }

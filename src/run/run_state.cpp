@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <sstream>
+
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
 #include "run/placed.hpp"
@@ -14,6 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kComplete = "complete\n";
+constexpr std::string_view kInputLine = "input ";  // begins the line of a recording
 
 }  // namespace
 
@@ -57,9 +60,19 @@ std::string state_of(const io::Recording& recording) {
     const Eigen::Vector3d at = recording.info().sensor_at.value_or(Eigen::Vector3d::Zero());
     const std::string sensor =
         at.isZero() ? "" : fmt::format("sensor at {} {} {}\n", at.x(), at.y(), at.z());
-    return fmt::format("input {}\n{}{}\n",
+    return fmt::format("{}{}\n{}{}\n", kInputLine,
                        fs::absolute(recording.info().root).lexically_normal().string(), sensor,
                        scans_text(recording));
+}
+
+std::vector<fs::path> recordings_of_run(const fs::path& folder) {
+    if (!fs::exists(folder / kRunState)) return {};
+    std::istringstream lines(io::read_file(folder / kRunState));
+    std::vector<fs::path> recordings;
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with(kInputLine)) recordings.emplace_back(line.substr(kInputLine.size()));
+    }
+    return recordings;
 }
 
 void refuse_foreign_labels(const fs::path& folder) {

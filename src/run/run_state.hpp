@@ -5,6 +5,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/output_folder.hpp"
 #include "dynamic_filter/recording.hpp"
@@ -18,6 +19,9 @@ const FolderFiles& result_files();
 std::string scans_text(const io::Recording& recording);
 /// The recording: where it is, its scans and their size.
 std::string state_of(const io::Recording& recording);
+
+/// Where the recordings of the run in the folder are, in its order; empty if it does not tell.
+std::vector<std::filesystem::path> recordings_of_run(const std::filesystem::path& folder);
 
 /// Throws ConfigError if the folder holds labels that no run left: they may be somebody's ground
 /// truth, so they must not be overwritten.

@@ -25,12 +25,14 @@ void refuse_other_count(const io::Recording& recording, std::size_t i, std::size
 }  // namespace
 
 eval::LabelledScan labelled(const io::FullScan& full, const Eigen::Vector3d& origin,
-                            const RangeLimits& limits) {
+                            const ScoredPart& part) {
     eval::LabelledScan scan{shifted_world(full, origin), full.truth, {}};
     for (std::size_t p = 0; p < full.points.size(); ++p) {
-        const double range = full.points[p].cast<double>().norm();
-        const bool is_scored =
-            is_measured(full.points[p]) && range >= limits.min && range <= limits.max;
+        const Eigen::Vector3d point = full.points[p].cast<double>();
+        const double range = point.norm();
+        const bool is_scored = is_measured(full.points[p]) && range >= part.min &&
+                               range <= part.max &&
+                               (!part.box || part.box->contains(full.T_world_sensor * point));
         if (!is_scored) scan.truth[p] = Label::unknown;
     }
     return scan;
@@ -38,13 +40,13 @@ eval::LabelledScan labelled(const io::FullScan& full, const Eigen::Vector3d& ori
 
 eval::ScanSource scan_source(const io::Recording& recording, const Eigen::Vector3d& origin,
                              std::function<std::optional<Labels>(std::size_t)> labels_of,
-                             const RangeLimits& limits) {
-    return [&recording, origin, limits,
+                             const ScoredPart& part) {
+    return [&recording, origin, part,
             labels_of = std::move(labels_of)](std::size_t i) -> std::optional<eval::LabelledScan> {
         try {
             const io::FullScan full = recording.read(i);
             if (full.truth.empty()) return std::nullopt;
-            eval::LabelledScan scan = labelled(full, origin, limits);
+            eval::LabelledScan scan = labelled(full, origin, part);
             if (labels_of) {
                 auto labels = labels_of(i);
                 if (!labels) return std::nullopt;

@@ -376,6 +376,10 @@ TEST_F(Command, EvalScoresWithinTheRangeAskedFor) {
     const auto near = scores(" --max-range 8");
     expect_said("scored are points from 0 m to 8 m of the sensor");
     EXPECT_NE(near["point"], all["point"]);
+    const auto boxed = scores(" --box=-5,-5,5,5"), everywhere = scores(" --box=-1e4,-1e4,1e4,1e4");
+    EXPECT_NE(boxed["point"], all["point"]);
+    EXPECT_EQ(everywhere, all);
+    expect_said("scored are points within the box");
     // Nothing is nearer than the sensor's own body: no voxel of either kind, so no score.
     EXPECT_TRUE(scores(" --max-range 0.01")["point"]["sa"].is_null());
     EXPECT_EQ(run(eval + " --min-range 5 --max-range 5"), 2);
@@ -986,6 +990,58 @@ TEST_F(Command, ConvertTakesAPart) {
     ASSERT_EQ(run("info part"), 0) << "is a recording again";
 }
 
+TEST_F(Command, ConvertWritesAllDrivesOfAMap) {
+    fs::copy(recording(), folder_ / "monday", fs::copy_options::recursive);
+    fs::copy(recording(), folder_ / "tuesday", fs::copy_options::recursive);
+    run("run monday tuesday -o both --no-report --set map.keep_unknown=false");
+    ASSERT_TRUE(fs::exists(folder_ / "both/map/index.json")) << said();
+    ASSERT_EQ(run("convert both still.pcd --only static"), 0) << said();
+    const auto points_of = [&](const char* file) { return io::read_cloud(folder_ / file).size(); };
+    EXPECT_EQ(points_of("still.pcd"), points_of("both/drives/monday/static_map.pcd") +
+                                          points_of("both/drives/tuesday/static_map.pcd"));
+    ASSERT_EQ(run("convert both navigation --to nav2"), 0) << said();
+    ASSERT_EQ(run("convert both map.bt --cell 0.2"), 0) << said();
+    EXPECT_EQ(run("convert both x.bag"), 2);
+    expect_said("is the map of several drives");
+    EXPECT_EQ(run("convert both x.pcd --labels both"), 2);
+    expect_said("--labels is for one recording");
+    fs::rename(folder_ / "tuesday", folder_ / "wednesday");
+    EXPECT_EQ(run("convert both x.pcd"), 3);
+    expect_said("is not there any more; the run in");
+    fs::rename(folder_ / "both/map", folder_ / "map");
+    EXPECT_EQ(run("convert map x.pcd"), 3);
+    expect_said("is not the whole output folder of a run");
+    EXPECT_FALSE(fs::exists(folder_ / "x.pcd"));
+}
+
+TEST_F(Command, ConvertAddsNormalsAndClasses) {
+    const std::string data = recording().string();
+    ASSERT_EQ(run("run " + data + " -o out --no-report"), 0) << said();
+    ASSERT_EQ(run("convert " + data +
+                  " map.ply --labels out --normals --ground --moving-class 18 --thin 0.2"),
+              0)
+        << said();
+    const io::Cloud map = io::read_cloud(folder_ / "map.ply");
+    const auto column = [&](const char* name) { return io::values(map, *map.find(name)); };
+    const auto nx = column("nx"), ny = column("ny"), nz = column("nz"), z = column("z");
+    const auto kind = column("classification"), moves = column("dynamic");
+    std::size_t ground = 0, upright = 0;
+    for (std::size_t i = 0; i < map.size(); ++i) {
+        const double length = std::sqrt(nx[i] * nx[i] + ny[i] * ny[i] + nz[i] * nz[i]);
+        EXPECT_TRUE(length == 0.0 || std::abs(length - 1.0) < 1e-4);
+        EXPECT_EQ(moves[i] == 1.0, kind[i] == 18.0);
+        if (kind[i] != 2.0) continue;
+        EXPECT_LT(std::abs(z[i]), 0.3);
+        ++ground;
+        upright += nz[i] > 0.9 ? 1 : 0;
+    }
+    EXPECT_GT(ground, map.size() / 20);
+    EXPECT_GT(upright, ground * 8 / 10);
+    EXPECT_EQ(run("convert map.ply x.las --ground"), 2);
+    expect_said("are for a recording that is written as one cloud");
+    EXPECT_EQ(run("convert " + data + " x --normals"), 2);
+}
+
 TEST_F(Command, ConvertRefusesAPartThatIsNone) {
     const std::string data = recording().string();
     for (const auto& [options, what] : std::vector<std::pair<const char*, const char*>>{
@@ -1090,7 +1146,7 @@ TEST_F(Command, TheMapOfSeveralDrivesIsConverted) {
 TEST_F(Command, OptionsForTheMapOfSeveralDrivesAreChecked) {
     app::write_sample_map(folder_ / "city");
     EXPECT_EQ(run("convert city x"), 2);
-    expect_said("--to 3dtiles, --to las or --to autoware");
+    expect_said("--to nav2, --to 3dtiles, --to las or --to autoware");
     EXPECT_EQ(run("convert city x --to las --origin 1,2"), 2);
     expect_said("--to las needs --crs");
     EXPECT_EQ(run("convert city x --to las --box 0,0,1,1"), 2);

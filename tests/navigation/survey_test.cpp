@@ -50,6 +50,20 @@ TEST(Survey, WhatMovesIsNoObstacleAndWhatStandsIs) {
     EXPECT_EQ(room.at(survey, map, 0.0, 9.0), Passage::unknown);
 }
 
+TEST(Survey, GroundIsNearTheFloorThatIsReached) {
+    const Room room;
+    Survey survey(0.1);
+    survey.add_surfaces(room.points, room.labels, room.T_world_sensor);
+    const Ground ground = survey.ground({.height = 1.0F, .step = 0.3F});
+    const auto is_ground = [&](double x, double y, double z) {
+        return ground.is_near(room.T_world_sensor * Eigen::Vector3d(x, y, z), 0.1);
+    };
+    EXPECT_TRUE(is_ground(3.0, 2.0, -1.05));
+    EXPECT_FALSE(is_ground(3.0, 2.0, -0.85)) << "above it";
+    EXPECT_FALSE(is_ground(-3.05, 0.0, -0.5)) << "what stands";
+    EXPECT_FALSE(is_ground(9.0, 0.0, -1.0)) << "not seen";
+}
+
 TEST(Survey, ThePlaceOfTheWorldDoesNotMatter) {
     Room far, near;
     near.T_world_sensor =

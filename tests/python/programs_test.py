@@ -57,6 +57,11 @@ class Programs(unittest.TestCase):
         self.assertRaises(TypeError, df.convert, recording(), scratch("x.pcd"), thinn=1.0)
         self.assertFalse(os.path.exists(scratch("x.pcd")))
 
+    def test_diff_refuses_a_date_twice(self):
+        with self.assertRaisesRegex(df.ConfigError, "is a drive of both runs"):
+            df.diff(self.result["output"], self.result["output"], scratch("changes"))
+        self.assertFalse(os.path.exists(scratch("changes")))
+
     def test_simulate_gives_what_the_command_gives(self):
         folder = scratch("simulated")
         subprocess.run([COMMAND, "simulate", "crowd", "-o", folder, "--frames", str(SCANS)],

@@ -7,11 +7,11 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 COVERED = {  # test -> the units that it covers
-    "commands/command_test.cpp": "commands/check commands/cleaning commands/compare commands/config commands/convert "
+    "commands/command_test.cpp": "commands/check commands/cleaning commands/compare commands/config commands/convert commands/convert_recording "
         "commands/demo commands/evaluate commands/info commands/main commands/odometry commands/options commands/picture commands/render commands/run "
         "commands/serve commands/shared_options commands/simulate draw/animation draw/canvas export/bag export/benchmark "
         "export/convert_map export/kitti export/nav2 export/objects export/octomap export/one_cloud export/outputs export/sink recording/scans "
-        "recording/world_records run/run run/filter_whole run/run_state run/scored_scans run/summary run/write_scans",
+        "recording/world_records run/drives_of_result run/run run/filter_whole run/run_state run/scored_scans run/summary run/write_scans",
     "export/crs_test.sh": "export/crs/plugin",
     "export/part_test.cpp": "export/places",
     "navigation/navigation_map_test.cpp": "navigation/floor navigation/surface_map",
@@ -39,6 +39,7 @@ COVERED = {  # test -> the units that it covers
     "sim/scene_city_test.cpp": "sim/city sim/city_block sim/city_library",
     "sim/scene_jam_test.cpp": "sim/jam_people sim/jam_traffic",
     "sim/scene_platform_test.cpp": "sim/platform_people sim/wagon",
+    "upkeep/diff_test.sh": "commands/diff upkeep/diff",
     "viewer/edit_checks.mjs": "commands/edit_server",
     "viewer/live_checks.mjs": "page/live_view",
 }

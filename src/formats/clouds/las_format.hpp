@@ -16,7 +16,11 @@ constexpr std::size_t las_extra_bytes = 192;  ///< of one entry of the Extra Byt
 constexpr std::string_view las_spec = "LASF_Spec";
 constexpr std::uint16_t las_extra_id = 4;
 constexpr std::string_view las_projection = "LASF_Projection";
-constexpr std::uint16_t las_wkt_id = 2112;
+constexpr std::uint16_t las_wkt_id = 2112, las_geo_keys_id = 34735;
+/// The key of the record of GeoTIFF keys that holds the EPSG code of a projected system.
+constexpr std::uint16_t las_projected_system_key = 3072;
+/// Cloud::crs of a file that names its system by GeoTIFF keys begins so.
+constexpr std::string_view las_epsg = "EPSG:";
 
 /// Bits of the header's global encoding.
 constexpr std::uint16_t las_adjusted_time_bit = 1, las_wkt_bit = 16;

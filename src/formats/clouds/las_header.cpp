@@ -175,11 +175,32 @@ private:
             reader.read(32);
             const auto record = reader.read(length);
             if (id == las_extra_id && user == las_spec) at = add_extra_fields(record, at);
+            if (id == las_geo_keys_id && user == las_projection && header_.crs.empty()) {
+                header_.crs = system_of_keys(ByteReader(record));
+            }
             if (id == las_wkt_id && user == las_projection) {
                 const std::string_view wkt = ByteReader(record).text(record.size());
                 header_.crs = wkt.substr(0, wkt.find('\0'));
             }
         }
+    }
+
+    /// "EPSG:32633" if the GeoTIFF keys name a projected system by its code; else empty.
+    static std::string system_of_keys(ByteReader keys) {
+        constexpr std::size_t entry_bytes = 8;
+        constexpr std::uint16_t user_defined = 32767;
+        if (keys.left() < entry_bytes) return "";
+        keys.read(entry_bytes);  // versions, number of keys
+        while (keys.left() >= entry_bytes) {
+            const auto key = keys.number<std::uint16_t>(), place = keys.number<std::uint16_t>();
+            keys.read(sizeof(std::uint16_t));  // number of values
+            const auto value = keys.number<std::uint16_t>();
+            const bool is_here = key == las_projected_system_key && place == 0;
+            if (is_here && value != 0 && value != user_defined) {
+                return fmt::format("{}{}", las_epsg, value);
+            }
+        }
+        return "";
     }
 
     /// Adds the fields that begin `at` this byte of a point; returns where they end. Those beyond

@@ -299,7 +299,7 @@ private:
 VariableRecords variable_records(const Cloud& cloud, const std::vector<Placed>& placed,
                                  const std::filesystem::path& path) {
     VariableRecords records;
-    if (!cloud.crs.empty()) {
+    if (!cloud.crs.empty() && !cloud.crs.starts_with(las_epsg)) {
         const auto wkt = std::as_bytes(std::span(cloud.crs.c_str(), cloud.crs.size() + 1));
         if (wkt.size() > most_u16) {
             throw OutputError(path,
@@ -359,7 +359,13 @@ Written write_las(const std::filesystem::path& path, const Cloud& cloud) {
     file.write(records);
     file.commit();
     const std::size_t lost = cloud.size() - points.size();
-    const std::string rounded = "coordinates are rounded to 1 mm" + intensity.note();
+    std::string rounded = "coordinates are rounded to 1 mm" + intensity.note();
+    if (cloud.crs.starts_with(las_epsg)) {
+        rounded += fmt::format(
+            "; the coordinate system {} is left out, because it is given by GeoTIFF keys, and LAS "
+            "1.4 wants WKT (`dynamicfilter convert --crs {}` writes that)",
+            cloud.crs, cloud.crs);
+    }
     if (lost == 0) return {points.size(), rounded};
     return {points.size(),
             rounded + fmt::format("; {} points that are not finite are left out", lost)};

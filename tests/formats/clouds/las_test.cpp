@@ -228,6 +228,26 @@ TEST_F(Las, KeepsTheCoordinateSystemAndWhatTimesCountFrom) {
     EXPECT_HAS(error_of<OutputError>([&] { write_las(folder_ / "v.las", cloud); }), "65,535");
 }
 
+TEST_F(Las, GeoTiffKeysNameASystemByItsCode) {
+    const auto file_of = [&](std::uint16_t code, std::uint16_t place = 0) {
+        // Versions and number of keys; the type of the model; the projected system.
+        const std::vector<std::uint16_t> numbers = {1, 1, 0,    2,     1024, 0,
+                                                    1, 1, 3072, place, 1,    code};
+        std::string keys;
+        for (const std::uint16_t number : numbers) keys += bytes_of(number);
+        const std::string record =
+            std::string(2, '\0') + filled("LASF_Projection", 16) + bytes_of(std::uint16_t{34735}) +
+            bytes_of(static_cast<std::uint16_t>(keys.size())) + std::string(32, '\0') + keys;
+        return header(0, 20, 1, record, 1) + old_point(0);
+    };
+    const Cloud cloud = read(file_of(25832));
+    EXPECT_EQ(cloud.crs, "EPSG:25832");
+    EXPECT_HAS(write_las(folder_ / "w.las", cloud).loss, "--crs EPSG:25832");
+    EXPECT_EQ(read_las(folder_ / "w.las").crs, "") << "a code is no WKT";
+    EXPECT_EQ(read(file_of(32767)).crs, "") << "user-defined";
+    EXPECT_EQ(read(file_of(25832, 34736)).crs, "") << "not in this record";
+}
+
 /// The standard intensities and classes, as a reader without Extra Bytes sees them.
 std::pair<Numbers, Numbers> shown_by_others(const std::string& bytes) {
     std::uint32_t begin = 0;

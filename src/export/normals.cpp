@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include "export/normals.hpp"
+
+#include <cstring>
+#include <span>
+
+#include "dynamic_filter/parallel.hpp"
+#include "geometry/neighbor_grid.hpp"
+#include "geometry/principal_axes.hpp"
+#include "recording/scans.hpp"
+
+namespace dynamic_filter::app {
+
+std::array<std::string, 3> normal_names(const std::filesystem::path& file) {
+    if (file.extension() == ".ply") return {"nx", "ny", "nz"};
+    return {"normal_x", "normal_y", "normal_z"};
+}
+
+void fit_normals(io::Cloud& cloud, const std::array<std::string, 3>& names, double radius) {
+    constexpr std::size_t kNeighbors = 20, kGrain = 256;
+    const Points points = positions_from(cloud, origin_of(cloud));
+    const NeighborGrid grid(points, static_cast<float>(radius));
+    std::array<std::size_t, 3> offsets{};
+    for (std::size_t axis = 0; axis < 3; ++axis) offsets[axis] = cloud.find(names[axis])->offset;
+    parallel_for(points.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+        std::vector<Neighbor> neighbors;
+        for (std::size_t i = begin; i < end; ++i) {
+            grid.nearest(points[i], kNeighbors, neighbors);
+            Moments moments{.origin = points[i]};
+            for (const Neighbor& neighbor : neighbors) moments.add(grid.point(neighbor.index));
+            Eigen::Vector3f normal =
+                smallest_axis(moments).value_or(Eigen::Vector3d::Zero()).cast<float>();
+            std::byte* const record = cloud.data.data() + i * cloud.point_bytes;
+            Eigen::Vector3f to_sensor;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                std::memcpy(to_sensor.data() + axis, record + offsets[axis], sizeof(float));
+            }
+            if (normal.dot(to_sensor) < 0.0F) normal = -normal;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                std::memcpy(record + offsets[axis], normal.data() + axis, sizeof(float));
+            }
+        }
+    });
+}
+
+}  // namespace dynamic_filter::app

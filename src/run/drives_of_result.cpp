@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "run/drives_of_result.hpp"
+
+#include <fmt/format.h>
+
+#include "dynamic_filter/error.hpp"
+#include "formats/label_files.hpp"
+#include "formats/voxel_map/map_index.hpp"
+#include "recording/scans.hpp"
+#include "run/run_state.hpp"
+
+namespace fs = std::filesystem;
+
+namespace dynamic_filter::app {
+
+std::vector<DriveOfResult> drives_of_result(const fs::path& result) {
+    const bool is_tiled = is_tiled_map(result);
+    const fs::path map = is_tiled ? map_folder_of(result) : result / "";
+    const fs::path folder = fs::absolute(map).lexically_normal().parent_path();
+    const std::vector<fs::path> recordings = recordings_of_run(folder);
+    std::vector<DriveOfResult> drives;
+    if (!is_tiled && recordings.size() == 1) {
+        drives.push_back({folder.filename().string(), recordings.front(), folder});
+    } else if (is_tiled) {
+        for (const MapDrive& drive : read_map_index(map).drives) {
+            const std::size_t i = drives.size();
+            if (i >= recordings.size()) break;
+            drives.push_back({drive.name, recordings[i], folder / "drives" / drive.name});
+        }
+    }
+    if (drives.empty() || drives.size() != recordings.size()) {
+        throw InputError(result, "",
+                         "is not the whole output folder of a run: the file .run in it tells where "
+                         "the recordings are");
+    }
+    for (const DriveOfResult& drive : drives) {
+        if (fs::exists(drive.recording)) continue;
+        throw InputError(drive.recording, "",
+                         "is not there any more; the run in " + folder.string() + " read it");
+    }
+    return drives;
+}
+
+Labels labels_of_scan(const fs::path& folder, const io::Recording& recording, std::size_t i,
+                      std::size_t points) {
+    const std::string stem = io::stem(recording, i);
+    const fs::path labels_folder = io::label_folder(folder);
+    Labels labels = io::read_labels(io::label_file(labels_folder, stem));
+    if (labels.size() == points) return labels;
+    throw ConfigError(
+        fmt::format("{}: {} labels for the {} points of scan {}; are they of another recording?",
+                    labels_folder.string(), labels.size(), points, stem));
+}
+
+}  // namespace dynamic_filter::app

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+/// The recordings of a result, with the folders of their labels.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "dynamic_filter/recording.hpp"
+
+namespace dynamic_filter::app {
+
+struct DriveOfResult {
+    std::string name;
+    std::filesystem::path recording;  ///< where the run found it
+    std::filesystem::path folder;     ///< of its labels, maps and recording.json
+};
+
+/// `result`: the output folder of a run over one recording or several, or the map in it. Throws
+/// InputError if it is none, or if a recording is not there any more.
+std::vector<DriveOfResult> drives_of_result(const std::filesystem::path& result);
+
+/// The labels of scan i, of which the recording has `points`. Throws InputError, and ConfigError if
+/// they are of another number of points.
+Labels labels_of_scan(const std::filesystem::path& folder, const io::Recording& recording,
+                      std::size_t i, std::size_t points);
+
+}  // namespace dynamic_filter::app

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include "upkeep/changes.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "dynamic_filter/error.hpp"
+#include "export/objects/pieces.hpp"
+#include "recording/world_records.hpp"
+
+namespace dynamic_filter::app {
+
+namespace {
+
+constexpr double kTouching = 0.3;    // [m]
+constexpr double kVoxel = 0.2;       // [m]
+// What passes by is in a voxel for a few scans; what is in it for more may rest, whatever its label.
+constexpr std::uint32_t kScansAtRest = 10;
+constexpr double kMostAtRest = 0.5;  // share of the voxels; another car may stand in the same place
+// What is smaller, was seen for a moment, or is so far away that few points of a scan hit it, may as
+// well be an error of the poses or a beam that grazes an edge. Chosen on the city with seed 1.
+constexpr std::size_t kLeastPoints = 200, kLeastScans = 3, kLeastPointsOfScan = 5;
+
+Change change_of(Piece piece, const std::vector<std::uint32_t>& scans,
+                 const std::vector<double>& stamps) {
+    std::set<std::uint32_t> seen_in;
+    for (const std::uint32_t i : piece.points) seen_in.insert(scans[i]);
+    return {piece.box,
+            piece.points.size(),
+            seen_in.size(),
+            stamps[*seen_in.begin()],
+            stamps[*seen_in.rbegin()],
+            std::move(piece.points)};
+}
+
+}  // namespace
+
+void ChangedPoints::add(const io::FullScan& scan, const Labels& alone, const Labels& together) {
+    if (layout_.fields.empty()) layout_ = layout_of(scan, false);
+    const auto number = static_cast<std::uint32_t>(stamps_.size());
+    std::vector<std::uint32_t> changed;
+    for (std::uint32_t i = 0; i < scan.points.size(); ++i) {
+        if (alone[i] == Label::unknown || !is_measured(scan.points[i])) continue;
+        const Eigen::Vector3d place = scan.T_world_sensor * scan.points[i].cast<double>();
+        if (alone[i] == Label::dynamic) {
+            Times& times = dynamic_[world_voxel(place, kVoxel)];
+            if (times.last_scan != number) times = {number, times.scans + 1};
+            continue;
+        }
+        static_.insert(world_voxel(place, kVoxel));
+        if (together[i] != Label::dynamic) continue;
+        changed.push_back(i);
+        places_.push_back(place);
+    }
+    scans_.resize(places_.size(), number);
+    stamps_.push_back(scan.stamp);
+    const auto records = world_records(scan, layout_, changed);
+    records_.insert(records_.end(), records.begin(), records.end());
+}
+
+bool ChangedPoints::is_at_rest(const WorldVoxel& voxel) const {
+    if (static_.contains(voxel)) return true;
+    const auto found = dynamic_.find(voxel);
+    return found != dynamic_.end() && found->second.scans >= kScansAtRest;
+}
+
+double ChangedPoints::share_at_rest(const std::vector<std::uint32_t>& points,
+                                    const ChangedPoints& other_date) const {
+    std::set<WorldVoxel> voxels;
+    for (const std::uint32_t i : points) voxels.insert(world_voxel(places_[i], kVoxel));
+    const auto count = std::count_if(voxels.begin(), voxels.end(), [&](const WorldVoxel& voxel) {
+        return other_date.is_at_rest(voxel);
+    });
+    return static_cast<double>(count) / static_cast<double>(voxels.size());
+}
+
+std::vector<Change> ChangedPoints::changes(const ChangedPoints& other_date) const {
+    std::vector<Change> changes;
+    for (Piece& piece : pieces_of(places_, kTouching)) {
+        if (piece.points.size() < kLeastPoints) continue;
+        if (share_at_rest(piece.points, other_date) > kMostAtRest) continue;
+        Change change = change_of(std::move(piece), scans_, stamps_);
+        const bool is_far = change.points < kLeastPointsOfScan * change.scans;
+        if (change.scans >= kLeastScans && !is_far) changes.push_back(std::move(change));
+    }
+    std::stable_sort(changes.begin(), changes.end(),
+                     [](const Change& a, const Change& b) { return a.points > b.points; });
+    return changes;
+}
+
+io::Cloud ChangedPoints::cloud(const std::vector<Change>& changes) const {
+    io::Cloud cloud;
+    cloud.fields = layout_.fields;
+    cloud.point_bytes = layout_.point_bytes;
+    if (cloud.fields.empty()) {  // no scan
+        for (const char* axis : {"x", "y", "z"}) io::add_field(cloud, axis, io::FieldType::f32);
+    }
+    constexpr const char* kNumber = "change";
+    if (cloud.find(kNumber) != nullptr) {
+        throw ConfigError("the scans have a field `change`, which clouds of changes have, too");
+    }
+    io::add_field(cloud, kNumber, io::FieldType::u32);
+    std::uint32_t number = 0;
+    for (const Change& change : changes) {
+        ++number;
+        const auto bytes = std::as_bytes(std::span(&number, 1));
+        for (const std::uint32_t i : change.cloud) {
+            const auto record = records_.begin() +
+                                static_cast<std::ptrdiff_t>(std::size_t{i} * layout_.point_bytes);
+            cloud.data.insert(cloud.data.end(), record,
+                              record + static_cast<std::ptrdiff_t>(layout_.point_bytes));
+            cloud.data.insert(cloud.data.end(), bytes.begin(), bytes.end());
+        }
+    }
+    return cloud;
+}
+
+}  // namespace dynamic_filter::app

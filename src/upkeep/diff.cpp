@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: MIT
+#include "upkeep/diff.hpp"
+
+#include <fmt/format.h>
+
+#include <numeric>
+
+#include "base/exit_code.hpp"
+#include "base/output_folder.hpp"
+#include "base/progress.hpp"
+#include "draw/canvas.hpp"
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/file.hpp"
+#include "dynamic_filter/writers.hpp"
+#include "geometry/pose.hpp"
+#include "page/sampling.hpp"
+#include "recording/scans.hpp"
+#include "run/data_json.hpp"
+#include "run/drives_of_result.hpp"
+#include "run/open_for_result.hpp"
+#include "run/placed.hpp"
+#include "upkeep/changes_page.hpp"
+
+namespace fs = std::filesystem;
+
+namespace dynamic_filter::app {
+
+namespace {
+
+const FolderFiles& diff_files() {
+    static const FolderFiles files{.files = {"came.pcd", "went.pcd", "unseen.pcd", "changes.csv",
+                                             "changes.json", "index.html", "old.png", "new.png"}};
+    return files;
+}
+
+/// The drives of one date.
+struct Date {
+    fs::path run;
+    std::vector<DriveOfResult> drives;
+    std::vector<Placed> placed;  ///< parallel
+};
+
+Date date_of(const fs::path& run) {
+    Date date{run, drives_of_result(run), {}};
+    for (const DriveOfResult& drive : date.drives) {
+        const auto placed = read_placed(drive.folder);
+        if (!placed) throw InputError(drive.folder, "", "has no recording.json; is it of a run?");
+        date.placed.push_back(*placed);
+    }
+    return date;
+}
+
+/// How all drives are to be read. Throws ConfigError if their runs read them in different ways.
+DataOptions reading_of(const std::vector<const Date*>& dates) {
+    const auto text_of_reading = [](DataOptions how) {
+        how.poses.reset();  // each drive has its own
+        how.deskew = "auto";
+        return json_of(how).dump();
+    };
+    const DataOptions how = dates.front()->placed.front().how;
+    for (const Date* date : dates) {
+        for (std::size_t i = 0; i < date->drives.size(); ++i) {
+            if (text_of_reading(date->placed[i].how) == text_of_reading(how)) continue;
+            throw ConfigError(fmt::format(
+                "{} was read with other options than {}, so the two cannot be read together; run "
+                "both with the same ones",
+                date->drives[i].folder.string(), dates.front()->drives.front().folder.string()));
+        }
+    }
+    DataOptions common = how;
+    common.poses.reset();
+    common.deskew = "auto";
+    return common;
+}
+
+/// A list for `run`: a recording a line, with the poses that its run had where they are not its
+/// own.
+std::string list_of(const std::vector<const Date*>& dates) {
+    std::string text;
+    for (const Date* date : dates) {
+        for (std::size_t i = 0; i < date->drives.size(); ++i) {
+            const DriveOfResult& drive = date->drives[i];
+            const bool has_found_poses = !date->placed[i].tracked.empty();
+            text += drive.recording.string();
+            if (has_found_poses) {
+                text += "\t" + fs::absolute(drive.folder / "poses.txt").string();
+            } else if (date->placed[i].how.poses) {
+                text += "\t" + date->placed[i].how.poses->string();
+            }
+            text += "\n";
+        }
+    }
+    return text;
+}
+
+void refuse_same_drive(const Date& one, const Date& other) {
+    for (const DriveOfResult& a : one.drives) {
+        for (const DriveOfResult& b : other.drives) {
+            if (!fs::equivalent(a.recording, b.recording)) continue;
+            throw ConfigError(a.recording.string() +
+                              " is a drive of both runs; a date cannot be compared with itself");
+        }
+    }
+}
+
+constexpr double kDrawn = 1.5e6;  // points of a picture
+
+/// What rests at a date, and what of it is away at the other.
+struct DatePoints {
+    ChangedPoints changed;
+    Points drawn;  ///< a sample of what rests at both, from the common origin
+};
+
+/// False if the user interrupted.
+bool collect(const Date& date, const std::vector<DriveOfResult>& together,
+             std::optional<Eigen::Vector3d>& origin, bool quiet, DatePoints& points) {
+    for (std::size_t d = 0; d < date.drives.size(); ++d) {
+        DataOptions how = date.placed[d].how;
+        how.data = date.drives[d].recording;
+        const io::Recording recording = open_for_result(how, together[d].folder).recording;
+        std::vector<std::size_t> scans(recording.size());
+        std::iota(scans.begin(), scans.end(), std::size_t{0});
+        Progress progress("compare", scans.size(), quiet);
+        for_each_scan(recording, scans, {}, [&](std::size_t i, MaybeScan& maybe) {
+            progress.advance();
+            if (interrupted()) return false;
+            if (!maybe.scan) return true;  // the run has said so
+            const io::FullScan& scan = *maybe.scan;
+            const auto labels_in = [&](const fs::path& folder) {
+                return labels_of_scan(folder, recording, i, scan.points.size());
+            };
+            const Labels both = labels_in(together[d].folder);
+            points.changed.add(scan, labels_in(date.drives[d].folder), both);
+            if (!origin) origin = nearby_origin(scan.T_world_sensor, 1.0);
+            const double share = kDrawn / static_cast<double>(scan.points.size()) /
+                                 static_cast<double>(scans.size() * date.drives.size());
+            Pose T_picture_sensor = scan.T_world_sensor;
+            T_picture_sensor.pretranslate(-*origin);
+            for (std::size_t p = 0; p < scan.points.size(); ++p) {
+                if (both[p] != Label::static_ || !is_sampled(i, p, share)) continue;
+                if (!is_measured(scan.points[p])) continue;
+                points.drawn.push_back(
+                    (T_picture_sensor * scan.points[p].cast<double>()).cast<float>());
+            }
+            return true;
+        });
+        if (interrupted()) return false;
+    }
+    return true;
+}
+
+void write_pictures(const fs::path& folder, const DatePoints& of_old, const DatePoints& of_new,
+                    const io::Cloud& went, const io::Cloud& came, const Eigen::Vector3d& origin) {
+    Points all = of_old.drawn;
+    all.insert(all.end(), of_new.drawn.begin(), of_new.drawn.end());
+    constexpr float kOutermost = 0.005F;
+    const Eigen::AlignedBox3f box = box_of(all, kOutermost);
+    io::write_png(folder / "old.png", date_from_above(of_old.drawn, positions_from(went, origin),
+                                                      box, kRemovedColor));
+    io::write_png(folder / "new.png", date_from_above(of_new.drawn, positions_from(came, origin),
+                                                      box, kCameColor));
+}
+
+}  // namespace
+
+int diff(const DiffOptions& o) {
+    const Date old_date = date_of(o.old_run), new_date = date_of(o.new_run);
+    refuse_same_drive(old_date, new_date);
+    const std::vector<const Date*> dates = {&old_date, &new_date};
+    OutputFolder output(o.output, diff_files(), replaced_if(o.overwrite));
+
+    // Beside the output, so that a killed comparison can go on.
+    fs::path folder = fs::absolute(o.output / "").lexically_normal().parent_path();
+    folder += ".together";
+    const fs::path list = fs::path(folder) += ".txt";
+    io::write_file(list, list_of(dates));
+    RunOptions options;
+    options.recordings = {list};
+    options.data = reading_of(dates);
+    options.output = folder;
+    options.threads = o.threads;
+    options.memory = o.memory;
+    options.resume = fs::exists(folder);
+    options.maps = options.report = false;
+    options.quiet = o.quiet;
+    const RunResult result = run(options);
+    if (result.exit_code == kInterrupted) return kInterrupted;
+
+    const std::vector<DriveOfResult> together = drives_of_result(folder);
+    const std::vector<DriveOfResult> old_drives(
+        together.begin(), together.begin() + static_cast<std::ptrdiff_t>(old_date.drives.size()));
+    const std::vector<DriveOfResult> new_drives(
+        together.begin() + static_cast<std::ptrdiff_t>(old_date.drives.size()), together.end());
+    DatePoints of_old, of_new;
+    std::optional<Eigen::Vector3d> origin;
+    if (!collect(old_date, old_drives, origin, o.quiet, of_old) ||
+        !collect(new_date, new_drives, origin, o.quiet, of_new)) {
+        return kInterrupted;
+    }
+    const ChangesOfMap changes{of_old.changed.changes(of_new.changed),
+                               of_new.changed.changes(of_old.changed),
+                               seen_voxels(folder / "map", old_date.drives.size())};
+    if (changes.voxels.at_both == 0) {
+        throw ConfigError(o.old_run.string() + " and " + o.new_run.string() +
+                          " have no place in common; are their poses of the same world?");
+    }
+    const io::Cloud went = of_old.changed.cloud(changes.went);
+    const io::Cloud came = of_new.changed.cloud(changes.came);
+    io::write_cloud(output.path() / "went.pcd", went);
+    io::write_cloud(output.path() / "came.pcd", came);
+    io::write_cloud(output.path() / "unseen.pcd", changes.voxels.unseen);
+    io::write_file(output.path() / "changes.csv", changes_csv(changes));
+    io::write_file(output.path() / "changes.json", changes_json(changes));
+    io::write_file(output.path() / "index.html", changes_page(changes));
+    write_pictures(output.path(), of_old, of_new, went, came, *origin);
+    output.commit();
+    fs::remove_all(folder);
+    fs::remove(list);
+    if (!o.quiet) {
+        fmt::print("{} went, {} came; seen at both dates: {} voxels, at the old one only: {}, at "
+                   "the new one only: {}\nwritten  {}\n",
+                   changes.went.size(), changes.came.size(), changes.voxels.at_both,
+                   changes.voxels.old_only, changes.voxels.new_only, output.name().string());
+    }
+    return result.exit_code;
+}
+
+}  // namespace dynamic_filter::app
