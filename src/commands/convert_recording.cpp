@@ -46,8 +46,8 @@ Config settings_of(const ConvertOptions& o) {
         try {
             return load_config({.file = file});
         } catch (const ConfigError& error) {  // of another version
-            tell_note(fmt::format("{}; so unknown points are written as with map.keep_unknown = true",
-                            error.what()));
+            tell_note(fmt::format(
+                "{}; so unknown points are written as with map.keep_unknown = true", error.what()));
         }
     }
     return {};
@@ -116,9 +116,9 @@ void append_all(Sink& sink, const ConvertOptions& o, const io::Recording& record
         if (!o.labels && !maybe.scan->truth_fault.empty()) {
             tally.notes.push_back(maybe.scan->truth_fault + "; its points are unknown");
         }
-        tally.written += append_part(sink, part, *maybe.scan,
-                                     labels_of(o, recording, i, *maybe.scan),
-                                     io::stem(recording, i));
+        tally.written +=
+            append_part(sink, part, *maybe.scan, labels_of(o, recording, i, *maybe.scan),
+                        io::stem(recording, i));
         return true;
     });
 }

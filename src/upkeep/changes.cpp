@@ -12,13 +12,14 @@ namespace dynamic_filter::app {
 
 namespace {
 
-constexpr double kTouching = 0.3;    // [m]
-constexpr double kVoxel = 0.2;       // [m]
-// What passes by is in a voxel for a few scans; what is in it for more may rest, whatever its label.
+constexpr double kTouching = 0.3;  // [m]
+constexpr double kVoxel = 0.2;     // [m]
+// What passes by is in a voxel for a few scans; what is in it for more may rest, whatever its
+// label.
 constexpr std::uint32_t kScansAtRest = 10;
 constexpr double kMostAtRest = 0.5;  // share of the voxels; another car may stand in the same place
-// What is smaller, was seen for a moment, or is so far away that few points of a scan hit it, may as
-// well be an error of the poses or a beam that grazes an edge. Chosen on the city with seed 1.
+// What is smaller, was seen for a moment, or is so far away that few points of a scan hit it, may
+// as well be an error of the poses or a beam that grazes an edge. Chosen on the city with seed 1.
 constexpr std::size_t kLeastPoints = 200, kLeastScans = 3, kLeastPointsOfScan = 5;
 
 Change change_of(Piece piece, const std::vector<std::uint32_t>& scans,

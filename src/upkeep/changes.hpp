@@ -50,11 +50,11 @@ private:
 
     tsl::robin_set<WorldVoxel, NumbersHash> static_;
     tsl::robin_map<WorldVoxel, Times, NumbersHash> dynamic_;
-    io::Cloud layout_;                   // of the first scan
-    std::vector<std::byte> records_;     // in that layout
+    io::Cloud layout_;                // of the first scan
+    std::vector<std::byte> records_;  // in that layout
     std::vector<Eigen::Vector3d> places_;
-    std::vector<std::uint32_t> scans_;   // of each point
-    std::vector<double> stamps_;         // of each scan
+    std::vector<std::uint32_t> scans_;  // of each point
+    std::vector<double> stamps_;        // of each scan
 };
 
 }  // namespace dynamic_filter::app

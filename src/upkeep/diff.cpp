@@ -155,10 +155,10 @@ void write_pictures(const fs::path& folder, const DatePoints& of_old, const Date
     all.insert(all.end(), of_new.drawn.begin(), of_new.drawn.end());
     constexpr float kOutermost = 0.005F;
     const Eigen::AlignedBox3f box = box_of(all, kOutermost);
-    io::write_png(folder / "old.png", date_from_above(of_old.drawn, positions_from(went, origin),
-                                                      box, kRemovedColor));
-    io::write_png(folder / "new.png", date_from_above(of_new.drawn, positions_from(came, origin),
-                                                      box, kCameColor));
+    io::write_png(folder / "old.png",
+                  date_from_above(of_old.drawn, positions_from(went, origin), box, kRemovedColor));
+    io::write_png(folder / "new.png",
+                  date_from_above(of_new.drawn, positions_from(came, origin), box, kCameColor));
 }
 
 }  // namespace
@@ -217,10 +217,11 @@ int diff(const DiffOptions& o) {
     fs::remove_all(folder);
     fs::remove(list);
     if (!o.quiet) {
-        fmt::print("{} went, {} came; seen at both dates: {} voxels, at the old one only: {}, at "
-                   "the new one only: {}\nwritten  {}\n",
-                   changes.went.size(), changes.came.size(), changes.voxels.at_both,
-                   changes.voxels.old_only, changes.voxels.new_only, output.name().string());
+        fmt::print(
+            "{} went, {} came; seen at both dates: {} voxels, at the old one only: {}, at "
+            "the new one only: {}\nwritten  {}\n",
+            changes.went.size(), changes.came.size(), changes.voxels.at_both,
+            changes.voxels.old_only, changes.voxels.new_only, output.name().string());
     }
     return result.exit_code;
 }

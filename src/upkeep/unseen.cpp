@@ -37,9 +37,9 @@ SeenVoxels seen_voxels(const std::filesystem::path& map, std::size_t old_drives)
     for (const MapTile& tile : index.tiles) {
         const TilePoints points = read_tile(map, index, tile);
         for (std::size_t i = 0; i < points.size(); ++i) {
-            voxels.insert({world_voxel(points.positions[i], index.voxel_size),
-                           {points.positions[i],
-                            dates_of(points, i, index.drives.size(), old_drives)}});
+            voxels.insert(
+                {world_voxel(points.positions[i], index.voxel_size),
+                 {points.positions[i], dates_of(points, i, index.drives.size(), old_drives)}});
         }
     }
     const auto dates_around = [&](const WorldVoxel& voxel) {

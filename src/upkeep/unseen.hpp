@@ -14,9 +14,9 @@ struct SeenVoxels {
     io::Cloud unseen;  ///< those of one date, x y z [m] float64; field `seen`: 1 old, 2 new
 };
 
-/// `map`: the folder of a map whose first `old_drives` drives are of the old date. A voxel counts as
-/// seen at a date if a drive of it has a point in it or in one of its 26 neighbours. Reads the whole
-/// map into memory. Throws InputError.
+/// `map`: the folder of a map whose first `old_drives` drives are of the old date. A voxel counts
+/// as seen at a date if a drive of it has a point in it or in one of its 26 neighbours. Reads the
+/// whole map into memory. Throws InputError.
 SeenVoxels seen_voxels(const std::filesystem::path& map, std::size_t old_drives);
 
 }  // namespace dynamic_filter::app

@@ -45,9 +45,9 @@ TEST(ChangesPage, WhatChangedIsDrawnAboveAllElse) {
     Eigen::AlignedBox3f box;
     for (const Point& point : kept) box.extend(point);
     const io::Image image = date_from_above(kept, {{8.0F, 6.0F, 0.0F}}, box, kCameColor);
-    const bool is_green = std::any_of(
-        image.pixels.begin(), image.pixels.end(),
-        [](const io::Color& c) { return c[0] < 100 && c[1] > 80 && c[2] < 100; });
+    const bool is_green =
+        std::any_of(image.pixels.begin(), image.pixels.end(),
+                    [](const io::Color& c) { return c[0] < 100 && c[1] > 80 && c[2] < 100; });
     EXPECT_TRUE(is_green);
 }
 

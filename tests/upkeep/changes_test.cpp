@@ -23,8 +23,8 @@ struct Place {
     void add_box(const Point& corner, int side, Label is_alone, Label is_together) {
         for (int x = 0; x < side; ++x) {
             for (int y = 0; y < side; ++y) {
-                const Point p = corner + 0.1F * Point(static_cast<float>(x), static_cast<float>(y),
-                                                      0.0F);
+                const Point p =
+                    corner + 0.1F * Point(static_cast<float>(x), static_cast<float>(y), 0.0F);
                 const std::array<float, 4> record = {p.x(), p.y(), p.z(), 7.0F};
                 const auto bytes = std::as_bytes(std::span(record));
                 scan.cloud.data.insert(scan.cloud.data.end(), bytes.begin(), bytes.end());

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "formats/voxel_map/tile_points.hpp"
-#include "support/temporary_folder.hpp"
 #include "support/sample_map.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace dynamic_filter::app {
 namespace unseen_test {
