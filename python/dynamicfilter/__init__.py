@@ -134,7 +134,8 @@ def diff(old_run, new_run, output, *, threads=0, memory="", overwrite=False, qui
     """Says what came and went between two runs of one place, as `dynamicfilter diff` does.
 
     old_run, new_run: output folders of runs, in one world. output: folder for clouds, tables and a page. threads: 0 uses all
-    cores. memory: most memory to use, such as "1.5G". Files in `output`: docs/upkeep.md.
+    cores. memory: most memory to use, such as "1.5G". overwrite: True replaces an earlier comparison. quiet: False shows the
+    progress. Files in `output`: docs/upkeep.md.
     Returns {"went": number, "came": number, "voxels": {"seen_at_both", "old_only", "new_only"}, "changes": [{"change":
     "went" or "came", "number", "center" [m], "size" [m], "points", "scans", "first" [s], "last" [s]}]}.
     Raises ConfigError, InputError, OutputError, and KeyboardInterrupt, after which the same call goes on.

@@ -38,17 +38,13 @@ Labels labels_of(const ConvertOptions& o, const io::Recording& recording, std::s
 /// The settings of the run that left the labels; the default ones for other labels.
 Config settings_of(const ConvertOptions& o) {
     if (!o.labels) return {};
-    const fs::path result = io::label_folder(*o.labels) / "..";
-    // Of one recording; or of a drive, which is OUT/drives/NAME.
-    for (const fs::path& folder : {result, result / ".." / ".."}) {
-        const fs::path file = (folder / "config.toml").lexically_normal();
-        if (!fs::exists(folder / kRunState) || !fs::exists(file)) continue;
-        try {
-            return load_config({.file = file});
-        } catch (const ConfigError& error) {  // of another version
-            tell_note(fmt::format(
-                "{}; so unknown points are written as with map.keep_unknown = true", error.what()));
-        }
+    const auto file = settings_file_of(io::label_folder(*o.labels) / "..");
+    if (!file) return {};
+    try {
+        return load_config({.file = *file});
+    } catch (const ConfigError& error) {  // of another version
+        tell_note(fmt::format("{}; so unknown points are written as with map.keep_unknown = true",
+                              error.what()));
     }
     return {};
 }

@@ -39,6 +39,11 @@ void add_live_options(Command& command, live::LiveOptions& options) {
         "also write the drive to a bag beside this folder and, after Ctrl-C, the result of `run` "
         "to the folder");
     record.excludes(dry_run);
+    command
+        .path("--map", options.map,
+              "write the static map to this cloud at SIGUSR1, while the filter goes on, and at the "
+              "end")
+        .excludes(dry_run);
     command.flag("--overwrite", options.overwrite, "replace an earlier --record").needs(record);
     command.flag("--settings", options.settings, "print the settings of live as TOML, and end");
     command.flag("-q,--quiet", options.quiet, "print only warnings and errors");

@@ -11,6 +11,7 @@
 #include "live/diagnosis.hpp"
 #include "live/dry_run.hpp"
 #include "live/foxglove_server.hpp"
+#include "live/map_saver.hpp"
 #include "live/subscriptions.hpp"
 
 namespace dynamic_filter::live {
@@ -44,7 +45,8 @@ std::string scans(std::uint64_t count) {
 class Chores {
 public:
     Chores(Bus& bus, LiveConfig& config, Intake& intake, Subscriptions& subscriptions,
-           Session& session, Outputs& outputs, FoxgloveServer* foxglove, bool quiet)
+           Session& session, Outputs& outputs, FoxgloveServer* foxglove, MapSaver* saver,
+           bool quiet)
         : bus_(bus),
           config_(config),
           intake_(intake),
@@ -52,6 +54,7 @@ public:
           session_(session),
           outputs_(outputs),
           foxglove_(foxglove),
+          saver_(saver),
           quiet_(quiet) {}
 
     void run() {
@@ -66,6 +69,10 @@ public:
         tell(subscriptions_.pop_notices());
         tell(intake_.pop_notices());
         tell(session_.pop_notices());
+        if (saver_ != nullptr) {
+            saver_->run();
+            tell(saver_->pop_notices());
+        }
         const Figures figures = figures_now();
         watch_input(figures);
         watch_poses(figures);
@@ -171,6 +178,7 @@ private:
     Session& session_;
     Outputs& outputs_;
     FoxgloveServer* foxglove_;  // may be null
+    MapSaver* saver_;           // may be null
     bool quiet_;
     Figures before_;
     bool silent_ = false;
@@ -214,8 +222,14 @@ int live(Bus& bus, const LiveOptions& o, LiveConfig config) {
     Intake intake(config);
     Outputs outputs(config, bus.encoding(), bus, foxglove.get());
     Session session(config, outputs, recorder ? &*recorder : nullptr);
+    std::optional<MapSaver> saver;
+    if (o.map) {
+        saver.emplace(session, *o.map);
+        catch_save_requests();
+    }
     Subscriptions subscriptions(bus, config, intake);
-    Chores chores(bus, config, intake, subscriptions, session, outputs, foxglove.get(), o.quiet);
+    Chores chores(bus, config, intake, subscriptions, session, outputs, foxglove.get(),
+                  saver ? &*saver : nullptr, o.quiet);
     while (!app::interrupted()) {
         chores.run();
         if (session.is_busy()) {
@@ -227,6 +241,10 @@ int live(Bus& bus, const LiveOptions& o, LiveConfig config) {
     }
     bus.stop();  // before what receives its messages goes
     session.stop();
+    if (saver) {
+        saver->save();
+        for (const std::string& notice : saver->pop_notices()) fmt::print(stderr, "{}\n", notice);
+    }
     const Figures figures = chores.figures_now();
     if (!o.quiet) fmt::print("{}", to_text(figures));
     if (!recorder) return app::kDone;

@@ -15,6 +15,7 @@ namespace dynamic_filter::live {
 struct LiveOptions {
     app::ConfigOptions config;                    ///< the settings of live and of the filter
     std::optional<std::filesystem::path> record;  ///< output folder, completed at the end
+    std::optional<std::filesystem::path> map;     ///< saved at SIGUSR1 and at the end
     bool dry_run = false, overwrite = false, quiet = false;
     double look = 5.0;      ///< [s] of listening in a dry run
     bool settings = false;  ///< only prints the settings in force

@@ -248,6 +248,17 @@ void Session::publish_maps() {
     });
 }
 
+std::vector<StaticVoxel> Session::static_map() const {
+    constexpr double kWhole = 1e6;  // [m]
+    std::optional<Place> at;
+    {
+        const std::lock_guard hold(lock_);
+        at = newest_;
+    }
+    if (!at) return {};
+    return filter_->local_static_map(at->T_world_sensor, kWhole);
+}
+
 /// Presets that judge scans window by window have no verdict by the evidence so far.
 bool Session::has_grid() const {
     return config_.grid.rate > 0.0 && filter_->judges_each_scan() && outputs_.wants_grid();

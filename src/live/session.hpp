@@ -50,6 +50,10 @@ public:
     /// How often the local map is published, and its radius [m].
     void set_map(double rate_hz, double radius);
 
+    /// All static voxels that the filter holds, at any time and from any thread, also after stop().
+    /// Empty before the first verdict.
+    [[nodiscard]] std::vector<StaticVoxel> static_map() const;
+
     [[nodiscard]] Counters counters() const { return filter_->counters(); }
     [[nodiscard]] Latencies latencies() const;
     [[nodiscard]] OdometryState odometry() const;

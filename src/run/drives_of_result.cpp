@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "base/output_folder.hpp"
 #include "dynamic_filter/error.hpp"
 #include "formats/label_files.hpp"
 #include "formats/voxel_map/map_index.hpp"
@@ -39,6 +40,14 @@ std::vector<DriveOfResult> drives_of_result(const fs::path& result) {
                          "is not there any more; the run in " + folder.string() + " read it");
     }
     return drives;
+}
+
+std::optional<fs::path> settings_file_of(const fs::path& folder) {
+    for (const fs::path& result : {folder, folder / ".." / ".."}) {
+        const fs::path file = (result / "config.toml").lexically_normal();
+        if (fs::exists(result / kRunState) && fs::exists(file)) return file;
+    }
+    return std::nullopt;
 }
 
 Labels labels_of_scan(const fs::path& folder, const io::Recording& recording, std::size_t i,

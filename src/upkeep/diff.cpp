@@ -73,6 +73,19 @@ DataOptions reading_of(const std::vector<const Date*>& dates) {
     return common;
 }
 
+/// The settings of all runs. Throws ConfigError if they differ, because labels would, too.
+std::optional<fs::path> settings_of(const std::vector<const Date*>& dates) {
+    const auto first = settings_file_of(dates.front()->drives.front().folder);
+    for (const Date* date : dates) {
+        const auto file = settings_file_of(date->drives.front().folder);
+        if (first && file && io::read_file(*first) == io::read_file(*file)) continue;
+        throw ConfigError(dates.front()->run.string() + " and " + date->run.string() +
+                          " were made with other settings, which tell of changes that are none; "
+                          "`run` both with the same config.toml");
+    }
+    return first;
+}
+
 /// A list for `run`: a recording a line, with the poses that its run had where they are not its
 /// own.
 std::string list_of(const std::vector<const Date*>& dates) {
@@ -161,69 +174,94 @@ void write_pictures(const fs::path& folder, const DatePoints& of_old, const Date
                   date_from_above(of_new.drawn, positions_from(came, origin), box, kCameColor));
 }
 
+/// The result of both dates together, beside the output, so that a killed comparison can go on.
+struct Together {
+    fs::path folder, list;
+    bool was_there;  ///< left by a killed comparison, or somebody else's
+
+    explicit Together(const fs::path& output)
+        : folder(fs::absolute(output / "").lexically_normal().parent_path() += ".together"),
+          list(fs::path(folder) += ".txt"),
+          was_there(fs::exists(folder)) {}
+    void remove() const {
+        fs::remove_all(folder);
+        fs::remove(list);
+    }
+};
+
+RunResult filter_together(const std::vector<const Date*>& dates, const DiffOptions& o,
+                          const Together& together) {
+    RunOptions options;
+    options.recordings = {together.list};
+    options.data = reading_of(dates);
+    options.output = together.folder;
+    options.config.file = settings_of(dates);
+    options.threads = o.threads;
+    options.memory = o.memory;
+    options.resume = together.was_there;
+    options.maps = options.report = false;
+    options.quiet = o.quiet;
+    io::write_file(together.list, list_of(dates));
+    return run(options);
+}
+
+/// Empty if the user interrupted.
+std::optional<ChangesOfMap> write_changes(const Date& old_date, const Date& new_date,
+                                          const Together& together, bool quiet,
+                                          const fs::path& output) {
+    const std::vector<DriveOfResult> drives = drives_of_result(together.folder);
+    const auto first_new = drives.begin() + static_cast<std::ptrdiff_t>(old_date.drives.size());
+    DatePoints of_old, of_new;
+    std::optional<Eigen::Vector3d> origin;
+    if (!collect(old_date, {drives.begin(), first_new}, origin, quiet, of_old) ||
+        !collect(new_date, {first_new, drives.end()}, origin, quiet, of_new)) {
+        return std::nullopt;
+    }
+    ChangesOfMap changes{of_old.changed.changes(of_new.changed),
+                         of_new.changed.changes(of_old.changed),
+                         seen_voxels(together.folder / "map", old_date.drives.size())};
+    if (changes.voxels.at_both == 0) {
+        throw ConfigError(old_date.run.string() + " and " + new_date.run.string() +
+                          " have no place in common; are their poses of the same world?");
+    }
+    const io::Cloud went = of_old.changed.cloud(changes.went);
+    const io::Cloud came = of_new.changed.cloud(changes.came);
+    io::write_cloud(output / "went.pcd", went);
+    io::write_cloud(output / "came.pcd", came);
+    io::write_cloud(output / "unseen.pcd", changes.voxels.unseen);
+    io::write_file(output / "changes.csv", changes_csv(changes));
+    io::write_file(output / "changes.json", changes_json(changes));
+    io::write_file(output / "index.html", changes_page(changes));
+    write_pictures(output, of_old, of_new, went, came, *origin);
+    return changes;
+}
+
 }  // namespace
 
 int diff(const DiffOptions& o) {
     const Date old_date = date_of(o.old_run), new_date = date_of(o.new_run);
     refuse_same_drive(old_date, new_date);
-    const std::vector<const Date*> dates = {&old_date, &new_date};
     OutputFolder output(o.output, diff_files(), replaced_if(o.overwrite));
-
-    // Beside the output, so that a killed comparison can go on.
-    fs::path folder = fs::absolute(o.output / "").lexically_normal().parent_path();
-    folder += ".together";
-    const fs::path list = fs::path(folder) += ".txt";
-    io::write_file(list, list_of(dates));
-    RunOptions options;
-    options.recordings = {list};
-    options.data = reading_of(dates);
-    options.output = folder;
-    options.threads = o.threads;
-    options.memory = o.memory;
-    options.resume = fs::exists(folder);
-    options.maps = options.report = false;
-    options.quiet = o.quiet;
-    const RunResult result = run(options);
-    if (result.exit_code == kInterrupted) return kInterrupted;
-
-    const std::vector<DriveOfResult> together = drives_of_result(folder);
-    const std::vector<DriveOfResult> old_drives(
-        together.begin(), together.begin() + static_cast<std::ptrdiff_t>(old_date.drives.size()));
-    const std::vector<DriveOfResult> new_drives(
-        together.begin() + static_cast<std::ptrdiff_t>(old_date.drives.size()), together.end());
-    DatePoints of_old, of_new;
-    std::optional<Eigen::Vector3d> origin;
-    if (!collect(old_date, old_drives, origin, o.quiet, of_old) ||
-        !collect(new_date, new_drives, origin, o.quiet, of_new)) {
-        return kInterrupted;
+    const Together together(o.output);
+    try {
+        const RunResult result = filter_together({&old_date, &new_date}, o, together);
+        if (result.exit_code == kInterrupted) return kInterrupted;
+        const auto changes = write_changes(old_date, new_date, together, o.quiet, output.path());
+        if (!changes) return kInterrupted;
+        output.commit();
+        together.remove();
+        if (!o.quiet) {
+            fmt::print(
+                "{} went, {} came; seen at both dates: {} voxels, at the old one only: {}, at the "
+                "new one only: {}\nwritten  {}\n",
+                changes->went.size(), changes->came.size(), changes->voxels.at_both,
+                changes->voxels.old_only, changes->voxels.new_only, output.name().string());
+        }
+        return result.exit_code;
+    } catch (const ConfigError&) {  // the same call would end so again
+        if (!together.was_there) together.remove();
+        throw;
     }
-    const ChangesOfMap changes{of_old.changed.changes(of_new.changed),
-                               of_new.changed.changes(of_old.changed),
-                               seen_voxels(folder / "map", old_date.drives.size())};
-    if (changes.voxels.at_both == 0) {
-        throw ConfigError(o.old_run.string() + " and " + o.new_run.string() +
-                          " have no place in common; are their poses of the same world?");
-    }
-    const io::Cloud went = of_old.changed.cloud(changes.went);
-    const io::Cloud came = of_new.changed.cloud(changes.came);
-    io::write_cloud(output.path() / "went.pcd", went);
-    io::write_cloud(output.path() / "came.pcd", came);
-    io::write_cloud(output.path() / "unseen.pcd", changes.voxels.unseen);
-    io::write_file(output.path() / "changes.csv", changes_csv(changes));
-    io::write_file(output.path() / "changes.json", changes_json(changes));
-    io::write_file(output.path() / "index.html", changes_page(changes));
-    write_pictures(output.path(), of_old, of_new, went, came, *origin);
-    output.commit();
-    fs::remove_all(folder);
-    fs::remove(list);
-    if (!o.quiet) {
-        fmt::print(
-            "{} went, {} came; seen at both dates: {} voxels, at the old one only: {}, at "
-            "the new one only: {}\nwritten  {}\n",
-            changes.went.size(), changes.came.size(), changes.voxels.at_both,
-            changes.voxels.old_only, changes.voxels.new_only, output.name().string());
-    }
-    return result.exit_code;
 }
 
 }  // namespace dynamic_filter::app

@@ -60,6 +60,25 @@ stop TERM
 [ -s gone.mcap ] && [ ! -e gone ] || fail "SIGTERM leaves the recording alone"
 "$command" info gone.mcap | grep -q '40' || fail "the recording is not complete"
 
+# The map at SIGUSR1, while scans come and after them, and at the end; none before the first scan.
+start saved --map map.pcd
+kill -USR1 "$live"
+for _ in $(seq 100); do grep -q 'no scan was judged yet' saved.err && break; sleep 0.05; done
+grep -q 'no scan was judged yet, so no map is saved' saved.err || fail "no answer before the first scan"
+[ ! -e map.pcd ] || fail "a map of nothing"
+"$player" drive.mcap --domain $ROS_DOMAIN_ID --all --check > player.json &
+playing=$!
+sleep 2
+kill -USR1 "$live"
+wait $playing || fail "labels are missing: $(cat player.json)"
+for _ in $(seq 100); do grep -q 'saved map.pcd' saved.err && break; sleep 0.05; done
+grep -q '^note: saved map.pcd: [0-9]* points, [0-9]* bytes$' saved.err || fail "does not say what it saved"
+"$command" info map.pcd | grep -q probability || fail "no map"
+stop TERM
+grep -q '^input    40 scans received; 40 taken' saved.log || fail "saving lost scans: $(cat saved.log)"
+[ "$(tail -1 saved.err)" = "saved map.pcd: $("$command" info map.pcd | sed -n 's/^ *points *//p') points, $(stat -c %s map.pcd) bytes" ] ||
+    fail "the map at the end: $(tail -1 saved.err)"
+
 # Wrong settings, and what is there already.
 expect() { # expect CODE TEXT OPTION...
     local code=0 wanted=$1 text=$2
@@ -73,6 +92,7 @@ expect 2 "did you mean 'input.cloud'" --ros-args -p input.clod:=/points
 expect 2 "unknown option '--what'" --ros-args -p input.cloud:=/points -- --what
 expect 2 'exists; choose another --record' --record out.mcap
 expect 2 'exists; choose another --record' --record out
+expect 2 'expected a file of .pcd' --map map.txtt
 expect 1 'cannot join DDS domain' --set bus.network=nosuchdevice
 expect 4 'nothing is published that could be used' --dry-run --look 1
 

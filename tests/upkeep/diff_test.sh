@@ -13,7 +13,7 @@ refuses() { # refuses TEXT ARGUMENT...
     shift
     ! "$command" diff "$@" > said 2>&1 || fail "did not fail: $*"
     grep -qF -- "$text" said || fail "did not say '$text': $*"
-    [ ! -e none ] || fail "left an output: $*"
+    [ -z "$(ls -d none* 2> /dev/null)" ] || fail "left an output: $*"
 }
 run() { "$command" run "$@" -q --no-report --no-maps > said 2>&1 || fail "run $*"; }
 
@@ -50,12 +50,18 @@ wait $victim 2> /dev/null || true
 "$command" diff monday tuesday -o again --threads 1 > said 2>&1 || fail "after a kill"
 diff -r changes again > said || fail "other bytes after a kill"
 
+mkdir mine.together && touch mine.together/precious
+"$command" diff monday tuesday -o mine > said 2>&1 && fail "took a folder of somebody else"
+[ -e mine.together/precious ] && [ ! -e mine ] || fail "removed a folder of somebody else"
+rm -r mine.together mine.together.txt
 refuses "is a drive of both runs" monday monday -o none
 refuses "is not the whole output folder of a run" city tuesday -o none
 refuses "--overwrite" monday tuesday -o changes
 "$command" simulate crowd --frames 8 -o elsewhere -q
 run elsewhere -o wednesday --pose-fix lidar
 refuses "was read with other options than" monday wednesday -o none
+run elsewhere -o friday --set map.voxel_size=0.3
+refuses "were made with other settings" monday friday -o none
 awk '{$4 += 5000; print}' elsewhere/poses.txt > moved && mv moved elsewhere/poses.txt
 run elsewhere -o thursday
 refuses "have no place in common" monday thursday -o none
