@@ -54,8 +54,8 @@ void catch_save_requests() {
 MapSaver::MapSaver(Session& session, std::filesystem::path file)
     : session_(session), file_(std::move(file)) {
     if (io::can_write_cloud(file_)) return;
-    throw ConfigError(fmt::format("--map {}: expected a file of {}", file_.string(),
-                                  io::cloud_kinds_written()));
+    throw ConfigError(
+        fmt::format("--map {}: expected a file of {}", file_.string(), io::cloud_kinds_written()));
 }
 
 void MapSaver::run() {
