@@ -140,8 +140,8 @@ void convert(const fs::path& data, const fs::path& output, py::dict options) {
     pop_option(options, "normals", o.normals);
     pop_option(options, "ground", o.ground);
     pop_option(options, "moving_class", o.moving_class);
-    if (o.moving_class < 0 || o.moving_class > 255) {
-        throw py::value_error("moving_class: expected 0 to 255");
+    if (o.moving_class && (*o.moving_class < 3 || *o.moving_class > 255)) {
+        throw py::value_error("moving_class: expected 3 to 255");
     }
     pop_option(options, "overwrite", o.overwrite);
     pop_option(options, "quiet", o.quiet);

@@ -31,12 +31,17 @@ void refuse_idle_options(const ConvertOptions& o, const Output* kind, bool is_re
         throw ConfigError("--thin is for one cloud (" + io::cloud_kinds_written() + ")");
     }
     const ConvertOptions usual;
-    const bool is_of_clouds = o.normals || o.ground || o.moving_class != usual.moving_class;
+    const bool is_of_clouds = o.normals || o.ground || o.moving_class;
     if (is_of_clouds && !(is_cloud && is_recording)) {
         throw ConfigError(
             "--normals, --ground and --moving-class are for a recording that is written as one "
             "cloud (" +
             io::cloud_kinds_written() + ")");
+    }
+    if (o.normals && !o.crs.empty()) {
+        throw ConfigError(
+            "--normals and --crs: normals stay those of the world, which a coordinate system turns "
+            "a little; leave one of the two out");
     }
     if (o.cell > 0.0 && (kind == nullptr || !kind->from_sensor)) {
         throw ConfigError("--cell is for OctoMap and for --to nav2; --thin thins a cloud");
@@ -187,8 +192,9 @@ void add_convert(Program& program) {
            "sensor, for meshing");
     c.flag("--ground", o->ground,
            "of a recording as a cloud: a field `classification`, 2 for what lies on the ground");
-    c.whole("--moving-class", o->moving_class, {0, 255},
-            "of a recording as a cloud: the class of what moves");
+    c.whole("--moving-class", o->moving_class, {3, 255},
+            "of a recording as a cloud: the class of what moves in the field `classification` "
+            "(default: 22, of LAS)");
     c.text("--box", o->box,
            "two corners of a box in the world, X,Y,Z,X,Y,Z or X,Y,X,Y [m]: what lies outside "
            "counts as not measured");

@@ -94,8 +94,10 @@ struct Tally {
     bool has_losses = false;
 };
 
-/// Gives the sink all scans; stops when the user interrupts.
-void append_all(Sink& sink, const ConvertOptions& o, const io::Recording& recording, Tally& tally) {
+/// Gives the sink all scans; stops when the user interrupts. `left_out_is_known`: scans without
+/// labels are those that the run left out.
+void append_all(Sink& sink, const ConvertOptions& o, const io::Recording& recording,
+                bool left_out_is_known, Tally& tally) {
     const Wanted part = wanted_of(o);
     std::vector<std::size_t> scans(recording.size());
     std::iota(scans.begin(), scans.end(), 0U);
@@ -107,6 +109,10 @@ void append_all(Sink& sink, const ConvertOptions& o, const io::Recording& record
         if (interrupted()) return false;
         if (!maybe.scan) {
             tally.rejected.push_back(maybe.error);
+            return true;
+        }
+        if (left_out_is_known && !has_labels(*o.labels, recording, i)) {
+            tally.rejected.push_back(io::stem(recording, i) + ": the run left it out");
             return true;
         }
         if (!o.labels && !maybe.scan->truth_fault.empty()) {
@@ -157,7 +163,7 @@ int convert_recording(const ConvertOptions& o) {
     }
     const std::unique_ptr<Sink> sink = make_sink(of_sink);
     Tally tally;
-    append_all(*sink, of_sink, recording, tally);
+    append_all(*sink, of_sink, recording, false, tally);
     return commit(*sink, o, tally);
 }
 
@@ -170,6 +176,9 @@ int convert_drives(const ConvertOptions& o) {
     if (o.labels) {
         throw ConfigError("--labels is for one recording; the drives of a map have their own");
     }
+    if (o.data.poses) {
+        throw ConfigError("--poses is for one recording; the drives of a map have their own");
+    }
     const std::vector<DriveOfResult> drives = drives_of_result(o.data.data);
     catch_interrupts();
     const std::unique_ptr<Sink> sink = make_sink(o);
@@ -180,7 +189,7 @@ int convert_drives(const ConvertOptions& o) {
         drive.labels = found.folder;
         const io::Recording recording = opened(drive, true);
         if (!o.only.empty()) drive.keep_unknown = settings_of(drive).map.keep_unknown;
-        append_all(*sink, drive, recording, tally);
+        append_all(*sink, drive, recording, true, tally);
         if (interrupted()) break;
     }
     return commit(*sink, o, tally);

@@ -44,7 +44,7 @@ void add_live_options(Command& command, live::LiveOptions& options) {
               "write the static map to this cloud at SIGUSR1, while the filter goes on, and at the "
               "end")
         .excludes(dry_run);
-    command.flag("--overwrite", options.overwrite, "replace an earlier --record").needs(record);
+    command.flag("--overwrite", options.overwrite, "replace an earlier --record or --map");
     command.flag("--settings", options.settings, "print the settings of live as TOML, and end");
     command.flag("-q,--quiet", options.quiet, "print only warnings and errors");
 }

@@ -9,6 +9,7 @@ int main(int argc, char** argv) {
     using namespace dynamic_filter::app;
     keep_freed_memory();
     std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error like a full disk
+    std::signal(SIGUSR1, SIG_IGN);  // means a map to `live --map` alone, and may reach all of us
     return guarded("dynamicfilter", [&] {
         Program program("dynamicfilter", "Removes moving objects from LiDAR scans and maps.");
         for (const auto add : {add_run, add_plan, add_merge, add_diff, add_live, add_eval,

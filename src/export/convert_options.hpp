@@ -26,8 +26,8 @@ struct ConvertOptions {
     double thin = 0.0;       ///< [m] of clouds: one point for each cell that wide; 0: all points
     bool normals = false;    ///< of clouds: the surface's normal at each point
     bool ground = false;     ///< of clouds: class of LAS for what lies on the ground
-    int moving_class = 22;   ///< of clouds: class of LAS for what moves
-    double cell = 0.0;       ///< [m] of nav2 and OctoMap: width of a cell; 0: that of the output
+    std::optional<int> moving_class;  ///< of clouds: class of LAS for what moves; 22
+    double cell = 0.0;  ///< [m] of nav2 and OctoMap: width of a cell; 0: that of the output
     // Of nav2:
     double robot_height = 1.5;  ///< [m] what hangs higher above the floor is no obstacle
     double step = 0.1;          ///< [m] what the robot may climb

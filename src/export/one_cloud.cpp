@@ -4,9 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
-#include <span>
 
+#include "base/little_endian.hpp"
 #include "base/output_folder.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
@@ -25,7 +26,7 @@ namespace dynamic_filter::app {
 namespace {
 
 constexpr const char* kClass = "classification";
-constexpr std::uint8_t kUnassigned = 1, kGround = 2;  // of LAS
+constexpr std::uint8_t kUnassigned = 1, kGround = 2, kMoving = 22;  // of LAS
 // What counts as ground: where a vehicle could go over kerbs, and how far from it its points are.
 constexpr Robot kVehicle{.height = 1.0F, .step = 0.3F};
 constexpr double kGroundCell = 0.2, kGroundNoise = 0.1;  // [m]
@@ -38,10 +39,10 @@ public:
         : file_(o.output),
           sensor_(o.sensor),
           normal_radius_(o.normals ? std::max(0.3, 3.0 * o.thin) : 0.0),
-          moving_class_(static_cast<std::uint8_t>(o.moving_class)) {
+          moving_class_(static_cast<std::uint8_t>(o.moving_class.value_or(kMoving))) {
         if (o.thin > 0.0) thinned_.emplace(o.thin);
         if (o.ground) survey_.emplace(kGroundCell);
-        is_classified_ = o.ground || o.moving_class != ConvertOptions{}.moving_class;
+        is_classified_ = o.ground || o.moving_class.has_value();
         if (o.crs.empty()) return;
         refuse_existing(path_file(), o.overwrite);
         georeference_.emplace(o.crs, o.origin);
@@ -49,15 +50,12 @@ public:
 
     void append(const io::FullScan& scan, const Labels& labels, const std::string&) override {
         if (layout_.fields.empty()) begin(scan, !labels.empty());
+        refuse_other_fields(scan, layout_);
         if (georeference_) {
             path_.push_back(georeference_->places({scan.T_world_sensor * sensor_}).front());
             stamps_.push_back(scan.stamp);
         }
-        if (survey_) {
-            survey_->add_surfaces(
-                scan.points, labels.empty() ? Labels(scan.points.size(), Label::static_) : labels,
-                scan.T_world_sensor);
-        }
+        if (survey_) add_surfaces(scan, labels);
         const auto records = world_records(scan, layout_);
         for (std::size_t i = 0; i < scan.points.size(); ++i) {
             if (!is_measured(scan.points[i])) {
@@ -74,8 +72,7 @@ public:
             if (normal_radius_ > 0.0) {
                 const Eigen::Vector3f direction =
                     (scan.T_world_sensor.linear() * to_sensor).cast<float>();
-                const auto bytes = std::as_bytes(std::span(direction.data(), 3));
-                to.insert(to.end(), bytes.begin(), bytes.end());
+                for (const float value : direction) put(to, value);
             }
             if (!thinned_) continue;
             thinned_->add(scan.T_world_sensor * scan.points[i].cast<double>(),
@@ -85,10 +82,10 @@ public:
     std::string commit() override {
         if (thinned_) map_.data = thinned_->records();
         if (normal_radius_ > 0.0) fit_normals(map_, normal_names(file_), normal_radius_);
-        if (survey_) classify_ground();
         std::string loss = "left out: poses, stamps, and where a scan ends";
         if (unmeasured_ > 0)
             loss += fmt::format(", {} points that are no measurement", unmeasured_);
+        if (survey_) loss += classify_ground();
         if (georeference_) map_ = georeference_->cloud(map_);
         const std::string by_format = io::write_cloud(file_, map_).loss;
         if (georeference_) io::write_file(path_file(), path_as_text());
@@ -115,8 +112,23 @@ private:
         if (map_.find(name) == nullptr) return;
         throw ConfigError(option + ": the scans have a field " + name + " already");
     }
-    void classify_ground() {
+    /// The survey follows the sensor, which may be elsewhere than the origin of the scans.
+    void add_surfaces(const io::FullScan& scan, const Labels& labels) {
+        Points from_sensor = scan.points;
+        for (Point& point : from_sensor) {
+            if (is_measured(point)) point -= sensor_.cast<float>();
+        }
+        survey_->add_surfaces(from_sensor,
+                              labels.empty() ? Labels(scan.points.size(), Label::static_) : labels,
+                              scan.T_world_sensor * Eigen::Translation3d(sensor_));
+    }
+    /// Returns a note if there is no ground.
+    std::string classify_ground() {
         const Ground ground = survey_->ground(kVehicle);
+        if (std::all_of(ground.height.begin(), ground.height.end(),
+                        [](float height) { return std::isnan(height); })) {
+            return "; no ground was seen below the sensor, so nothing has class 2";
+        }
         const std::size_t offset = map_.find(kClass)->offset;
         const std::vector<Eigen::Vector3d> places = places_of(map_);
         for (std::size_t i = 0; i < places.size(); ++i) {
@@ -125,6 +137,7 @@ private:
                 continue;
             kind = std::byte{kGround};
         }
+        return "";
     }
     /// Beside the cloud: where the sensor was, in the same coordinates.
     [[nodiscard]] fs::path path_file() const {

@@ -71,7 +71,7 @@ public:
         tell(session_.pop_notices());
         if (saver_ != nullptr) {
             saver_->run();
-            tell(saver_->pop_notices());
+            for (const Saved& result : saver_->pop_results()) tell_saved(result);
         }
         const Figures figures = figures_now();
         watch_input(figures);
@@ -109,6 +109,10 @@ private:
     void tell(const std::vector<std::string>& notices) {
         if (quiet_) return;
         for (const std::string& notice : notices) fmt::print(stderr, "note: {}\n", notice);
+    }
+    void tell_saved(const Saved& result) {
+        if (result.is_saved) return tell(std::vector<std::string>{result.text});
+        warn(result.text);
     }
     static void warn(const std::string& text) { fmt::print(stderr, "warning: {}\n", text); }
 
@@ -187,11 +191,19 @@ private:
                       next_dropped_ = start_, next_alarm_ = start_;
 };
 
+/// Saves the map of the whole drive, as far as the filter holds it.
+int finish(MapSaver& saver, bool quiet) {
+    const Saved saved = saver.save();
+    if (!saved.is_saved) fmt::print(stderr, "warning: {}\n", saved.text);
+    if (saved.is_saved && !quiet) fmt::print(stderr, "{}\n", saved.text);
+    return saved.is_saved ? app::kDone : app::kRejected;
+}
+
 /// Runs `run` on each recorded bag. After SIGTERM it only names the bags, because a supervisor is
 /// waiting.
-int finish(Recorder& recorder, const LiveOptions& o, const LiveConfig& config, bool own_poses) {
+int finish(const Recorder& recorder, const std::vector<fs::path>& folders, const LiveOptions& o,
+           const LiveConfig& config, bool own_poses) {
     int worst = app::kDone;
-    const std::vector<fs::path> folders = recorder.commit();
     if (folders.empty()) fmt::print(stderr, "note: no scan was judged, so nothing is recorded\n");
     for (const fs::path& folder : folders) {
         const fs::path bag = recorder.bag_of(folder);
@@ -224,7 +236,7 @@ int live(Bus& bus, const LiveOptions& o, LiveConfig config) {
     Session session(config, outputs, recorder ? &*recorder : nullptr);
     std::optional<MapSaver> saver;
     if (o.map) {
-        saver.emplace(session, *o.map);
+        saver.emplace(session, *o.map, o.overwrite);
         catch_save_requests();
     }
     Subscriptions subscriptions(bus, config, intake);
@@ -241,14 +253,14 @@ int live(Bus& bus, const LiveOptions& o, LiveConfig config) {
     }
     bus.stop();  // before what receives its messages goes
     session.stop();
-    if (saver) {
-        saver->save();
-        for (const std::string& notice : saver->pop_notices()) fmt::print(stderr, "{}\n", notice);
-    }
     const Figures figures = chores.figures_now();
     if (!o.quiet) fmt::print("{}", to_text(figures));
-    if (!recorder) return app::kDone;
-    return finish(*recorder, o, config, figures.origin == PoseOrigin::odometry);
+    // The drive first, because a supervisor may not wait for the map.
+    const std::vector<fs::path> recorded = recorder ? recorder->commit() : std::vector<fs::path>{};
+    const int of_map = saver ? finish(*saver, o.quiet) : app::kDone;
+    if (!recorder) return of_map;
+    return std::max(of_map,
+                    finish(*recorder, recorded, o, config, figures.origin == PoseOrigin::odometry));
 }
 
 }  // namespace dynamic_filter::live

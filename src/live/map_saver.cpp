@@ -4,9 +4,10 @@
 #include <fmt/format.h>
 
 #include <csignal>
-#include <span>
 #include <utility>
 
+#include "base/little_endian.hpp"
+#include "base/output_folder.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/writers.hpp"
 
@@ -23,24 +24,22 @@ io::Cloud cloud_of(const std::vector<StaticVoxel>& voxels) {
     for (const char* axis : {"x", "y", "z"}) io::add_field(cloud, axis, io::FieldType::f64);
     io::add_field(cloud, "probability", io::FieldType::f32);
     for (const StaticVoxel& voxel : voxels) {
-        const auto center = std::as_bytes(std::span(voxel.center.data(), 3));
-        const auto probability = std::as_bytes(std::span(&voxel.probability, 1));
-        cloud.data.insert(cloud.data.end(), center.begin(), center.end());
-        cloud.data.insert(cloud.data.end(), probability.begin(), probability.end());
+        for (const double coordinate : voxel.center) app::put(cloud.data, coordinate);
+        app::put(cloud.data, voxel.probability);
     }
     return cloud;
 }
 
-/// Says what came of it.
-std::string saved(const Session& session, const std::filesystem::path& file) {
-    const std::vector<StaticVoxel> voxels = session.static_map();
-    if (voxels.empty()) return "no scan was judged yet, so no map is saved";
+/// Whatever happens, the filter goes on.
+Saved saved(const Session& session, const std::filesystem::path& file) {
     try {
+        const std::vector<StaticVoxel> voxels = session.static_map();
+        if (voxels.empty()) return {false, "nothing static is known yet, so no map is saved"};
         io::write_cloud(file, cloud_of(voxels));
-        return fmt::format("saved {}: {} points, {} bytes", file.string(), voxels.size(),
-                           std::filesystem::file_size(file));
-    } catch (const std::exception& error) {  // the filter goes on
-        return fmt::format("the map is not saved: {}", error.what());
+        return {true, fmt::format("saved {}: {} points, {} bytes", file.string(), voxels.size(),
+                                  std::filesystem::file_size(file))};
+    } catch (const std::exception& error) {
+        return {false, fmt::format("the map is not saved: {}", error.what())};
     }
 }
 
@@ -51,11 +50,17 @@ void catch_save_requests() {
     std::signal(SIGUSR1, note_save_request);
 }
 
-MapSaver::MapSaver(Session& session, std::filesystem::path file)
+MapSaver::MapSaver(Session& session, std::filesystem::path file, bool overwrite)
     : session_(session), file_(std::move(file)) {
-    if (io::can_write_cloud(file_)) return;
-    throw ConfigError(
-        fmt::format("--map {}: expected a file of {}", file_.string(), io::cloud_kinds_written()));
+    if (!io::can_write_cloud(file_)) {
+        throw ConfigError(fmt::format("--map {}: expected a file of {}", file_.string(),
+                                      io::cloud_kinds_written()));
+    }
+    const std::filesystem::path folder = std::filesystem::absolute(file_).parent_path();
+    if (!std::filesystem::is_directory(folder)) {
+        throw ConfigError("--map " + file_.string() + ": there is no folder " + folder.string());
+    }
+    app::refuse_existing(file_, overwrite);
 }
 
 void MapSaver::run() {
@@ -67,15 +72,15 @@ void MapSaver::run() {
     running_ = std::async(std::launch::async, [this] { return saved(session_, file_); });
 }
 
-void MapSaver::save() {
+Saved MapSaver::save() {
     take_result();
-    notices_.push_back(saved(session_, file_));
+    return saved(session_, file_);
 }
 
 void MapSaver::take_result() {
-    if (running_.valid()) notices_.push_back(running_.get());
+    if (running_.valid()) results_.push_back(running_.get());
 }
 
-std::vector<std::string> MapSaver::pop_notices() { return std::exchange(notices_, {}); }
+std::vector<Saved> MapSaver::pop_results() { return std::exchange(results_, {}); }
 
 }  // namespace dynamic_filter::live

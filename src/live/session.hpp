@@ -50,8 +50,9 @@ public:
     /// How often the local map is published, and its radius [m].
     void set_map(double rate_hz, double radius);
 
-    /// All static voxels that the filter holds, at any time and from any thread, also after stop().
-    /// Empty before the first verdict.
+    /// All static voxels of the newest map that the filter holds (preset `paper`: those around the
+    /// sensor), from any thread, also after stop(). Empty before the first verdict. Verdicts wait
+    /// for it.
     [[nodiscard]] std::vector<StaticVoxel> static_map() const;
 
     [[nodiscard]] Counters counters() const { return filter_->counters(); }

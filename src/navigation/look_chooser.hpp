@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <optional>
 
 namespace dynamic_filter::app {
@@ -17,7 +18,8 @@ public:
     /// frame that is the same for all [m].
     bool chooses(const Eigen::Vector3d& place, double stamp) {
         constexpr double kApart = 0.5, kAgain = 2.0;
-        if (last_ && (place - last_->place).norm() < kApart && stamp - last_->stamp < kAgain) {
+        if (last_ && (place - last_->place).norm() < kApart &&
+            std::abs(stamp - last_->stamp) < kAgain) {
             return false;
         }
         last_ = {place, stamp};

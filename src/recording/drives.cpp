@@ -22,10 +22,6 @@ bool is_list(const fs::path& path) {
     return path.extension() == ".txt" && fs::is_regular_file(path);
 }
 
-bool is_there(const fs::path& recording) {
-    return fs::exists(recording) || io::names_scene(recording);
-}
-
 std::string trimmed(const std::string& text) {
     const auto first = text.find_first_not_of(" \r");
     if (first == std::string::npos) return "";
@@ -81,6 +77,10 @@ void refuse_twice(const std::vector<DriveSource>& sources) {
 }
 
 }  // namespace
+
+bool is_there(const fs::path& recording) {
+    return fs::exists(recording) || io::names_scene(recording);
+}
 
 std::vector<DriveSource> expand(const std::vector<fs::path>& recordings) {
     std::vector<DriveSource> sources;

@@ -23,6 +23,9 @@ struct Drive {
     io::Recording recording;
 };
 
+/// Whether there is a recording of that name.
+bool is_there(const std::filesystem::path& recording);
+
 /// The recordings, with each list (a .txt file) replaced by what it lists: one recording a line;
 /// after a tab, its pose file. Empty lines and lines that begin with # are left out. Relative paths
 /// start at the folder of the list. Throws InputError.

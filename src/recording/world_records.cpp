@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "recording/world_records.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <numeric>
+#include <string>
+
+#include "dynamic_filter/error.hpp"
 
 namespace dynamic_filter::app {
 
@@ -56,7 +60,26 @@ std::vector<Coordinate> coordinates_of(const io::Cloud& layout) {
     return all;
 }
 
+std::string names_of(const std::vector<io::Field>& fields) {
+    std::string names;
+    for (const io::Field& field : fields) names += (names.empty() ? "" : " ") + field.name;
+    return names;
+}
+
 }  // namespace
+
+void refuse_other_fields(const io::FullScan& scan, const io::Cloud& layout) {
+    const auto is_same = [](const io::Field& a, const io::Field& b) {
+        return a.name == b.name && a.count == b.count && (a.type == b.type || is_coordinate(a));
+    };
+    if (std::equal(scan.cloud.fields.begin(), scan.cloud.fields.end(), layout.fields.begin(),
+                   layout.fields.end(), is_same)) {
+        return;
+    }
+    throw ConfigError("scans have the fields " + names_of(layout.fields) + ", and others " +
+                      names_of(scan.cloud.fields) +
+                      ", or other types of them; one cloud can hold those of one kind");
+}
 
 io::Cloud layout_of(const io::FullScan& scan, bool in_world) {
     constexpr double kFar = 1e4;  // [m]

@@ -15,6 +15,9 @@ namespace dynamic_filter::app {
 /// a float would be off by a millimetre or more. `in_world`: as they are.
 io::Cloud layout_of(const io::FullScan& scan, bool in_world);
 
+/// Throws ConfigError if the scan has other fields than the layout, as those of another sensor may.
+void refuse_other_fields(const io::FullScan& scan, const io::Cloud& layout);
+
 /// The scan's records in the given layout (same fields, x y z perhaps wider), x y z in the world.
 std::vector<std::byte> world_records(const io::FullScan& scan, const io::Cloud& layout);
 /// The records of these of its points.

@@ -7,6 +7,7 @@
 #include "dynamic_filter/error.hpp"
 #include "formats/label_files.hpp"
 #include "formats/voxel_map/map_index.hpp"
+#include "recording/drives.hpp"
 #include "recording/scans.hpp"
 #include "run/run_state.hpp"
 
@@ -14,10 +15,19 @@ namespace fs = std::filesystem;
 
 namespace dynamic_filter::app {
 
+namespace {
+
+fs::path without_slash(const fs::path& folder) {
+    const fs::path whole = fs::absolute(folder).lexically_normal();
+    return whole.has_filename() ? whole : whole.parent_path();
+}
+
+}  // namespace
+
 std::vector<DriveOfResult> drives_of_result(const fs::path& result) {
     const bool is_tiled = is_tiled_map(result);
-    const fs::path map = is_tiled ? map_folder_of(result) : result / "";
-    const fs::path folder = fs::absolute(map).lexically_normal().parent_path();
+    const fs::path map = without_slash(is_tiled ? map_folder_of(result) : result);
+    const fs::path folder = is_tiled ? map.parent_path() : map;
     const std::vector<fs::path> recordings = recordings_of_run(folder);
     std::vector<DriveOfResult> drives;
     if (!is_tiled && recordings.size() == 1) {
@@ -34,8 +44,11 @@ std::vector<DriveOfResult> drives_of_result(const fs::path& result) {
                          "is not the whole output folder of a run: the file .run in it tells where "
                          "the recordings are");
     }
+    if (!is_whole_run(folder)) {
+        throw InputError(folder, "", "the run is not complete; run --resume goes on with it");
+    }
     for (const DriveOfResult& drive : drives) {
-        if (fs::exists(drive.recording)) continue;
+        if (is_there(drive.recording)) continue;
         throw InputError(drive.recording, "",
                          "is not there any more; the run in " + folder.string() + " read it");
     }
@@ -48,6 +61,10 @@ std::optional<fs::path> settings_file_of(const fs::path& folder) {
         if (fs::exists(result / kRunState) && fs::exists(file)) return file;
     }
     return std::nullopt;
+}
+
+bool has_labels(const fs::path& folder, const io::Recording& recording, std::size_t i) {
+    return fs::exists(io::label_file(io::label_folder(folder), io::stem(recording, i)));
 }
 
 Labels labels_of_scan(const fs::path& folder, const io::Recording& recording, std::size_t i,

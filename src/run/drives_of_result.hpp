@@ -18,12 +18,15 @@ struct DriveOfResult {
 };
 
 /// `result`: the output folder of a run over one recording or several, or the map in it. Throws
-/// InputError if it is none, or if a recording is not there any more.
+/// InputError if it is none or not complete, or if a recording is not there any more.
 std::vector<DriveOfResult> drives_of_result(const std::filesystem::path& result);
 
 /// config.toml of the run whose labels are in the folder: of one recording, or of a drive, which is
 /// OUT/drives/NAME. Empty if no run left it.
 std::optional<std::filesystem::path> settings_file_of(const std::filesystem::path& folder);
+
+/// False for a scan that the run left out.
+bool has_labels(const std::filesystem::path& folder, const io::Recording& recording, std::size_t i);
 
 /// The labels of scan i, of which the recording has `points`. Throws InputError, and ConfigError if
 /// they are of another number of points.

@@ -91,6 +91,10 @@ void write_complete(const OutputFolder& output, std::string_view state) {
     write_state(output, std::string(state) + std::string(kComplete));
 }
 
+bool is_whole_run(const fs::path& folder) {
+    return fs::exists(folder / kRunState) && io::read_file(folder / kRunState).ends_with(kComplete);
+}
+
 bool is_begun(const fs::path& folder, std::string_view state) {
     const fs::path file = folder / kRunState;
     return fs::exists(file) && io::read_file(file) == state;

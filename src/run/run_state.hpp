@@ -30,6 +30,8 @@ void refuse_foreign_labels(const std::filesystem::path& folder);
 void write_state(const OutputFolder& output, std::string_view state);
 void write_complete(const OutputFolder& output, std::string_view state);
 
+/// True if the folder holds a run, complete.
+bool is_whole_run(const std::filesystem::path& folder);
 /// True if the folder holds this run, complete.
 bool is_complete(const std::filesystem::path& folder, std::string_view state);
 /// True if the folder holds this run, incomplete.

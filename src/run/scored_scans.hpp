@@ -11,7 +11,7 @@
 
 namespace dynamic_filter::app {
 
-/// A scan with ground truth as the scores take it, without a verdict. Points outside of `limits`
+/// A scan with ground truth as the scores take it, without a verdict. Points outside of `part`
 /// get an unknown truth, so that every score leaves them out.
 eval::LabelledScan labelled(const io::FullScan& scan, const Eigen::Vector3d& origin,
                             const ScoredPart& part = {});

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "base/little_endian.hpp"
 #include "dynamic_filter/error.hpp"
 #include "export/objects/pieces.hpp"
 #include "recording/world_records.hpp"
@@ -26,18 +27,21 @@ Change change_of(Piece piece, const std::vector<std::uint32_t>& scans,
                  const std::vector<double>& stamps) {
     std::set<std::uint32_t> seen_in;
     for (const std::uint32_t i : piece.points) seen_in.insert(scans[i]);
-    return {piece.box,
-            piece.points.size(),
-            seen_in.size(),
-            stamps[*seen_in.begin()],
-            stamps[*seen_in.rbegin()],
-            std::move(piece.points)};
+    Change change{piece.box, piece.points.size(), seen_in.size()};
+    change.first = change.last = stamps[*seen_in.begin()];
+    for (const std::uint32_t scan : seen_in) {  // drives need not be in the order of their stamps
+        change.first = std::min(change.first, stamps[scan]);
+        change.last = std::max(change.last, stamps[scan]);
+    }
+    change.collected = std::move(piece.points);
+    return change;
 }
 
 }  // namespace
 
 void ChangedPoints::add(const io::FullScan& scan, const Labels& alone, const Labels& together) {
     if (layout_.fields.empty()) layout_ = layout_of(scan, false);
+    refuse_other_fields(scan, layout_);
     const auto number = static_cast<std::uint32_t>(stamps_.size());
     std::vector<std::uint32_t> changed;
     for (std::uint32_t i = 0; i < scan.points.size(); ++i) {
@@ -104,13 +108,12 @@ io::Cloud ChangedPoints::cloud(const std::vector<Change>& changes) const {
     std::uint32_t number = 0;
     for (const Change& change : changes) {
         ++number;
-        const auto bytes = std::as_bytes(std::span(&number, 1));
-        for (const std::uint32_t i : change.cloud) {
+        for (const std::uint32_t i : change.collected) {
             const auto record = records_.begin() +
                                 static_cast<std::ptrdiff_t>(std::size_t{i} * layout_.point_bytes);
             cloud.data.insert(cloud.data.end(), record,
                               record + static_cast<std::ptrdiff_t>(layout_.point_bytes));
-            cloud.data.insert(cloud.data.end(), bytes.begin(), bytes.end());
+            put(cloud.data, number);
         }
     }
     return cloud;

@@ -19,9 +19,9 @@ namespace dynamic_filter::app {
 struct Change {
     Eigen::AlignedBox3d box;  ///< [m] in the world
     std::size_t points = 0;
-    std::size_t scans = 0;             ///< that have a point of it
-    double first = 0.0, last = 0.0;    ///< [s] stamps of these scans
-    std::vector<std::uint32_t> cloud;  ///< its points, by index in ChangedPoints::cloud()
+    std::size_t scans = 0;                   ///< that have a point of it
+    double first = 0.0, last = 0.0;          ///< [s] stamps of these scans
+    std::vector<std::uint32_t> collected{};  ///< its points, by index among all that were added
 };
 
 /// Collects the points of one date that are away at the other. Single caller.

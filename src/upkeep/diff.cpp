@@ -11,10 +11,12 @@
 #include "draw/canvas.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
+#include "dynamic_filter/parallel.hpp"
 #include "dynamic_filter/writers.hpp"
 #include "geometry/pose.hpp"
 #include "page/sampling.hpp"
 #include "recording/scans.hpp"
+#include "recording/world_records.hpp"
 #include "run/data_json.hpp"
 #include "run/drives_of_result.hpp"
 #include "run/open_for_result.hpp"
@@ -40,11 +42,38 @@ struct Date {
     std::vector<Placed> placed;  ///< parallel
 };
 
+/// Throws ConfigError where what the run did with the drive cannot be done again for both dates.
+void refuse_odd_drive(const DriveOfResult& drive, const Placed& placed, io::Recording& recording) {
+    if (placed.tracked.empty()) return;
+    if (!recording.info().has_poses) {
+        throw ConfigError(drive.folder.string() +
+                          ": the poses of the run are its own odometry, so they begin a world of "
+                          "their own; give both recordings poses in one world");
+    }
+    if (placed.how.first > 0 || placed.how.last || placed.how.stride > 1) {
+        throw ConfigError(
+            drive.folder.string() +
+            ": was refined for a part of its scans (--first, --last, --stride); `run` "
+            "all of them, or with --refine off");
+    }
+}
+
 Date date_of(const fs::path& run) {
     Date date{run, drives_of_result(run), {}};
+    std::optional<io::Cloud> layout;  // of the clouds of changes
     for (const DriveOfResult& drive : date.drives) {
         const auto placed = read_placed(drive.folder);
         if (!placed) throw InputError(drive.folder, "", "has no recording.json; is it of a run?");
+        DataOptions how = placed->how;
+        how.data = drive.recording;
+        io::Recording recording = open(how);
+        refuse_odd_drive(drive, *placed, recording);
+        for_each_scan(recording, {0}, {}, [&](std::size_t, MaybeScan& maybe) {
+            if (!maybe.scan) return true;
+            if (!layout) layout = layout_of(*maybe.scan, false);
+            refuse_other_fields(*maybe.scan, *layout);
+            return true;
+        });
         date.placed.push_back(*placed);
     }
     return date;
@@ -54,7 +83,6 @@ Date date_of(const fs::path& run) {
 DataOptions reading_of(const std::vector<const Date*>& dates) {
     const auto text_of_reading = [](DataOptions how) {
         how.poses.reset();  // each drive has its own
-        how.deskew = "auto";
         return json_of(how).dump();
     };
     const DataOptions how = dates.front()->placed.front().how;
@@ -69,7 +97,6 @@ DataOptions reading_of(const std::vector<const Date*>& dates) {
     }
     DataOptions common = how;
     common.poses.reset();
-    common.deskew = "auto";
     return common;
 }
 
@@ -109,7 +136,7 @@ std::string list_of(const std::vector<const Date*>& dates) {
 void refuse_same_drive(const Date& one, const Date& other) {
     for (const DriveOfResult& a : one.drives) {
         for (const DriveOfResult& b : other.drives) {
-            if (!fs::equivalent(a.recording, b.recording)) continue;
+            if (fs::weakly_canonical(a.recording) != fs::weakly_canonical(b.recording)) continue;
             throw ConfigError(a.recording.string() +
                               " is a drive of both runs; a date cannot be compared with itself");
         }
@@ -137,7 +164,14 @@ bool collect(const Date& date, const std::vector<DriveOfResult>& together,
         for_each_scan(recording, scans, {}, [&](std::size_t i, MaybeScan& maybe) {
             progress.advance();
             if (interrupted()) return false;
-            if (!maybe.scan) return true;  // the run has said so
+            const auto is_judged = [&](const fs::path& folder) {
+                return has_labels(folder, recording, i);
+            };
+            // What a run leaves out it has named.
+            if (!maybe.scan || !is_judged(together[d].folder) ||
+                !is_judged(date.drives[d].folder)) {
+                return true;
+            }
             const io::FullScan& scan = *maybe.scan;
             const auto labels_in = [&](const fs::path& folder) {
                 return labels_of_scan(folder, recording, i, scan.points.size());
@@ -182,7 +216,10 @@ struct Together {
     explicit Together(const fs::path& output)
         : folder(fs::absolute(output / "").lexically_normal().parent_path() += ".together"),
           list(fs::path(folder) += ".txt"),
-          was_there(fs::exists(folder)) {}
+          was_there(fs::exists(folder)) {
+        if (was_there || !fs::exists(list)) return;
+        throw ConfigError(list.string() + ": is there already; choose another -o");
+    }
     void remove() const {
         fs::remove_all(folder);
         fs::remove(list);
@@ -200,8 +237,10 @@ RunResult filter_together(const std::vector<const Date*>& dates, const DiffOptio
     options.memory = o.memory;
     options.resume = together.was_there;
     options.maps = options.report = false;
-    options.quiet = o.quiet;
+    options.quiet = true;
+    options.catches = false;
     io::write_file(together.list, list_of(dates));
+    if (!o.quiet) fmt::print(stderr, "filter   both dates together\n");
     return run(options);
 }
 
@@ -242,12 +281,23 @@ int diff(const DiffOptions& o) {
     const Date old_date = date_of(o.old_run), new_date = date_of(o.new_run);
     refuse_same_drive(old_date, new_date);
     OutputFolder output(o.output, diff_files(), replaced_if(o.overwrite));
-    const Together together(o.output);
+    Together together(o.output);
+    if (o.overwrite && fs::exists(together.folder / kRunState)) {  // of a killed comparison
+        together.remove();
+        together.was_there = false;
+    }
+    const auto stop = [] {
+        fmt::print(stderr, "interrupted; the same command goes on with the comparison\n");
+        return static_cast<int>(kInterrupted);
+    };
     try {
         const RunResult result = filter_together({&old_date, &new_date}, o, together);
-        if (result.exit_code == kInterrupted) return kInterrupted;
-        const auto changes = write_changes(old_date, new_date, together, o.quiet, output.path());
-        if (!changes) return kInterrupted;
+        if (result.exit_code == kInterrupted) return stop();
+        std::optional<ChangesOfMap> changes;
+        with_threads(o.threads, [&] {
+            changes = write_changes(old_date, new_date, together, o.quiet, output.path());
+        });
+        if (!changes) return stop();
         output.commit();
         together.remove();
         if (!o.quiet) {
@@ -258,7 +308,9 @@ int diff(const DiffOptions& o) {
                 changes->voxels.old_only, changes->voxels.new_only, output.name().string());
         }
         return result.exit_code;
-    } catch (const ConfigError&) {  // the same call would end so again
+    } catch (const OutputError&) {  // a full disk: the same call goes on
+        throw;
+    } catch (const Error&) {  // it would end so again
         if (!together.was_there) together.remove();
         throw;
     }

@@ -18,8 +18,10 @@ struct DiffOptions {
 
 /// Filters the drives of both runs together, and compares with the labels that each run has alone:
 /// what rested at one date and is seen through at the other came or went. Returns the exit code.
-/// Throws an Error; then nothing is left but, if it was killed, the filtered tiles beside the
-/// output, with which the next call goes on.
+/// Throws an Error; then nothing is left. If it was killed or interrupted, or the disk was full,
+/// the filtered tiles stay beside the output (OUT.together), and the next call goes on with them.
+/// The caller catches interrupts. Memory: the filter keeps to `memory`; afterwards the voxels of
+/// both dates and the points that changed are held.
 int diff(const DiffOptions& options);
 
 }  // namespace dynamic_filter::app

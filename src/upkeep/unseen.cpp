@@ -3,9 +3,9 @@
 
 #include <tsl/robin_map.h>
 
-#include <span>
 #include <vector>
 
+#include "base/little_endian.hpp"
 #include "formats/voxel_map/tile_points.hpp"
 #include "upkeep/world_voxel.hpp"
 
@@ -61,9 +61,8 @@ SeenVoxels seen_voxels(const std::filesystem::path& map, std::size_t old_drives)
         const std::uint8_t dates = at.dates == (kOld | kNew) ? at.dates : dates_around(voxel);
         ++(dates == kOld ? seen.old_only : dates == kNew ? seen.new_only : seen.at_both);
         if (dates == (kOld | kNew)) continue;
-        const auto bytes = std::as_bytes(std::span(at.center.data(), 3));
-        seen.unseen.data.insert(seen.unseen.data.end(), bytes.begin(), bytes.end());
-        seen.unseen.data.push_back(std::byte{dates});
+        for (const double coordinate : at.center) put(seen.unseen.data, coordinate);
+        put(seen.unseen.data, dates);
     }
     return seen;
 }

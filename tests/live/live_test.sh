@@ -63,8 +63,8 @@ stop TERM
 # The map at SIGUSR1, while scans come and after them, and at the end; none before the first scan.
 start saved --map map.pcd
 kill -USR1 "$live"
-for _ in $(seq 100); do grep -q 'no scan was judged yet' saved.err && break; sleep 0.05; done
-grep -q 'no scan was judged yet, so no map is saved' saved.err || fail "no answer before the first scan"
+for _ in $(seq 100); do grep -q 'nothing static is known yet' saved.err && break; sleep 0.05; done
+grep -q '^warning: nothing static is known yet, so no map is saved' saved.err || fail "no answer before the first scan"
 [ ! -e map.pcd ] || fail "a map of nothing"
 "$player" drive.mcap --domain $ROS_DOMAIN_ID --all --check > player.json &
 playing=$!
@@ -93,6 +93,8 @@ expect 2 "unknown option '--what'" --ros-args -p input.cloud:=/points -- --what
 expect 2 'exists; choose another --record' --record out.mcap
 expect 2 'exists; choose another --record' --record out
 expect 2 'expected a file of .pcd' --map map.txtt
+expect 2 'there is no folder' --map nowhere/map.pcd
+expect 2 '--overwrite' --map map.pcd
 expect 1 'cannot join DDS domain' --set bus.network=nosuchdevice
 expect 4 'nothing is published that could be used' --dry-run --look 1
 

@@ -53,13 +53,20 @@ diff -r changes again > said || fail "other bytes after a kill"
 mkdir mine.together && touch mine.together/precious
 "$command" diff monday tuesday -o mine > said 2>&1 && fail "took a folder of somebody else"
 [ -e mine.together/precious ] && [ ! -e mine ] || fail "removed a folder of somebody else"
-rm -r mine.together mine.together.txt
+rm -rf mine.together mine.together.txt
+echo precious > mine.together.txt
+refuses "is there already" monday tuesday -o mine
+grep -q precious mine.together.txt || fail "replaced a file of somebody else"
 refuses "is a drive of both runs" monday monday -o none
 refuses "is not the whole output folder of a run" city tuesday -o none
 refuses "--overwrite" monday tuesday -o changes
 "$command" simulate crowd --frames 8 -o elsewhere -q
 run elsewhere -o wednesday --pose-fix lidar
 refuses "was read with other options than" monday wednesday -o none
+run city/drive_2 -o saturday --poses none
+refuses "its own odometry" monday saturday -o none
+cp -r tuesday sunday && sed -i '/^complete$/d' sunday/.run
+refuses "is not complete" monday sunday -o none
 run elsewhere -o friday --set map.voxel_size=0.3
 refuses "were made with other settings" monday friday -o none
 awk '{$4 += 5000; print}' elsewhere/poses.txt > moved && mv moved elsewhere/poses.txt

@@ -179,8 +179,9 @@ private:
                 header_.crs = system_of_keys(ByteReader(record));
             }
             if (id == las_wkt_id && user == las_projection) {
-                const std::string_view wkt = ByteReader(record).text(record.size());
-                header_.crs = wkt.substr(0, wkt.find('\0'));
+                const std::string_view padded_wkt = ByteReader(record).text(record.size());
+                const std::string_view wkt = padded_wkt.substr(0, padded_wkt.find('\0'));
+                if (!wkt.empty()) header_.crs = wkt;
             }
         }
     }
