@@ -43,7 +43,8 @@ struct Date {
 };
 
 /// Throws ConfigError where what the run did with the drive cannot be done again for both dates.
-void refuse_odd_drive(const DriveOfResult& drive, const Placed& placed, io::Recording& recording) {
+void refuse_odd_drive(const DriveOfResult& drive, const Placed& placed,
+                      const io::Recording& recording) {
     if (placed.tracked.empty()) return;
     if (!recording.info().has_poses) {
         throw ConfigError(drive.folder.string() +
@@ -66,7 +67,7 @@ Date date_of(const fs::path& run) {
         if (!placed) throw InputError(drive.folder, "", "has no recording.json; is it of a run?");
         DataOptions how = placed->how;
         how.data = drive.recording;
-        io::Recording recording = open(how);
+        const io::Recording recording = open(how);
         refuse_odd_drive(drive, *placed, recording);
         for_each_scan(recording, {0}, {}, [&](std::size_t, MaybeScan& maybe) {
             if (!maybe.scan) return true;
@@ -208,47 +209,37 @@ void write_pictures(const fs::path& folder, const DatePoints& of_old, const Date
                   date_from_above(of_new.drawn, positions_from(came, origin), box, kCameColor));
 }
 
-/// The result of both dates together, beside the output, so that a killed comparison can go on.
-struct Together {
-    fs::path folder, list;
-    bool was_there;  ///< left by a killed comparison, or somebody else's
-
-    explicit Together(const fs::path& output)
-        : folder(fs::absolute(output / "").lexically_normal().parent_path() += ".together"),
-          list(fs::path(folder) += ".txt"),
-          was_there(fs::exists(folder)) {
-        if (was_there || !fs::exists(list)) return;
-        throw ConfigError(list.string() + ": is there already; choose another -o");
-    }
-    void remove() const {
-        fs::remove_all(folder);
-        fs::remove(list);
-    }
-};
+/// Where the result of both dates together is: beside the output, so that a killed comparison can
+/// go on.
+fs::path folder_of_both(const fs::path& output) {
+    return fs::absolute(output / "").lexically_normal().parent_path() += ".together";
+}
 
 RunResult filter_together(const std::vector<const Date*>& dates, const DiffOptions& o,
-                          const Together& together) {
+                          const fs::path& together, const fs::path& list) {
     RunOptions options;
-    options.recordings = {together.list};
+    options.recordings = {list};
     options.data = reading_of(dates);
-    options.output = together.folder;
+    options.output = together;
     options.config.file = settings_of(dates);
     options.threads = o.threads;
     options.memory = o.memory;
-    options.resume = together.was_there;
+    options.resume = fs::exists(together);
     options.maps = options.report = false;
     options.quiet = true;
     options.catches = false;
-    io::write_file(together.list, list_of(dates));
+    io::write_file(list, list_of(dates));
     if (!o.quiet) fmt::print(stderr, "filter   both dates together\n");
-    return run(options);
+    RunResult result = run(options);
+    fs::remove(list);
+    return result;
 }
 
 /// Empty if the user interrupted.
 std::optional<ChangesOfMap> write_changes(const Date& old_date, const Date& new_date,
-                                          const Together& together, bool quiet,
+                                          const fs::path& together, bool quiet,
                                           const fs::path& output) {
-    const std::vector<DriveOfResult> drives = drives_of_result(together.folder);
+    const std::vector<DriveOfResult> drives = drives_of_result(together);
     const auto first_new = drives.begin() + static_cast<std::ptrdiff_t>(old_date.drives.size());
     DatePoints of_old, of_new;
     std::optional<Eigen::Vector3d> origin;
@@ -258,7 +249,7 @@ std::optional<ChangesOfMap> write_changes(const Date& old_date, const Date& new_
     }
     ChangesOfMap changes{of_old.changed.changes(of_new.changed),
                          of_new.changed.changes(of_old.changed),
-                         seen_voxels(together.folder / "map", old_date.drives.size())};
+                         seen_voxels(together / "map", old_date.drives.size())};
     if (changes.voxels.at_both == 0) {
         throw ConfigError(old_date.run.string() + " and " + new_date.run.string() +
                           " have no place in common; are their poses of the same world?");
@@ -281,17 +272,17 @@ int diff(const DiffOptions& o) {
     const Date old_date = date_of(o.old_run), new_date = date_of(o.new_run);
     refuse_same_drive(old_date, new_date);
     OutputFolder output(o.output, diff_files(), replaced_if(o.overwrite));
-    Together together(o.output);
-    if (o.overwrite && fs::exists(together.folder / kRunState)) {  // of a killed comparison
-        together.remove();
-        together.was_there = false;
-    }
+    const fs::path together = folder_of_both(o.output);
+    // An earlier one of ours is begun anew.
+    if (o.overwrite && fs::exists(together / kRunState)) fs::remove_all(together);
+    const bool was_there = fs::exists(together);
     const auto stop = [] {
         fmt::print(stderr, "interrupted; the same command goes on with the comparison\n");
         return static_cast<int>(kInterrupted);
     };
     try {
-        const RunResult result = filter_together({&old_date, &new_date}, o, together);
+        const RunResult result =
+            filter_together({&old_date, &new_date}, o, together, output.path() / "drives.txt");
         if (result.exit_code == kInterrupted) return stop();
         std::optional<ChangesOfMap> changes;
         with_threads(o.threads, [&] {
@@ -299,7 +290,7 @@ int diff(const DiffOptions& o) {
         });
         if (!changes) return stop();
         output.commit();
-        together.remove();
+        fs::remove_all(together);
         if (!o.quiet) {
             fmt::print(
                 "{} went, {} came; seen at both dates: {} voxels, at the old one only: {}, at the "
@@ -311,7 +302,7 @@ int diff(const DiffOptions& o) {
     } catch (const OutputError&) {  // a full disk: the same call goes on
         throw;
     } catch (const Error&) {  // it would end so again
-        if (!together.was_there) together.remove();
+        if (!was_there) fs::remove_all(together);
         throw;
     }
 }

@@ -22,7 +22,7 @@ run city/drive_1 -o monday
 run city/drive_2 -o tuesday
 "$command" diff monday tuesday -o changes > said 2>&1 || fail "diff"
 grep -q "went, .* came; seen at both dates: [1-9]" said || fail "no summary"
-[ ! -e changes.together ] && [ ! -e changes.together.txt ] || fail "left files beside the output"
+[ ! -e changes.together ] || fail "left files beside the output"
 ls changes > files
 printf '%s\n' came.pcd changes.csv changes.json index.html new.png old.png unseen.pcd went.pcd | cmp -s - files ||
     fail "other files: $(cat files)"
@@ -53,10 +53,7 @@ diff -r changes again > said || fail "other bytes after a kill"
 mkdir mine.together && touch mine.together/precious
 "$command" diff monday tuesday -o mine > said 2>&1 && fail "took a folder of somebody else"
 [ -e mine.together/precious ] && [ ! -e mine ] || fail "removed a folder of somebody else"
-rm -rf mine.together mine.together.txt
-echo precious > mine.together.txt
-refuses "is there already" monday tuesday -o mine
-grep -q precious mine.together.txt || fail "replaced a file of somebody else"
+rm -r mine.together
 refuses "is a drive of both runs" monday monday -o none
 refuses "is not the whole output folder of a run" city tuesday -o none
 refuses "--overwrite" monday tuesday -o changes
