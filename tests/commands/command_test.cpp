@@ -393,7 +393,8 @@ TEST_F(Command, UsageErrorsExitWithTwo) {
     expect_said("dynamicfilter: DATA is required; `dynamicfilter run --help` lists the options");
     EXPECT_EQ(run("fly"), 2);
     expect_said(
-        "unknown command 'fly'; the commands are: run, plan, merge, diff, live, eval, simulate, convert");
+        "unknown command 'fly'; the commands are: run, plan, merge, diff, live, eval, simulate, "
+        "convert");
     EXPECT_EQ(run("rnu data"), 2);
     expect_said("unknown command 'rnu', did you mean 'run'?");
     EXPECT_EQ(run("eval --truth data --lables out"), 2);
