@@ -12,6 +12,7 @@
 #include "formats/voxel_map/map_index.hpp"
 #include "page/run_view.hpp"
 #include "recording/data_options.hpp"
+#include "recording/folders.hpp"
 #include "recording/scans.hpp"
 #include "run/open_for_result.hpp"
 #include "run/scored_scans.hpp"
@@ -30,9 +31,7 @@ struct ReportOptions {
 
 namespace fs = std::filesystem;
 
-std::string name_of(const fs::path& result) {
-    return fs::absolute(result / "").lexically_normal().parent_path().filename().string();
-}
+std::string name_of(const fs::path& result) { return io::whole_path(result).filename().string(); }
 
 /// A map that somebody else made clean: its points, and its scores if there is ground truth.
 PageRun view_of_map(const fs::path& file, const ReportOptions& o) {

@@ -9,6 +9,7 @@
 
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
+#include "recording/folders.hpp"
 #include "recording/layouts/layouts.hpp"
 #include "recording/scans.hpp"
 
@@ -58,8 +59,7 @@ std::vector<DriveSource> read_list(const fs::path& list) {
 
 /// The last `parts` parts of a path, with _ between them.
 std::string ending_of(const fs::path& path, int parts) {
-    fs::path rest = fs::absolute(path).lexically_normal();
-    if (!rest.has_filename()) rest = rest.parent_path();
+    fs::path rest = io::whole_path(path);
     std::string name = rest.stem().string();
     for (int i = 1; i < parts && rest.parent_path().has_filename(); ++i) {
         rest = rest.parent_path();

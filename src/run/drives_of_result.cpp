@@ -8,6 +8,7 @@
 #include "formats/label_files.hpp"
 #include "formats/voxel_map/map_index.hpp"
 #include "recording/drives.hpp"
+#include "recording/folders.hpp"
 #include "recording/scans.hpp"
 #include "run/run_state.hpp"
 
@@ -15,18 +16,9 @@ namespace fs = std::filesystem;
 
 namespace dynamic_filter::app {
 
-namespace {
-
-fs::path without_slash(const fs::path& folder) {
-    const fs::path whole = fs::absolute(folder).lexically_normal();
-    return whole.has_filename() ? whole : whole.parent_path();
-}
-
-}  // namespace
-
 std::vector<DriveOfResult> drives_of_result(const fs::path& result) {
     const bool is_tiled = is_tiled_map(result);
-    const fs::path map = without_slash(is_tiled ? map_folder_of(result) : result);
+    const fs::path map = io::whole_path(is_tiled ? map_folder_of(result) : result);
     const fs::path folder = is_tiled ? map.parent_path() : map;
     const std::vector<fs::path> recordings = recordings_of_run(folder);
     std::vector<DriveOfResult> drives;

@@ -7,6 +7,7 @@
 #include "base/little_endian.hpp"
 #include "dynamic_filter/error.hpp"
 #include "export/objects/pieces.hpp"
+#include "export/sink.hpp"
 #include "recording/world_records.hpp"
 
 namespace dynamic_filter::app {
@@ -27,7 +28,7 @@ Change change_of(Piece piece, const std::vector<std::uint32_t>& scans,
                  const std::vector<double>& stamps) {
     std::set<std::uint32_t> seen_in;
     for (const std::uint32_t i : piece.points) seen_in.insert(scans[i]);
-    Change change{piece.box, piece.points.size(), seen_in.size()};
+    Change change{piece.box, seen_in.size()};
     change.first = change.last = stamps[*seen_in.begin()];
     for (const std::uint32_t scan : seen_in) {  // drives need not be in the order of their stamps
         change.first = std::min(change.first, stamps[scan]);
@@ -47,12 +48,13 @@ void ChangedPoints::add(const io::FullScan& scan, const Labels& alone, const Lab
     for (std::uint32_t i = 0; i < scan.points.size(); ++i) {
         if (alone[i] == Label::unknown || !is_measured(scan.points[i])) continue;
         const Eigen::Vector3d place = scan.T_world_sensor * scan.points[i].cast<double>();
+        const WorldVoxel voxel = world_voxel(place, kVoxel);
         if (alone[i] == Label::dynamic) {
-            Times& times = dynamic_[world_voxel(place, kVoxel)];
+            Times& times = dynamic_[voxel];
             if (times.last_scan != number) times = {number, times.scans + 1};
             continue;
         }
-        static_.insert(world_voxel(place, kVoxel));
+        static_.insert(voxel);
         if (together[i] != Label::dynamic) continue;
         changed.push_back(i);
         places_.push_back(place);
@@ -85,11 +87,11 @@ std::vector<Change> ChangedPoints::changes(const ChangedPoints& other_date) cons
         if (piece.points.size() < kLeastPoints) continue;
         if (share_at_rest(piece.points, other_date) > kMostAtRest) continue;
         Change change = change_of(std::move(piece), scans_, stamps_);
-        const bool is_far = change.points < kLeastPointsOfScan * change.scans;
+        const bool is_far = change.points() < kLeastPointsOfScan * change.scans;
         if (change.scans >= kLeastScans && !is_far) changes.push_back(std::move(change));
     }
     std::stable_sort(changes.begin(), changes.end(),
-                     [](const Change& a, const Change& b) { return a.points > b.points; });
+                     [](const Change& a, const Change& b) { return a.points() > b.points(); });
     return changes;
 }
 
@@ -109,10 +111,7 @@ io::Cloud ChangedPoints::cloud(const std::vector<Change>& changes) const {
     for (const Change& change : changes) {
         ++number;
         for (const std::uint32_t i : change.collected) {
-            const auto record = records_.begin() +
-                                static_cast<std::ptrdiff_t>(std::size_t{i} * layout_.point_bytes);
-            cloud.data.insert(cloud.data.end(), record,
-                              record + static_cast<std::ptrdiff_t>(layout_.point_bytes));
+            append_record(cloud.data, records_, i, layout_.point_bytes);
             put(cloud.data, number);
         }
     }

@@ -7,21 +7,21 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "dynamic_filter/recording.hpp"
-#include "upkeep/world_voxel.hpp"
+#include "geometry/world_voxel.hpp"
 
 namespace dynamic_filter::app {
 
 /// Points that touch each other, and rest for the whole of a drive.
 struct Change {
-    Eigen::AlignedBox3d box;  ///< [m] in the world
-    std::size_t points = 0;
+    Eigen::AlignedBox3d box;                 ///< [m] in the world
     std::size_t scans = 0;                   ///< that have a point of it
     double first = 0.0, last = 0.0;          ///< [s] stamps of these scans
     std::vector<std::uint32_t> collected{};  ///< its points, by index among all that were added
+
+    [[nodiscard]] std::size_t points() const { return collected.size(); }
 };
 
 /// Collects the points of one date that are away at the other. Single caller.

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/json_vector.hpp"
 #include "draw/canvas.hpp"
 
 namespace dynamic_filter::app {
@@ -20,12 +21,6 @@ void each_change(const ChangesOfMap& changes, F&& f) {
     for (std::size_t i = 0; i < changes.came.size(); ++i) f("came", i + 1, changes.came[i]);
 }
 
-Json metres(const Eigen::Vector3d& v) {
-    Json json = Json::array();
-    for (const double value : v) json.push_back(std::round(value * 1000.0) / 1000.0);
-    return json;
-}
-
 }  // namespace
 
 std::string changes_csv(const ChangesOfMap& changes) {
@@ -34,7 +29,7 @@ std::string changes_csv(const ChangesOfMap& changes) {
         const Eigen::Vector3d center = c.box.center(), size = c.box.sizes();
         text += fmt::format("{},{},{:.3f},{:.3f},{:.3f},{:.2f},{:.2f},{:.2f},{},{},{:.3f},{:.3f}\n",
                             what, number, center.x(), center.y(), center.z(), size.x(), size.y(),
-                            size.z(), c.points, c.scans, c.first, c.last);
+                            size.z(), c.points(), c.scans, c.first, c.last);
     });
     return text;
 }
@@ -44,9 +39,9 @@ std::string changes_json(const ChangesOfMap& changes) {
     each_change(changes, [&](const char* what, std::size_t number, const Change& c) {
         rows.push_back({{"change", what},
                         {"number", number},
-                        {"center", metres(c.box.center())},
-                        {"size", metres(c.box.sizes())},
-                        {"points", c.points},
+                        {"center", array_of(rounded(c.box.center()))},
+                        {"size", array_of(rounded(c.box.sizes()))},
+                        {"points", c.points()},
                         {"scans", c.scans},
                         {"first", c.first},
                         {"last", c.last}});
@@ -88,7 +83,7 @@ whether they changed (<code>unseen.pcd</code>).
             "<tr><td>{}<td>{}<td>{:.1f}, {:.1f}, {:.1f}<td>{:.1f}, {:.1f}, {:.1f}<td>{}<td>{}"
             "</tr>\n",
             what, number, center.x(), center.y(), center.z(), size.x(), size.y(), size.z(),
-            c.points, c.scans);
+            c.points(), c.scans);
     });
     return text + "</table>\n</html>\n";
 }

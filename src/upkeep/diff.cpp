@@ -15,6 +15,7 @@
 #include "dynamic_filter/writers.hpp"
 #include "geometry/pose.hpp"
 #include "page/sampling.hpp"
+#include "recording/folders.hpp"
 #include "recording/scans.hpp"
 #include "recording/world_records.hpp"
 #include "run/data_json.hpp"
@@ -152,44 +153,46 @@ struct DatePoints {
     Points drawn;  ///< a sample of what rests at both, from the common origin
 };
 
+/// Adds a share of the points that rest at both dates, from the common origin.
+void add_sample(const io::FullScan& scan, std::size_t index, const Labels& together, double share,
+                const Eigen::Vector3d& origin, Points& drawn) {
+    Pose T_picture_sensor = scan.T_world_sensor;
+    T_picture_sensor.pretranslate(-origin);
+    for (std::size_t p = 0; p < scan.points.size(); ++p) {
+        if (together[p] != Label::static_ || !is_sampled(index, p, share)) continue;
+        if (!is_measured(scan.points[p])) continue;
+        drawn.push_back((T_picture_sensor * scan.points[p].cast<double>()).cast<float>());
+    }
+}
+
 /// False if the user interrupted.
 bool collect(const Date& date, const std::vector<DriveOfResult>& together,
              std::optional<Eigen::Vector3d>& origin, bool quiet, DatePoints& points) {
     for (std::size_t d = 0; d < date.drives.size(); ++d) {
+        const fs::path &of_date = date.drives[d].folder, &of_both = together[d].folder;
         DataOptions how = date.placed[d].how;
         how.data = date.drives[d].recording;
-        const io::Recording recording = open_for_result(how, together[d].folder).recording;
+        const io::Recording recording = open_for_result(how, of_both).recording;
         std::vector<std::size_t> scans(recording.size());
         std::iota(scans.begin(), scans.end(), std::size_t{0});
+        const double drawn_of_scan =
+            kDrawn / static_cast<double>(scans.size() * date.drives.size());
         Progress progress("compare", scans.size(), quiet);
         for_each_scan(recording, scans, {}, [&](std::size_t i, MaybeScan& maybe) {
             progress.advance();
             if (interrupted()) return false;
-            const auto is_judged = [&](const fs::path& folder) {
-                return has_labels(folder, recording, i);
-            };
             // What a run leaves out it has named.
-            if (!maybe.scan || !is_judged(together[d].folder) ||
-                !is_judged(date.drives[d].folder)) {
+            if (!maybe.scan || !has_labels(of_both, recording, i) ||
+                !has_labels(of_date, recording, i)) {
                 return true;
             }
             const io::FullScan& scan = *maybe.scan;
-            const auto labels_in = [&](const fs::path& folder) {
-                return labels_of_scan(folder, recording, i, scan.points.size());
-            };
-            const Labels both = labels_in(together[d].folder);
-            points.changed.add(scan, labels_in(date.drives[d].folder), both);
+            const std::size_t size = scan.points.size();
+            const Labels both = labels_of_scan(of_both, recording, i, size);
+            points.changed.add(scan, labels_of_scan(of_date, recording, i, size), both);
             if (!origin) origin = nearby_origin(scan.T_world_sensor, 1.0);
-            const double share = kDrawn / static_cast<double>(scan.points.size()) /
-                                 static_cast<double>(scans.size() * date.drives.size());
-            Pose T_picture_sensor = scan.T_world_sensor;
-            T_picture_sensor.pretranslate(-*origin);
-            for (std::size_t p = 0; p < scan.points.size(); ++p) {
-                if (both[p] != Label::static_ || !is_sampled(i, p, share)) continue;
-                if (!is_measured(scan.points[p])) continue;
-                points.drawn.push_back(
-                    (T_picture_sensor * scan.points[p].cast<double>()).cast<float>());
-            }
+            add_sample(scan, i, both, drawn_of_scan / static_cast<double>(size), *origin,
+                       points.drawn);
             return true;
         });
         if (interrupted()) return false;
@@ -211,9 +214,7 @@ void write_pictures(const fs::path& folder, const DatePoints& of_old, const Date
 
 /// Where the result of both dates together is: beside the output, so that a killed comparison can
 /// go on.
-fs::path folder_of_both(const fs::path& output) {
-    return fs::absolute(output / "").lexically_normal().parent_path() += ".together";
-}
+fs::path folder_of_both(const fs::path& output) { return io::whole_path(output) += ".together"; }
 
 RunResult filter_together(const std::vector<const Date*>& dates, const DiffOptions& o,
                           const fs::path& together, const fs::path& list) {

@@ -7,7 +7,7 @@
 
 #include "base/little_endian.hpp"
 #include "formats/voxel_map/tile_points.hpp"
-#include "upkeep/world_voxel.hpp"
+#include "geometry/world_voxel.hpp"
 
 namespace dynamic_filter::app {
 

@@ -12,7 +12,7 @@ namespace changes_page_test {
 ChangesOfMap sample() {
     Change car;
     car.box.extend(Eigen::Vector3d(1.0, 2.0, 0.0)).extend(Eigen::Vector3d(5.0, 4.0, 1.5));
-    car.points = 700;
+    car.collected.resize(700);
     car.scans = 12;
     car.first = 3.5;
     car.last = 9.0;

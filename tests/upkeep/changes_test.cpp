@@ -56,8 +56,8 @@ TEST(ChangedPoints, AreWhatRestedAndIsSeenThrough) {
     const ChangedPoints points = seen_in(4);
     const std::vector<Change> changes = points.changes({});
     ASSERT_EQ(changes.size(), 2U);
-    EXPECT_EQ(changes[0].points, 4U * 144U);
-    EXPECT_EQ(changes[1].points, 4U * 64U);
+    EXPECT_EQ(changes[0].points(), 4U * 144U);
+    EXPECT_EQ(changes[1].points(), 4U * 64U);
     EXPECT_EQ(changes[1].scans, 4U);
     EXPECT_EQ(changes[1].first, 10.0);
     EXPECT_EQ(changes[1].last, 13.0);
@@ -78,7 +78,7 @@ TEST(ChangedPoints, AreNotWhatRestsAtTheOtherDateToo) {
     other.add(place.scan, place.alone, place.together);
     const std::vector<Change> changes = seen_in(4).changes(other);
     ASSERT_EQ(changes.size(), 1U);
-    EXPECT_EQ(changes[0].points, 4U * 64U);
+    EXPECT_EQ(changes[0].points(), 4U * 64U);
 
     for (int i = 0; i < 12; ++i) {  // called dynamic wrongly: nothing passes for so long
         Place again(100.0 + i);

@@ -17,13 +17,6 @@ namespace dynamic_filter::app {
 
 namespace {
 
-/// To a millimetre, so that rounding of the last bits is not written.
-double rounded(double value) { return std::round(value * 1000.0) / 1000.0; }
-
-std::vector<double> rounded(const Eigen::Vector3d& v) {
-    return {rounded(v.x()), rounded(v.y()), rounded(v.z())};
-}
-
 /// The way of the middle, by steps of at least a second, because the middle of what is seen shifts
 /// from scan to scan.
 double way_of(const std::vector<const ObjectBox*>& boxes) {
@@ -110,15 +103,15 @@ std::string objects_json(const std::vector<ObjectSummary>& objects,
         for (const ObjectBox* box : object.boxes) {
             boxes.push_back({{"scan", stems[box->scan]},
                              {"time", box->stamp},
-                             {"center", rounded(box->center)},
-                             {"size", rounded(box->size)},
+                             {"center", array_of(rounded(box->center))},
+                             {"size", array_of(rounded(box->size))},
                              {"yaw", rounded(box->yaw)},
-                             {"velocity", rounded(box->velocity)},
+                             {"velocity", array_of(rounded(box->velocity))},
                              {"points", box->points}});
         }
         all.push_back({{"object", object.object},
                        {"points", object.points},
-                       {"size", rounded(object.size)},
+                       {"size", array_of(rounded(object.size))},
                        {"boxes", std::move(boxes)}});
     }
     return nlohmann::ordered_json{{"objects", std::move(all)}}.dump(

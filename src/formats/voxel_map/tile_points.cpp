@@ -5,20 +5,17 @@
 #include <tsl/robin_set.h>
 
 #include <array>
-#include <cmath>
 #include <cstring>
 
-#include "base/numbers.hpp"
 #include "dynamic_filter/cloud.hpp"
 #include "dynamic_filter/error.hpp"
+#include "geometry/world_voxel.hpp"
 
 namespace fs = std::filesystem;
 
 namespace dynamic_filter::app {
 
 namespace {
-
-using Cube = std::array<std::int64_t, 3>;
 
 const io::Field& field_of(const io::Cloud& cloud, const fs::path& file, const char* name,
                           io::FieldType type, std::size_t count) {
@@ -113,12 +110,9 @@ TilePoints read_tile(const fs::path& folder, const MapIndex& index, const MapTil
 TilePoints thinned(const TilePoints& points, double spacing) {
     TilePoints result;
     result.words = points.words;
-    tsl::robin_set<Cube, NumbersHash> taken;
+    tsl::robin_set<WorldVoxel, NumbersHash> taken;
     for (std::size_t i = 0; i < points.size(); ++i) {
-        const Eigen::Array3d cube = (points.positions[i].array() / spacing).floor();
-        const bool is_first =
-            taken.insert({std::llround(cube.x()), std::llround(cube.y()), std::llround(cube.z())})
-                .second;
+        const bool is_first = taken.insert(world_voxel(points.positions[i], spacing)).second;
         if (is_first) result.append(points, i);
     }
     return result;
