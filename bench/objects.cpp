@@ -15,7 +15,7 @@
 #include "bench/scene_arguments.hpp"
 #include "dynamic_filter/filter.hpp"
 #include "dynamic_filter/simulation.hpp"
-#include "export/objects/object_tracker.hpp"
+#include "objects/object_tracker.hpp"
 
 namespace {
 

@@ -9,8 +9,8 @@
 #include "draw/canvas.hpp"
 #include "dynamic_filter/file.hpp"
 #include "dynamic_filter/writers.hpp"
-#include "export/objects/object_boxes.hpp"
-#include "export/objects/object_tracker.hpp"
+#include "objects/object_boxes.hpp"
+#include "objects/object_log.hpp"
 #include "export/outputs.hpp"
 #include "formats/label_files.hpp"
 
@@ -32,21 +32,21 @@ public:
 
     void append(const io::FullScan& scan, const Labels& labels, const std::string& stem) override {
         require_labels(labels, "--to objects");
-        Waiting waiting{stems_.size(), labels, {}, {}, {}};
+        Waiting waiting{labels, {}};
+        std::vector<Eigen::Vector3d> places;
         for (std::uint32_t i = 0; i < labels.size(); ++i) {
             if (labels[i] != Label::dynamic || !is_measured(scan.points[i])) continue;
             waiting.points.push_back(i);
-            waiting.places.emplace_back(scan.T_world_sensor * scan.points[i].cast<double>());
+            places.emplace_back(scan.T_world_sensor * scan.points[i].cast<double>());
         }
-        waiting.objects = tracker_.follow(waiting.places, waiting.scan, scan.stamp);
         waiting_.push_back(std::move(waiting));
         stems_.push_back(stem);
         poses_.push_back(scan.T_world_sensor);
-        while (!waiting_.empty() && is_settled(waiting_.front())) write_next();
+        log_.add(stems_.size() - 1, scan.stamp, std::move(places));
     }
 
     std::string commit() override {
-        while (!waiting_.empty()) write_next();
+        log_.finish();
         io::sync_folder(labels_);
         const std::vector<ObjectSummary> objects = summaries_of(boxes_);
         const fs::path& folder = output_.path();
@@ -60,78 +60,48 @@ public:
         }
         output_.commit();
         std::string note = fmt::format("{} objects moved", objects.size());
-        if (unnumbered_ > 0) {
+        if (log_.size() > kMostNumbers) {
             note += fmt::format(
                 "; labels hold {} numbers, so {} more objects have none there and no boxes",
-                kMostNumbers, unnumbered_);
+                kMostNumbers, log_.size() - kMostNumbers);
         }
         return note;
     }
 
 private:
-    /// A scan whose objects may still turn out to be stray echoes.
+    /// A scan whose objects are not yet known.
     struct Waiting {
-        std::size_t scan;
         Labels labels;
-        std::vector<std::uint32_t> points;    // those that move, by index
-        std::vector<Eigen::Vector3d> places;  // parallel, in the world
-        std::vector<std::uint32_t> objects;   // parallel, by the tracker's numbers
+        std::vector<std::uint32_t> points;  // those that move, by index
     };
 
-    [[nodiscard]] bool is_settled(const Waiting& waiting) const {
-        return std::all_of(waiting.objects.begin(), waiting.objects.end(), [&](auto object) {
-            return object == kNoObject || tracker_.objects()[object].is_sure() ||
-                   !tracker_.may_go_on(object);
-        });
-    }
-
-    /// The number in the files; 0: none.
-    std::uint32_t number_of(std::uint32_t object) {
-        if (object == kNoObject || !tracker_.objects()[object].is_sure()) return 0;
-        const auto next = static_cast<std::uint32_t>(numbers_.size() + 1);
-        const auto [number, is_new] = numbers_.try_emplace(object, next);
-        if (number->second <= kMostNumbers) return number->second;
-        unnumbered_ += is_new ? 1U : 0U;
-        return 0;
-    }
-
-    void write_next() {
+    void write(const KnownScan& known) {
         const Waiting& next = waiting_.front();
         std::vector<std::uint32_t> values(next.labels.size());
         for (std::size_t i = 0; i < values.size(); ++i) {
             values[i] = static_cast<std::uint32_t>(next.labels[i]);
         }
-        std::map<std::uint32_t, std::vector<Eigen::Vector3d>> places;  // by the tracker's numbers
         for (std::size_t i = 0; i < next.points.size(); ++i) {
-            const std::uint32_t number = number_of(next.objects[i]);
-            if (number == 0) continue;
-            values[next.points[i]] |= number << 16U;
-            places[next.objects[i]].push_back(next.places[i]);
+            const std::uint32_t number = known.numbers[i];
+            if (number <= kMostNumbers) values[next.points[i]] |= number << 16U;
         }
-        io::write_numbered_labels(io::label_file(labels_, stems_[next.scan]), values,
+        io::write_numbered_labels(io::label_file(labels_, stems_[known.scan]), values,
                                   io::Durable::contents);
-        for (const auto& [object, of_object] : places) add_box(object, next.scan, of_object);
+        for (const SeenObject& seen : known.objects) {
+            if (seen.box.object <= kMostNumbers) note(seen);
+        }
         waiting_.pop_front();
     }
 
-    void add_box(std::uint32_t object, std::size_t scan,
-                 const std::vector<Eigen::Vector3d>& places) {
-        const auto& sightings = tracker_.objects()[object].sightings;
-        const auto sighting = std::partition_point(
-            sightings.begin(), sightings.end(), [&](const Sighting& s) { return s.scan < scan; });
-        ObjectBox box = box_around(places, sighting->heading);
-        box.object = number_of(object);
-        box.scan = scan;
-        box.stamp = sighting->stamp;
-        box.velocity = sighting->velocity;
-        boxes_.push_back(box);
-        auto& [most, drawn] = drawn_[box.object];
-        if (most >= places.size()) return;
-        most = places.size();
+    void note(const SeenObject& seen) {
+        boxes_.push_back(seen.box);
+        auto& [most, drawn] = drawn_[seen.box.object];
+        if (most >= seen.places.size()) return;
+        most = seen.places.size();
         drawn.clear();
-        const std::size_t step = 1 + (places.size() - 1) / kMostDrawn;
-        for (std::size_t i = 0; i < places.size(); i += step) {
-            drawn.emplace_back((places[i] - box.center).cast<float>());
+        const std::size_t step = 1 + (seen.places.size() - 1) / kMostDrawn;
+        for (std::size_t i = 0; i < seen.places.size(); i += step) {
+            drawn.emplace_back((seen.places[i] - seen.box.center).cast<float>());
         }
     }
 
@@ -145,10 +115,8 @@ private:
 
     OutputFolder output_;
     fs::path labels_, pictures_;
-    ObjectTracker tracker_;
     std::deque<Waiting> waiting_;
-    std::map<std::uint32_t, std::uint32_t> numbers_;  // of the files, by the tracker's
-    std::size_t unnumbered_ = 0;
+    ObjectLog log_{[this](const KnownScan& known) { write(known); }};
     std::vector<ObjectBox> boxes_;
     struct Drawn {
         std::size_t most = 0;  // points of the scan

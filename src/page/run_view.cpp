@@ -152,6 +152,35 @@ void add_path(const ViewInput& in, const Shown& shown, const Origin& origin, Pag
     if (in.recording.info().has_truth()) run.arrays.push_back(page_array("path-scores", 8, scores));
 }
 
+void add_objects(const ViewInput& in, const Origin& origin, PageRun& run) {
+    run.info["objects_total"] = in.objects_total;
+    std::vector<std::uint32_t> number, row, begin, place_row;
+    std::vector<float> facts, place;
+    for (const ObjectWay& way : in.objects) {
+        number.push_back(way.object);
+        for (const std::size_t scan : {way.first, way.last, way.nearest}) {
+            row.push_back(row_of(in.scans, scan));
+        }
+        for (const double fact : {static_cast<double>(way.points), way.size.x(), way.size.y(),
+                                  way.size.z(), way.path, way.fastest}) {
+            facts.push_back(static_cast<float>(fact));
+        }
+        begin.push_back(static_cast<std::uint32_t>(place_row.size()));
+        for (const ObjectWay::Place& at : way.places) {
+            const Point here = (at.center - origin).cast<float>();
+            place.insert(place.end(), {here.x(), here.y(), here.z()});
+            place_row.push_back(row_of(in.scans, at.scan));
+        }
+    }
+    begin.push_back(static_cast<std::uint32_t>(place_row.size()));
+    run.arrays.push_back(page_array("object-number", 1, number));
+    run.arrays.push_back(page_array("object-row", 3, row));
+    run.arrays.push_back(page_array("object-facts", 6, facts));
+    run.arrays.push_back(page_array("object-begin", 1, begin));
+    run.arrays.push_back(page_array("object-place", 3, place));
+    run.arrays.push_back(page_array("object-place-row", 1, place_row));
+}
+
 void add_geometry(const Steps& steps, const Origin& origin, PageRun& run) {
     run.info["origin"] = array_of(origin);
     run.info["low"] = array_of(steps.low.cast<double>());
@@ -228,6 +257,7 @@ PageRun view_of(const ViewInput& in) {
     VoxelRows voxels;
     run.arrays.push_back(page_array("map-voxel", 1, voxels.rows_of(map)));
     add_path(in, shown, origin, run);
+    add_objects(in, origin, run);
     run.arrays.push_back(page_array("frame-begin", 1, shown.frame_begin));
     add_cloud(shown.frames, "frame", steps, run);
     run.arrays.push_back(page_array("frame-voxel", 1, voxels.rows_of(shown.frames)));

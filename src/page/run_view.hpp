@@ -10,6 +10,7 @@
 
 #include "dynamic_filter/filter.hpp"
 #include "dynamic_filter/recording.hpp"
+#include "objects/object_ways.hpp"
 #include "page/page.hpp"
 #include "page/shown.hpp"
 
@@ -29,10 +30,14 @@ struct ScanNote {
 /// Counts of one scan. `instant` and `truth` may be empty.
 ScanNote note_of(const Labels& labels, const Labels& instant, const Labels& truth);
 
+constexpr std::size_t kMostObjects = 1000;  ///< that a page lists
+
 struct ViewInput {
     const io::Recording& recording;
     const std::vector<ScanNote>& scans;  ///< that were used, in order
     Shown shown;                         ///< of these scans
+    std::vector<ObjectWay> objects;      ///< what moved: the largest
+    std::size_t objects_total = 0;
     /// The evidence behind the verdicts.
     std::function<std::vector<VoxelHistory>(std::span<const std::uint64_t>)> histories;
     std::vector<std::size_t> keyframes;  ///< Scan::index

@@ -19,6 +19,8 @@
 #include "formats/label_files.hpp"
 #include "online/maps.hpp"
 #include "online/scan_queue.hpp"
+#include "objects/object_log.hpp"
+#include "objects/object_ways.hpp"
 #include "online/scan_worker.hpp"
 #include "page/page.hpp"
 #include "page/run_view.hpp"
@@ -51,6 +53,8 @@ struct Whole {
     LabelStore instant{output.path()};              ///< verdicts of scans that are scored or shown
     std::vector<ScanNote> scan_notes{};
     std::optional<ShownScans> shown{};         ///< if there is a page
+    ObjectWays ways{};                         ///< of what moves, if there is a page
+    ObjectLog objects{[this](const KnownScan& scan) { ways.add(scan); }};
     std::optional<eval::ScanScores> scorer{};  ///< of final and instant verdicts, if there is truth
     Eigen::Vector3d scoring_origin = Eigen::Vector3d::Zero();
     std::vector<Notice> notices{};
@@ -213,7 +217,18 @@ struct SeenScan {
     Labels instant{};
     ScanNote note{};
     ShownScans::Drawn drawn{};
+    std::vector<Eigen::Vector3d> moving{};  ///< [m] places in the world, for the page
 };
+
+std::vector<Eigen::Vector3d> moving_places(const io::FullScan& scan, const Labels& labels) {
+    std::vector<Eigen::Vector3d> places;
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        if (labels[i] != Label::dynamic || !is_measured(scan.points[i])) continue;
+        places.emplace_back(scan.T_world_sensor * scan.points[i].cast<double>());
+    }
+    return places;
+}
+
 SeenScan see(const Whole& whole, std::size_t i, const io::FullScan& scan, const Labels& labels) {
     SeenScan seen{.instant = whole.instant.get(i)};
     seen.note = note_of(labels, seen.instant, scan.truth);
@@ -224,6 +239,7 @@ SeenScan see(const Whole& whole, std::size_t i, const io::FullScan& scan, const 
     const bool has_intensity = !whole.recording.info().intensity_is_truth;
     seen.drawn = whole.shown->draw(i, scan, labels, seen.instant,
                                    has_intensity ? intensities(scan.cloud) : std::vector<double>{});
+    seen.moving = moving_places(scan, labels);
     return seen;
 }
 
@@ -258,7 +274,10 @@ void write_results(Whole& whole) {
     };
     const auto use = [&](std::size_t i, const io::FullScan& scan, const Verdict& verdict) {
         SeenScan of_scan = std::exchange(seen[i], {});
-        if (whole.shown) whole.shown->add(i, std::move(of_scan.drawn));
+        if (whole.shown) {
+            whole.shown->add(i, std::move(of_scan.drawn));
+            whole.objects.add(i, scan.stamp, std::move(of_scan.moving));
+        }
         if (whole.scorer && !scan.truth.empty()) {
             whole.scorer->add(labelled(scan, whole.scoring_origin),
                               std::array<const Labels*, 2>{&verdict.labels, &of_scan.instant});
@@ -377,9 +396,12 @@ void write_page(Whole& whole, const Json& metrics) {
         return;
     }
     const Maps& maps = whole.maps;
+    whole.objects.finish();
     PageRun run = view_of({.recording = whole.recording,
                            .scans = whole.scan_notes,
                            .shown = whole.shown->take(),
+                           .objects = whole.ways.take(kMostObjects),
+                           .objects_total = whole.objects.size(),
                            .histories = [&](const auto& voxels) { return maps.histories(voxels); },
                            .keyframes = whole.summary.contents.keyframes,
                            .has_evidence = maps.judges_each_scan()});

@@ -6,7 +6,7 @@
 
 #include "base/little_endian.hpp"
 #include "dynamic_filter/error.hpp"
-#include "export/objects/pieces.hpp"
+#include "objects/pieces.hpp"
 #include "export/sink.hpp"
 #include "recording/world_records.hpp"
 

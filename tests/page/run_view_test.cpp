@@ -139,6 +139,32 @@ TEST_F(RunView, HoldsEveryPointWhereThereIsRoom) {
     }
 }
 
+TEST_F(RunView, ListsWhatMoved) {
+    ViewInput in = input();
+    const Eigen::Vector3d place = notes_[3].position + Eigen::Vector3d(1, 2, 0);
+    in.objects.push_back({.object = 4,
+                          .first = 3,
+                          .last = 9,
+                          .nearest = 5,
+                          .points = 120,
+                          .size = {4, 2, 1.5},
+                          .path = 7.5,
+                          .fastest = 2,
+                          .places = {{3, place, {4, 2, 1.5}}}});
+    in.objects_total = 2;
+    const PageRun run = view_of(in);
+    EXPECT_EQ(run.info["objects_total"], 2);
+    EXPECT_EQ(column<std::uint32_t>(run, "object-number"), (std::vector<std::uint32_t>{4}));
+    EXPECT_EQ(column<std::uint32_t>(run, "object-row"), (std::vector<std::uint32_t>{3, 9, 5}));
+    EXPECT_EQ(column<float>(run, "object-facts"), (std::vector<float>{120, 4, 2, 1.5, 7.5, 2}));
+    EXPECT_EQ(column<std::uint32_t>(run, "object-begin"), (std::vector<std::uint32_t>{0, 1}));
+    EXPECT_EQ(column<std::uint32_t>(run, "object-place-row"), (std::vector<std::uint32_t>{3}));
+    const auto at = column<float>(run, "object-place");
+    const auto path = column<float>(run, "path-position");
+    EXPECT_NEAR(at[0] - path[9], 1.0, 1e-4);
+    EXPECT_NEAR(at[1] - path[10], 2.0, 1e-4);
+}
+
 TEST_F(RunView, SaysWhyAPointIsGone) {
     const PageRun run = view_of(input());
     const auto verdict = column<std::uint8_t>(run, "map-verdict");

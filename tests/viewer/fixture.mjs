@@ -2,7 +2,7 @@
 // Synthetic runs as viewer/README.md describes them, and pages with them in it.
 import { gzipSync } from "node:zlib";
 import { random } from "./random.mjs";
-import { mapPoints, SCANS, scanPoints, sensorAt, stampOf } from "./street.mjs";
+import { mapPoints, PEOPLE, personAt, SCANS, scanPoints, sensorAt, stampOf } from "./street.mjs";
 
 const VOXEL = 0.2;
 const LOW = [-8, -24, -4], STEP = 0.0016;
@@ -67,6 +67,21 @@ function verdictOf(point, voxel, r) {
 
 const array = (type, columns, data) => ({ type, columns, rows: data.length / columns, data });
 
+/** The people, number 1 the first, each seen in all scans and known in every tenth. */
+function objects() {
+  const rows = Array.from({ length: SCANS / 10 }, (_, k) => 10 * k);
+  const numbers = PEOPLE.map((_, k) => k + 1);
+  const way = (k) => { const [from, to] = [personAt(k, 0), personAt(k, SCANS - 1)]; return Math.hypot(to[0] - from[0], to[1] - from[1]); };
+  return {
+    "object-number": array("uint32", 1, Uint32Array.from(numbers)),
+    "object-row": array("uint32", 3, Uint32Array.from(numbers.flatMap((n) => [0, SCANS - 1, 2 * n]))),
+    "object-facts": array("float32", 6, Float32Array.from(numbers.flatMap((n) => [1000 * n, 0.6, 0.5, 1.7, way(n - 1), Math.abs(PEOPLE[n - 1].speed)]))),
+    "object-begin": array("uint32", 1, Uint32Array.from([...numbers, 0], (_, k) => k * rows.length)),
+    "object-place": array("float32", 3, Float32Array.from(numbers.flatMap((n) => rows.flatMap((row) => [...personAt(n - 1, row), -0.8])))),
+    "object-place-row": array("uint32", 1, Uint32Array.from(numbers.flatMap(() => rows))),
+  };
+}
+
 /**
  * One run as {meta, arrays, known}. `known`: points of the map that tests look for, {place, voxel, row, passes}.
  * `wrong`: share of further errors, so that runs differ.
@@ -105,7 +120,7 @@ export function makeRun({ name = "street", points = 120_000, framePoints = 2500,
     "path-index": array("uint32", 1, Uint32Array.from(path, (_, row) => row + 10)),
     "path-frame": array("int32", 1, Int32Array.from(path, (_, row) => (row % 2 === 0 ? row / 2 : -1))),
     "path-counts": array("uint32", 4, rows), ...(truth ? { "path-scores": array("uint32", 8, scores) } : {}),
-    ...frames,
+    ...frames, ...objects(),
   };
   const meta = {
     name, command: "run", version: "0.0.0-test", input: "recordings/street", format: "kitti", preset: evidence ? "default" : "paper", created: "2026-01-02T03:04:05Z",

@@ -36,6 +36,24 @@ describe("the report of a run", () => {
     assert.ok(differs(before, await picture(page)) < 0.001);
   });
 
+  test("the objects that moved are listed, and the way of the chosen one is drawn", async () => {
+    await page.getByRole("tab", { name: "Objects" }).click();
+    const panel = page.locator("#panel-objects");
+    assert.match(await panel.innerText(), /14 objects moved/);
+    const numbers = () => panel.locator("[data-object]").allTextContents();
+    assert.deepEqual(await numbers(), Array.from({ length: 14 }, (_, k) => String(14 - k)), "those with most points first");
+    await panel.getByLabel("Order of the objects").selectOption("first");
+    assert.equal((await numbers())[0], "1");
+    assert.equal((await stats(page)).views[0].way, false);
+    await panel.getByRole("button", { name: "3", exact: true }).click();
+    await settled(page);
+    assert.equal((await state(page)).row, 6);
+    assert.equal((await stats(page)).views[0].way, true);
+    await shot(page, "objects");
+    await setValues(page, { row: 0, scan: false });
+    await page.getByRole("tab", { name: "Point" }).click();
+  });
+
   test("every colouring has a look and a legend of its own", async () => {
     const legends = new Set(), pictures = [];
     for (const colour of ["verdict", "instant", "error", "height", "intensity", "probability", "time"]) {

@@ -8,12 +8,12 @@ export const SCANS = 120, RATE = 10;
 export const stampOf = (row) => 1000 + row / RATE;
 export const sensorAt = (row) => [8 + (row / SCANS) * 60, 0.6 * Math.sin(row / 14), 0];
 
-const PEOPLE = Array.from({ length: 14 }, (_, k) => ({
+export const PEOPLE = Array.from({ length: 14 }, (_, k) => ({
   x: 10 + ((k * 37) % 62), y: -6 + ((k * 29) % 12), speed: (k % 2 ? 1 : -1) * (0.9 + 0.1 * (k % 5)), drift: 0.3 * ((k % 3) - 1),
 }));
 
 /** Where a person is at a row. */
-const personAt = (k, row) => {
+export const personAt = (k, row) => {
   const { x, y, speed, drift } = PEOPLE[k];
   const t = row / RATE;
   return [x + speed * t, y + drift * t];

@@ -36,7 +36,7 @@ export function expose(session, more = {}) {
       times, views: session.views.map((view) => ({
         name: view.name, frames: view.view.frames, pointsDrawn: view.view.drawn, pointsTotal: view.view.total,
         budget: Math.round(view.view.budget), row: view.row, scanIsShown: view.scanIsShown,
-        sight: view.overlay.sight.visible, box: view.overlay.box.visible,
+        sight: view.overlay.sight.visible, box: view.overlay.box.visible, way: view.overlay.way.visible,
       })),
     }),
     settled: () => settled(viewsOf()),

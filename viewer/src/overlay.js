@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lines over the clouds: the trajectory, the sensor, a line of sight, a voxel's box.
+// Lines over the clouds: the trajectory, the sensor, a line of sight, the way of an object, a voxel's box.
 import * as THREE from "three";
 import { Line2 } from "three/examples/jsm/lines/Line2.js";
 import { LineGeometry } from "three/examples/jsm/lines/LineGeometry.js";
@@ -37,6 +37,7 @@ export class Overlay {
     this.path = new Line2(new LineGeometry(), material(2, 0.85));
     this.alarms = new LineSegments2(new LineSegmentsGeometry(), material(5));
     this.sight = new Line2(new LineGeometry(), material(2.5));
+    this.way = new Line2(new LineGeometry(), material(4));
     this.box = new LineSegments2(new LineSegmentsGeometry().setPositions(boxEdges), material(2));
     this.sensor = disc();
     for (const object of this.#objects) {
@@ -47,13 +48,14 @@ export class Overlay {
   }
 
   get #objects() {
-    return [this.path, this.alarms, this.box, this.sight, this.sensor];
+    return [this.path, this.alarms, this.way, this.box, this.sight, this.sensor];
   }
 
   setTheme(theme) {
     this.path.material.color.set(kindColour(theme, "path"));
     this.alarms.material.color.set(kindColour(theme, "alarm"));
     this.sight.material.color.set(kindColour(theme, "corrected"));
+    this.way.material.color.set(kindColour(theme, "corrected"));
     this.box.material.color.set(kindColour(theme, "mark"));
   }
 
@@ -92,6 +94,14 @@ export class Overlay {
     this.sight.geometry.dispose();
     this.sight.geometry = new LineGeometry().setPositions([...from, ...to]);
     this.setVisible("sight", true);
+  }
+
+  /** The way of an object: rows of x, y, z. */
+  showWay(positions) {
+    if (positions.length < 6) return;
+    this.way.geometry.dispose();
+    this.way.geometry = new LineGeometry().setPositions(positions);
+    this.setVisible("way", true);
   }
 
   showBox(middle, edge) {

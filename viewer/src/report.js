@@ -12,6 +12,7 @@ import { count, fixed, plural } from "./format.js";
 import { errorButtons } from "./errors.js";
 import { fromHash, keepHash } from "./hash.js";
 import { bindKeys } from "./keys.js";
+import { objectPanel } from "./objects.js";
 import { pointPanel } from "./panel.js";
 import { plotsOf } from "./plots.js";
 import { RunView } from "./run_view.js";
@@ -81,10 +82,11 @@ function fillTimeline(timeline, { run }) {
 
 function panelsOf(session, runs) {
   const metas = runs.map(({ meta }) => meta);
-  const plots = h("div", {}), run = h("div", {}, metas.map((meta) => about({ meta }, metas.length === 1)), licences());
+  const plots = h("div", {}), objects = h("div", {}), run = h("div", {}, metas.map((meta) => about({ meta }, metas.length === 1)), licences());
   const panels = [
     { id: "view", label: "View", element: h("div", { class: "controls" }) },
     { id: "point", label: "Point", element: h("div", {}, pointPanel(session, isTile(metas))) },
+    ...(runs.some(({ meta }) => meta.scans > 0) ? [{ id: "objects", label: "Objects", element: objects }] : []),
     { id: "plots", label: "Plots", element: plots },
     { id: "run", label: metas.length > 1 ? "Runs" : isTile(metas) ? "Tile" : "Run", element: run },
   ];
@@ -116,10 +118,12 @@ async function loadAll(session, panels, timeline, say) {
   session.showRow(session.store.get("row"));
   say("Reading the evidence …");
   for (const view of views) await view.loadEvidence();
+  for (const view of views) await view.loadObjects();
   session.refreshSelection();
-  const several = views.length > 1;
-  const plots = panels.find(({ id }) => id === "plots").element;
-  plots.append(...views.map((view) => h("article", {}, several ? h("h2", { class: "run-name" }, view.name) : null, plotsOf(view, session))));
+  const fill = (id, make) => panels.find((panel) => panel.id === id)?.element.append(...views.map((view) =>
+    h("article", {}, views.length > 1 ? h("h2", { class: "run-name" }, view.name) : null, make(view))));
+  fill("plots", (view) => plotsOf(view, session));
+  fill("objects", (view) => objectPanel(session, view));
   say("");
 }
 

@@ -54,6 +54,10 @@ export class RunView extends CloudView {
     if (arrays["frame-position"] && arrays["frame-begin"]) this.#addScans();
   }
 
+  async loadObjects() {
+    await this.run.loadAll(["object-number", "object-row", "object-facts", "object-begin", "object-place", "object-place-row"]);
+  }
+
   async loadEvidence() {
     await this.run.loadAll(["voxel-evidence", "voxel-score", "voxel-span", "pass-begin", "pass"]);
   }

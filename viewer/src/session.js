@@ -45,6 +45,7 @@ export class Session {
     for (const { overlay } of this.views) {
       overlay.setVisible("box", false);
       overlay.setVisible("sight", false);
+      overlay.setVisible("way", false);
     }
     this.store.set({ selection: point });
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "export/objects/pieces.hpp"
+#include "objects/pieces.hpp"
 
 #include <gtest/gtest.h>
 

@@ -24,7 +24,7 @@ struct Sighting {
 };
 
 struct MovingObject {
-    std::vector<Sighting> sightings;                     ///< in the order of the scans
+    std::vector<Sighting> sightings;                     ///< in the order of the scans, unless forgotten
     Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s] at the last one
     Eigen::Vector3d largest = Eigen::Vector3d::Zero();   ///< [m] greatest extent of a box
     std::size_t points = 0;                              ///< in all scans
@@ -49,6 +49,10 @@ public:
                                       double stamp);
     /// By their numbers.
     [[nodiscard]] const std::vector<MovingObject>& objects() const { return objects_; }
+    /// How this scan saw an object. Both must be known, and not forgotten.
+    [[nodiscard]] const Sighting& sighting(std::uint32_t object, std::size_t scan) const;
+    /// Forgets the sightings up to a scan, but for the newest few.
+    void forget(std::uint32_t object, std::size_t scan);
     /// False: it has ended, and no later scan goes on with it.
     [[nodiscard]] bool may_go_on(std::uint32_t object) const;
 

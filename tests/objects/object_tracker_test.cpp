@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "export/objects/object_tracker.hpp"
+#include "objects/object_tracker.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,6 +24,20 @@ struct ObjectBox {
     double yaw = 0.0;                                    ///< [rad] of its x axis in the world
     Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s]
     std::size_t points = 0;
+};
+
+/// The way of a middle in the plane, by steps of at least a second, because the middle of what is
+/// seen shifts from scan to scan.
+class WayLength {
+public:
+    /// `stamp` [s], in their order; `center` [m].
+    void add(double stamp, const Eigen::Vector3d& center);
+    [[nodiscard]] double so_far() const;  ///< [m]
+
+private:
+    std::optional<double> since_;  // [s]
+    Eigen::Vector3d from_ = Eigen::Vector3d::Zero(), last_ = Eigen::Vector3d::Zero();
+    double way_ = 0.0;
 };
 
 /// Around places [m, world], along a direction of the plane.

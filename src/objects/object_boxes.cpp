@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "export/objects/object_boxes.hpp"
+#include "objects/object_boxes.hpp"
 
 #include <fmt/format.h>
 
@@ -15,23 +15,17 @@
 
 namespace dynamic_filter::app {
 
-namespace {
-
-/// The way of the middle, by steps of at least a second, because the middle of what is seen shifts
-/// from scan to scan.
-double way_of(const std::vector<const ObjectBox*>& boxes) {
+void WayLength::add(double stamp, const Eigen::Vector3d& center) {
     constexpr double kStep = 1.0;  // [s]
-    double way = 0.0;
-    const ObjectBox* from = boxes.front();
-    for (const ObjectBox* box : boxes) {
-        if (box->stamp - from->stamp < kStep && box != boxes.back()) continue;
-        way += (box->center - from->center).head<2>().norm();
-        from = box;
-    }
-    return way;
+    if (!since_) since_ = stamp, from_ = center;
+    last_ = center;
+    if (stamp - *since_ < kStep) return;
+    way_ = so_far();
+    since_ = stamp;
+    from_ = center;
 }
 
-}  // namespace
+double WayLength::so_far() const { return way_ + (last_ - from_).head<2>().norm(); }
 
 ObjectBox box_around(std::span<const Eigen::Vector3d> places, double yaw) {
     const Eigen::AngleAxisd turn(yaw, Eigen::Vector3d::UnitZ());
@@ -61,7 +55,9 @@ std::vector<ObjectSummary> summaries_of(const std::vector<ObjectBox>& boxes) {
             for (const ObjectBox* box : object.boxes) sizes.push_back(box->size[axis]);
             object.size[axis] = value_at_rank(std::move(sizes), 9 * (object.boxes.size() - 1) / 10);
         }
-        object.path = way_of(object.boxes);
+        WayLength way;
+        for (const ObjectBox* box : object.boxes) way.add(box->stamp, box->center);
+        object.path = way.so_far();
         objects.push_back(std::move(object));
     }
     return objects;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "export/objects/object_boxes.hpp"
+#include "objects/object_boxes.hpp"
 
 #include <gtest/gtest.h>
 

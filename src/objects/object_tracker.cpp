@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "export/objects/object_tracker.hpp"
+#include "objects/object_tracker.hpp"
 
 #include "base/numbers.hpp"
-#include "export/objects/pieces.hpp"
+#include "objects/pieces.hpp"
 #include "geometry/angle.hpp"
 
 #include <algorithm>
@@ -22,6 +22,7 @@ constexpr double kFastest = 12.0;    // [m/s] of what was seen once
 constexpr double kFarthest = 4.0;    // [m] that any object may be off by
 constexpr double kSlow = 0.5;        // [m/s] below which a direction tells little
 constexpr double kLarger = 0.4;      // [m] by which two are larger than one
+constexpr std::size_t kRecent = 5;   // sightings that tell what an object is like now
 
 double gap(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b) {
     return a.exteriorDistance(b);
@@ -50,8 +51,7 @@ double overlap(const Extent& a, const Extent& b) {
 
 /// The median over the last scans, because a box is too large where two objects touched.
 Eigen::Vector3d usual_extent(const MovingObject& object) {
-    constexpr std::size_t kScans = 5;
-    const std::size_t count = std::min(kScans, object.sightings.size());
+    const std::size_t count = std::min(kRecent, object.sightings.size());
     Eigen::Vector3d extent;
     for (int axis = 0; axis < 3; ++axis) {
         std::vector<double> sizes;
@@ -219,6 +219,21 @@ void divide(const Piece& piece, std::span<const Candidate* const> claims,
 bool ObjectTracker::may_go_on(std::uint32_t object) const {
     const MovingObject& o = objects_[object];
     return !o.has_ended && stamp_ - o.sightings.back().stamp <= kLongestGap;
+}
+
+const Sighting& ObjectTracker::sighting(std::uint32_t object, std::size_t scan) const {
+    const auto& sightings = objects_[object].sightings;
+    return *std::partition_point(sightings.begin(), sightings.end(),
+                                 [&](const Sighting& s) { return s.scan < scan; });
+}
+
+void ObjectTracker::forget(std::uint32_t object, std::size_t scan) {
+    auto& sightings = objects_[object].sightings;
+    if (sightings.size() <= kRecent) return;
+    const auto recent = sightings.end() - static_cast<std::ptrdiff_t>(kRecent);
+    sightings.erase(sightings.begin(),
+                    std::partition_point(sightings.begin(), recent,
+                                         [&](const Sighting& s) { return s.scan <= scan; }));
 }
 
 std::vector<std::uint32_t> ObjectTracker::follow(std::span<const Eigen::Vector3d> places,

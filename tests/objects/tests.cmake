@@ -1,0 +1,1 @@
+df_room(objects LIBRARIES dynamic_filter_app)
