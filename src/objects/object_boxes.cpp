@@ -29,8 +29,9 @@ double WayLength::so_far() const { return way_ + (last_ - from_).head<2>().norm(
 
 ObjectBox box_around(std::span<const Eigen::Vector3d> places, double yaw) {
     const Eigen::AngleAxisd turn(yaw, Eigen::Vector3d::UnitZ());
+    const Eigen::Matrix3d back = turn.inverse().toRotationMatrix();
     Eigen::AlignedBox3d box;
-    for (const Eigen::Vector3d& place : places) box.extend(turn.inverse() * place);
+    for (const Eigen::Vector3d& place : places) box.extend(back * place);
     ObjectBox result;
     result.center = turn * box.center();
     result.size = box.sizes();

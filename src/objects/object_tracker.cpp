@@ -202,6 +202,10 @@ Claims claims_on(const std::vector<Piece>& pieces, const std::vector<Candidate>&
 /// Each point goes to the object whose box is nearest.
 void divide(const Piece& piece, std::span<const Candidate* const> claims,
             std::span<const Eigen::Vector3d> places, std::vector<std::uint32_t>& owners) {
+    if (claims.size() == 1) {
+        for (const std::uint32_t i : piece.points) owners[i] = claims.front()->object;
+        return;
+    }
     for (const std::uint32_t i : piece.points) {
         const auto cost = [&](const Candidate* c) {
             return c->box.exteriorDistance(places[i]) +
@@ -265,11 +269,12 @@ void ObjectTracker::note(std::span<const Eigen::Vector3d> places,
                          const std::vector<std::uint32_t>& owners, std::size_t scan) {
     constexpr double kNewest = 0.5;  // weight of the newest step in the velocity
     std::map<std::uint32_t, Sighting> seen;
+    auto at = seen.end();
     for (std::size_t i = 0; i < places.size(); ++i) {
         if (owners[i] == kNoObject) continue;
-        const auto [at, is_first] = seen.try_emplace(owners[i]);
+        if (at == seen.end() || at->first != owners[i]) at = seen.try_emplace(owners[i]).first;
         Sighting& sighting = at->second;
-        if (is_first) sighting.scan = scan, sighting.stamp = stamp_;
+        if (sighting.points == 0) sighting.scan = scan, sighting.stamp = stamp_;
         sighting.box.extend(places[i]);
         ++sighting.points;
     }

@@ -46,11 +46,20 @@ std::vector<Piece> pieces_of(std::span<const Eigen::Vector3d> places, double cel
         return Square{static_cast<std::int64_t>(std::floor(place.x() / cell)),
                       static_cast<std::int64_t>(std::floor(place.y() / cell))};
     };
+    // Points that follow each other often lie in the same square: each such run is looked up once.
+    std::vector<Square> runs;
     Squares squares;
-    for (std::uint32_t i = 0; i < places.size(); ++i) squares[square_of(places[i])].push_back(i);
+    std::vector<std::uint32_t>* in_square = nullptr;
+    for (std::uint32_t i = 0; i < places.size(); ++i) {
+        const Square square = square_of(places[i]);
+        if (runs.empty() || runs.back() != square) {
+            runs.push_back(square);
+            in_square = &squares[square];
+        }
+        in_square->push_back(i);
+    }
     std::vector<Piece> pieces;
-    for (const Eigen::Vector3d& place : places) {
-        const Square square = square_of(place);
+    for (const Square& square : runs) {
         if (!squares.contains(square)) continue;
         pieces.push_back(piece_of(places, taken(squares, square)));
     }

@@ -26,8 +26,8 @@ std::vector<KnownScan> told() {
         add_person(places, 0.15 * static_cast<double>(i), 0.0);
         if (i >= 20) add_person(places, 3.0, 9.0);
         log.add(i, 0.1 * static_cast<double>(i), places);
+        EXPECT_EQ(scans.empty(), i < 2);  // what was seen twice may be a stray echo
     }
-    EXPECT_LT(scans.size(), 40U);  // it may turn out that what was seen last is a stray echo
     log.finish();
     EXPECT_EQ(log.size(), 2U);
     return scans;

@@ -92,6 +92,7 @@ protected:
         return {.recording = recording_,
                 .scans = notes_,
                 .shown = shown.take(),
+                .objects = {},
                 .histories = [this](const auto& voxels) { return filter_.histories(voxels); },
                 .keyframes = filter_.contents().keyframes,
                 .has_evidence = true};
