@@ -600,6 +600,7 @@ struct MapConfig {
     double occupancy_threshold = 0.5;
     double search_radius = 20.0;
     bool keep_unknown = true;
+    bool probability = false;
     MapTime time = MapTime::always;  ///< used by the method "scans" only
 };
 
@@ -638,6 +639,13 @@ void visit(C& c, F&& f) {
     f(Setting{"map.keep_unknown", "", "",
               "whether points without a verdict go into the static map"},
       c.map.keep_unknown);
+    f(
+        Setting{
+            "map.probability", "", "",
+            "whether the points of static_map.pcd and dynamic_points.pcd get a field probability: "
+            "that their voxel is occupied, 0..1; the voxels of a map of several drives always "
+            "have it"},
+        c.map.probability);
     f(Setting{"map.time", "", "",
               "what the static map holds: only what never moved (always), or what was in each "
               "place when the place was last seen, so also objects that came and stayed (latest); "

@@ -38,11 +38,6 @@ void refuse_idle_options(const ConvertOptions& o, const Output* kind, bool is_re
             "cloud (" +
             io::cloud_kinds_written() + ")");
     }
-    if (o.normals && !o.crs.empty()) {
-        throw ConfigError(
-            "--normals and --crs: normals stay those of the world, which a coordinate system turns "
-            "a little; leave one of the two out");
-    }
     if (o.cell > 0.0 && (kind == nullptr || !kind->from_sensor)) {
         throw ConfigError("--cell is for OctoMap and for --to nav2; --thin thins a cloud");
     }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/exit_code.hpp"
+#include "base/json_vector.hpp"
 #include "commands/all.hpp"
 #include "commands/evaluate.hpp"
 #include "commands/shared_options.hpp"
@@ -64,15 +65,26 @@ std::optional<eval::KnowableScores> knowable_scores(const EvalOptions& o,
     return eval::score_knowable(recording.size(), source, knowable, o.voxel);
 }
 
+/// Whether points are scored at all distances.
+bool is_any_range(const ScoredPart& part) { return part.min <= 0.0 && std::isinf(part.max); }
+
 std::string part_text(const ScoredPart& part) {
-    const bool is_whole = part.min <= 0.0 && std::isinf(part.max);
-    if (is_whole && !part.box) return "";
+    if (is_any_range(part) && !part.box) return "";
     std::string text = "scored are points";
-    if (!is_whole) {
+    if (!is_any_range(part)) {
         const std::string far = std::isinf(part.max) ? "" : fmt::format(" to {:g} m", part.max);
         text += fmt::format(" from {:g} m{} of the sensor", part.min, far);
     }
     return text + (part.box ? " within the box\n" : "\n");
+}
+
+/// Only what was asked for: {"min_range", "max_range", "box"}.
+nlohmann::ordered_json part_json(const ScoredPart& part) {
+    nlohmann::ordered_json json;
+    if (part.min > 0.0) json["min_range"] = part.min;
+    if (std::isfinite(part.max)) json["max_range"] = part.max;
+    if (part.box) json["box"] = {array_of(part.box->min()), array_of(part.box->max())};
+    return json;
 }
 
 /// Opens the recording as it goes with what is to be scored.
@@ -134,6 +146,11 @@ Evaluation scores_of(const EvalOptions& o) {
                  : eval::score_map(recording.size(), source,
                                    positions_from(io::read_cloud(*o.map), origin), o.voxel);
     std::vector<std::string> missing = names_of(recording, left_out);
+    if (!scores.point.sa && !scores.point.da && missing.size() < recording.size()) {
+        throw InputError(o.truth.data, "",
+                         "has no point with ground truth in the part that is scored; check "
+                         "--min-range, --max-range and --box, which is in the world [m]");
+    }
     if (missing.size() == recording.size()) {
         throw InputError(
             o.labels ? *o.labels : o.truth.data, "",
@@ -146,12 +163,15 @@ Evaluation scores_of(const EvalOptions& o) {
             recording.size(),
             std::move(missing),
             knowable_scores(o, recording, source),
+            o.part,
             truth.note};
 }
 
 nlohmann::ordered_json to_json(const Evaluation& evaluation) {
     auto json = to_json(evaluation.scores);
     if (evaluation.knowable) json["knowable"] = to_json(*evaluation.knowable);
+    const auto part = part_json(evaluation.part);
+    if (!part.empty()) json["part"] = part;
     return json;
 }
 

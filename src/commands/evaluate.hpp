@@ -30,6 +30,7 @@ struct Evaluation {
     std::vector<std::string> left_out{};
     /// Of labels, if the recording has a folder `knowable`.
     std::optional<eval::KnowableScores> knowable{};
+    ScoredPart part{};
     std::string note{};  ///< how the recording was read for the result; may be empty
 };
 

@@ -13,6 +13,7 @@
 #include "export/outputs.hpp"
 #include "export/tile_tree.hpp"
 #include "formats/voxel_map/tile_points.hpp"
+#include "recording/world_records.hpp"
 
 namespace fs = std::filesystem;
 

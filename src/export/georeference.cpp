@@ -106,6 +106,18 @@ std::vector<Eigen::Vector3d> Georeference::places(std::vector<Eigen::Vector3d> p
     return places;
 }
 
+Eigen::Matrix3d Georeference::turn_at(const Eigen::Vector3d& place) const {
+    constexpr double kStep = 10.0;  // [m] along which a coordinate system is straight
+    std::vector<Eigen::Vector3d> ends{place};
+    for (int axis = 0; axis < 3; ++axis) {
+        ends.emplace_back(place + kStep * Eigen::Vector3d::Unit(axis));
+    }
+    ends = places(std::move(ends));
+    Eigen::Matrix3d turn;
+    for (int axis = 0; axis < 3; ++axis) turn.col(axis) = (ends[axis + 1] - ends[0]).normalized();
+    return turn;
+}
+
 io::Cloud Georeference::cloud(const io::Cloud& in_world) const {
     const bool is_same = in_world.crs == system_->wkt() || in_world.crs == name_;
     if (!in_world.crs.empty() && (!is_same || !origin_text_.empty())) {

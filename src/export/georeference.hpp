@@ -36,6 +36,9 @@ public:
     /// Places of the world in the coordinate system. Throws ConfigError if they lie far outside the
     /// area that it is meant for.
     [[nodiscard]] std::vector<Eigen::Vector3d> places(std::vector<Eigen::Vector3d> places) const;
+    /// How directions of the world are turned at this place of it: along the axes of the coordinate
+    /// system, whose north is not that of the world. The same errors.
+    [[nodiscard]] Eigen::Matrix3d turn_at(const Eigen::Vector3d& place) const;
     /// The cloud with x y z of 64 bits in the coordinate system, which it names. The same errors.
     [[nodiscard]] io::Cloud cloud(const io::Cloud& in_world) const;
 

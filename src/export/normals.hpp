@@ -19,4 +19,8 @@ std::array<std::string, 3> normal_names(const std::filesystem::path& file);
 /// Runs in all threads of parallel_for(); the result does not depend on them.
 void fit_normals(io::Cloud& cloud, const std::array<std::string, 3>& names, double radius);
 
+/// Turns the normals, for instance into the axes of a coordinate system.
+void turn_normals(io::Cloud& cloud, const std::array<std::string, 3>& names,
+                  const Eigen::Matrix3d& turn);
+
 }  // namespace dynamic_filter::app

@@ -9,10 +9,10 @@
 #include "draw/canvas.hpp"
 #include "dynamic_filter/file.hpp"
 #include "dynamic_filter/writers.hpp"
-#include "objects/object_boxes.hpp"
-#include "objects/object_log.hpp"
 #include "export/outputs.hpp"
 #include "formats/label_files.hpp"
+#include "objects/object_boxes.hpp"
+#include "objects/object_log.hpp"
 
 namespace fs = std::filesystem;
 

@@ -86,7 +86,12 @@ public:
         if (unmeasured_ > 0)
             loss += fmt::format(", {} points that are no measurement", unmeasured_);
         if (survey_) loss += classify_ground();
-        if (georeference_) map_ = georeference_->cloud(map_);
+        if (georeference_) {
+            if (normal_radius_ > 0.0 && map_.size() > 0) {
+                turn_normals(map_, normal_names(file_), georeference_->turn_at(origin_of(map_)));
+            }
+            map_ = georeference_->cloud(map_);
+        }
         const std::string by_format = io::write_cloud(file_, map_).loss;
         if (georeference_) io::write_file(path_file(), path_as_text());
         return by_format.empty() ? loss : loss + "; " + by_format;

@@ -8,6 +8,7 @@
 #include "export/places.hpp"
 #include "export/sink.hpp"
 #include "export/thinned_records.hpp"
+#include "recording/world_records.hpp"
 
 namespace dynamic_filter::app {
 

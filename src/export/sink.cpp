@@ -29,10 +29,4 @@ std::string left_out(const std::vector<io::Field>& fields, const std::set<std::s
     return names.empty() ? "" : fmt::format("left out: {}", fmt::join(names, ", "));
 }
 
-void append_record(std::vector<std::byte>& to, std::span<const std::byte> records, std::size_t i,
-                   std::size_t bytes) {
-    const auto record = records.subspan(i * bytes, bytes);
-    to.insert(to.end(), record.begin(), record.end());
-}
-
 }  // namespace dynamic_filter::app

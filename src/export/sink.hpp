@@ -39,8 +39,4 @@ void require_labels(const Labels& labels, const std::string& output);
 std::string left_out(const std::vector<io::Field>& fields, const std::set<std::string>& kept,
                      const std::string& also = "");
 
-/// Adds record i.
-void append_record(std::vector<std::byte>& to, std::span<const std::byte> records, std::size_t i,
-                   std::size_t bytes);
-
 }  // namespace dynamic_filter::app

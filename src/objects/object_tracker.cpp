@@ -2,8 +2,8 @@
 #include "objects/object_tracker.hpp"
 
 #include "base/numbers.hpp"
-#include "objects/pieces.hpp"
 #include "geometry/angle.hpp"
+#include "objects/pieces.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -24,7 +24,7 @@ struct Sighting {
 };
 
 struct MovingObject {
-    std::vector<Sighting> sightings;                     ///< in the order of the scans, unless forgotten
+    std::vector<Sighting> sightings;  ///< in the order of the scans, unless forgotten
     Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s] at the last one
     Eigen::Vector3d largest = Eigen::Vector3d::Zero();   ///< [m] greatest extent of a box
     std::size_t points = 0;                              ///< in all scans

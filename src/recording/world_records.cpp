@@ -117,4 +117,10 @@ std::vector<std::byte> world_records(const io::FullScan& scan, const io::Cloud& 
     return records;
 }
 
+void append_record(std::vector<std::byte>& to, std::span<const std::byte> records, std::size_t i,
+                   std::size_t bytes) {
+    const auto record = records.subspan(i * bytes, bytes);
+    to.insert(to.end(), record.begin(), record.end());
+}
+
 }  // namespace dynamic_filter::app

@@ -24,4 +24,8 @@ std::vector<std::byte> world_records(const io::FullScan& scan, const io::Cloud& 
 std::vector<std::byte> world_records(const io::FullScan& scan, const io::Cloud& layout,
                                      std::span<const std::uint32_t> points);
 
+/// Adds record i of `records`, each of which has so many bytes.
+void append_record(std::vector<std::byte>& to, std::span<const std::byte> records, std::size_t i,
+                   std::size_t bytes);
+
 }  // namespace dynamic_filter::app

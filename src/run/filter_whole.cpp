@@ -17,10 +17,10 @@
 #include "dynamic_filter/file.hpp"
 #include "dynamic_filter/parallel.hpp"
 #include "formats/label_files.hpp"
-#include "online/maps.hpp"
-#include "online/scan_queue.hpp"
 #include "objects/object_log.hpp"
 #include "objects/object_ways.hpp"
+#include "online/maps.hpp"
+#include "online/scan_queue.hpp"
 #include "online/scan_worker.hpp"
 #include "page/page.hpp"
 #include "page/run_view.hpp"
@@ -52,8 +52,8 @@ struct Whole {
     std::vector<std::optional<Tracked>> tracked{};  ///< by scan; if poses are found or refined
     LabelStore instant{output.path()};              ///< verdicts of scans that are scored or shown
     std::vector<ScanNote> scan_notes{};
-    std::optional<ShownScans> shown{};         ///< if there is a page
-    ObjectWays ways{};                         ///< of what moves, if there is a page
+    std::optional<ShownScans> shown{};  ///< if there is a page
+    ObjectWays ways{};                  ///< of what moves, if there is a page
     ObjectLog objects{[this](const KnownScan& scan) { ways.add(scan); }};
     std::optional<eval::ScanScores> scorer{};  ///< of final and instant verdicts, if there is truth
     Eigen::Vector3d scoring_origin = Eigen::Vector3d::Zero();

@@ -19,7 +19,7 @@ WrittenScans write_scans(const io::Recording& recording, const std::vector<std::
                          const ScanResults& results) {
     const auto labels = folder / "labels";
     std::filesystem::create_directories(labels);
-    MapFiles maps(folder, config.map.keep_unknown, recording.info().layout == "benchmark");
+    MapFiles maps(folder, config.map, recording.info().layout == "benchmark");
     if (with_maps && !scans.empty()) {
         try {
             maps.begin(recording.read(scans.front()));

@@ -7,7 +7,6 @@
 #include "base/little_endian.hpp"
 #include "dynamic_filter/error.hpp"
 #include "objects/pieces.hpp"
-#include "export/sink.hpp"
 #include "recording/world_records.hpp"
 
 namespace dynamic_filter::app {

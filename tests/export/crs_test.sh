@@ -58,6 +58,30 @@ length = (east * east + north * north) ** 0.5
 for got, expected in zip(point, (place[0] + east, place[1] + north, place[2] + up)):
     assert abs(got - expected) < 0.04 * length + 0.01, (point, place, east, north, up)
 PYTHON
+
+# Normals turn with the axes: the projection's north is 2.5755 deg * sin(48.1374 deg) = 1.918 degrees off the true one there.
+for kind in world crs; do
+    options=$([ $kind = world ] || echo "--crs EPSG:32632 --origin $origin")
+    # shellcheck disable=SC2086  # words are meant
+    "$command" convert rec normals_$kind.ply --labels out --normals --thin 0.5 $options 2> /dev/null
+done
+"$python" - <<'PYTHON'
+import math, struct
+def normals(name):
+    data = open(name, "rb").read()
+    head, body = data.split(b"end_header\n", 1)
+    formats = {"float": "f", "double": "d", "uchar": "B", "ushort": "H", "int": "i", "uint": "I", "short": "h", "char": "b"}
+    fields = [line.split()[1:] for line in head.decode().splitlines() if line.startswith("property")]
+    layout = struct.Struct("<" + "".join(formats[kind] for kind, _ in fields))
+    at = [[name for _, name in fields].index(axis) for axis in ("nx", "ny", "nz")]
+    return [[row[k] for k in at] for row in layout.iter_unpack(body)]
+turns = []
+for before, after in zip(normals("normals_world.ply"), normals("normals_crs.ply"), strict=True):
+    assert abs(before[2] - after[2]) < 0.001
+    if math.hypot(*before[:2]) > 0.9:
+        turns.append(math.remainder(math.atan2(after[1], after[0]) - math.atan2(before[1], before[0]), 2 * math.pi))
+assert len(turns) > 50 and all(abs(abs(math.degrees(turn)) - 1.918) < 0.02 for turn in turns), turns[:5]
+PYTHON
 projinfo @map.wkt --identify | grep -qF "EPSG:32632: 100 %"
 
 # What is in a coordinate system already, or shifted from it, and LAS files that are converted once more.

@@ -58,6 +58,16 @@ TEST(FitNormals, PointToTheSensorFromBothSidesOfAWall) {
     EXPECT_EQ(cloud.data, by_one.data);
 }
 
+TEST(TurnNormals, TurnsThemAndKeepsTheirLength) {
+    io::Cloud cloud =
+        cloud_of({{Point(1, 2, 3), Point(1, 0, 0)}, {Point(1, 2, 4), Point(0, 0, 0)}});
+    const auto turn = Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    turn_normals(cloud, kNames, turn);
+    EXPECT_LT((normal(cloud, 0) - Point(0, 1, 0)).norm(), 1e-6F);
+    EXPECT_TRUE(normal(cloud, 1).isZero());  // a point alone has none
+    EXPECT_EQ(io::positions(cloud)[0], Point(1, 2, 3));
+}
+
 TEST(FitNormals, NamesAreThoseThatReadersLookFor) {
     EXPECT_EQ(normal_names("a.ply")[0], "nx");
     EXPECT_EQ(normal_names("a.pcd")[2], "normal_z");

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <limits>
 
+#include "dynamic_filter/error.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace dynamic_filter::app {
@@ -36,7 +37,7 @@ Verdict with(Labels labels) { return {.labels = std::move(labels), .probability 
 template <class T>
 void expect_split(io::FieldType type) {
     const test::TemporaryFolder folder;
-    MapFiles maps(folder.path(), true, false);
+    MapFiles maps(folder.path(), MapConfig{}, false);
     maps.append(scan_of<T>(type, 4),
                 with({Label::static_, Label::dynamic, Label::unknown, Label::static_}));
     maps.commit();
@@ -57,7 +58,7 @@ TEST(MapFiles, KeepOriginalPointsWithAllFieldsInTheWorldFrame) {
 
 TEST(MapFiles, LeaveOutUnknownIfAskedAndPointsThatAreNotFinite) {
     const test::TemporaryFolder folder;
-    MapFiles maps(folder.path(), false, false);
+    MapFiles maps(folder.path(), MapConfig{.keep_unknown = false}, false);
     io::FullScan scan = scan_of<float>(io::FieldType::f32, 3);
     scan.points[0].x() = std::numeric_limits<float>::quiet_NaN();
     maps.append(scan, with({Label::static_, Label::unknown, Label::static_}));
@@ -70,7 +71,7 @@ TEST(MapFiles, LeaveOutUnknownIfAskedAndPointsThatAreNotFinite) {
 
 TEST(MapFiles, WhatStaysBelongsToTheStaticMap) {
     const test::TemporaryFolder folder;
-    MapFiles maps(folder.path(), true, false);
+    MapFiles maps(folder.path(), MapConfig{}, false);
     Verdict verdict = with({Label::static_, Label::dynamic, Label::dynamic});
     verdict.stays = {false, true, false};
     maps.append(scan_of<float>(io::FieldType::f32, 3), verdict);
@@ -82,7 +83,7 @@ TEST(MapFiles, WhatStaysBelongsToTheStaticMap) {
 
 TEST(MapFiles, FarFromTheOriginCoordinatesAreDoubles) {
     const test::TemporaryFolder folder;
-    MapFiles maps(folder.path(), true, false);
+    MapFiles maps(folder.path(), MapConfig{}, false);
     io::FullScan scan = scan_of<float>(io::FieldType::f32, 2);
     scan.T_world_sensor.translation() = Eigen::Vector3d(5e5, 5e6 + 0.125, 30);
     maps.append(scan, with({Label::static_, Label::static_}));
@@ -94,17 +95,41 @@ TEST(MapFiles, FarFromTheOriginCoordinatesAreDoubles) {
 
 TEST(MapFiles, RecordsInTheWorldFrameArePassedOnUnchanged) {
     const test::TemporaryFolder folder;
-    MapFiles maps(folder.path(), true, true);
+    MapFiles maps(folder.path(), MapConfig{}, true);
     const io::FullScan scan = scan_of<float>(io::FieldType::f32, 3);
     maps.append(scan, with(Labels(3, Label::static_)));
     maps.commit();
     EXPECT_EQ(io::read_cloud(folder / "static_map.pcd").data, scan.cloud.data);
 }
 
+TEST(MapFiles, HaveTheProbabilityOfEachPointIfAsked) {
+    const test::TemporaryFolder folder;
+    io::FullScan scan = scan_of<float>(io::FieldType::f32, 3);
+    for (const bool in_world : {false, true}) {
+        MapFiles maps(folder.path(), MapConfig{.probability = true}, in_world);
+        Verdict verdict = with({Label::static_, Label::dynamic, Label::static_});
+        verdict.probability = {0.75F, 0.25F, 1.0F};
+        maps.append(scan, verdict);
+        maps.commit();
+        const io::Cloud still = io::read_cloud(folder / "static_map.pcd");
+        const io::Cloud dynamic = io::read_cloud(folder / "dynamic_points.pcd");
+        EXPECT_EQ(io::values(still, *still.find("probability")), (std::vector<double>{0.75, 1.0}));
+        EXPECT_EQ(io::values(dynamic, *dynamic.find("probability")), (std::vector<double>{0.25}));
+        EXPECT_EQ(io::values(still, *still.find("ring")), (std::vector<double>{100, 102}));
+        EXPECT_EQ(
+            io::positions(still)[1],
+            in_world ? Point(3, 0, 0) : Point(scan.T_world_sensor.cast<float>() * Point(3, 0, 0)));
+    }
+    scan.cloud.data.clear();
+    io::add_field(scan.cloud, "probability", io::FieldType::f32);
+    MapFiles maps(folder.path(), MapConfig{.probability = true}, false);
+    EXPECT_THROW(maps.begin(scan), ConfigError);
+}
+
 TEST(MapFiles, LeaveNothingWithoutCommit) {
     const test::TemporaryFolder folder;
     {
-        MapFiles maps(folder.path(), true, false);
+        MapFiles maps(folder.path(), MapConfig{}, false);
         maps.append(scan_of<float>(io::FieldType::f32, 1), with({Label::static_}));
     }
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));

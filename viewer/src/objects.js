@@ -54,13 +54,12 @@ function rowOf(session, view, object) {
     h("th", { scope: "row" }, h("button", { type: "button", class: "chip", "data-object": object.number, onclick: go }, String(object.number))),
     h("td", {}, `${fixed(since, 1)}`, h("small", {}, `for ${fixed(seen, 1)}`)),
     h("td", {}, compact(object.points)),
-    h("td", {}, object.size.map((s) => fixed(s, 1)).join(" × ")),
-    h("td", {}, fixed(object.path, 1)),
-    h("td", {}, fixed(object.fastest, 1)));
+    h("td", {}, object.size.map((s) => fixed(s, 1)).join("×")),
+    h("td", {}, fixed(object.path, 1), h("small", {}, `to ${fixed(object.fastest, 1)} m/s`)));
 }
 
 function tableOf(session, view, objects) {
-  const heads = ["object", "seen at [s]", "points", "size [m]", "way [m]", "m/s"];
+  const heads = ["object", "seen at [s]", "points", "size [m]", "way [m]"];
   return h("div", { class: "scroll" }, h("table", { class: "numbers objects" },
     h("thead", {}, h("tr", {}, heads.map((head) => h("th", { scope: "col" }, head)))),
     h("tbody", {}, objects.slice(0, LISTED).map((object) => rowOf(session, view, object)))));
