@@ -372,16 +372,22 @@ TEST_F(Command, EvalScoresWithinTheRangeAskedFor) {
         return nlohmann::json::parse(slurp(folder_ / "s.json"));
     };
     const auto all = scores(""), same = scores(" --min-range 0 --max-range 1000");
-    EXPECT_EQ(all, same);
+    EXPECT_EQ(all["point"], same["point"]);
+    EXPECT_FALSE(all.contains("part"));
+    EXPECT_EQ(same["part"], nlohmann::json::parse(R"({"max_range": 1000.0})"));
     const auto near = scores(" --max-range 8");
     expect_said("scored are points from 0 m to 8 m of the sensor");
     EXPECT_NE(near["point"], all["point"]);
     const auto boxed = scores(" --box=-5,-5,5,5"), everywhere = scores(" --box=-1e4,-1e4,1e4,1e4");
     EXPECT_NE(boxed["point"], all["point"]);
-    EXPECT_EQ(everywhere, all);
+    EXPECT_EQ(everywhere["point"], all["point"]);
+    EXPECT_EQ(everywhere["part"]["box"][0][1], -1e4);
     expect_said("scored are points within the box");
-    // Nothing is nearer than the sensor's own body: no voxel of either kind, so no score.
-    EXPECT_TRUE(scores(" --max-range 0.01")["point"]["sa"].is_null());
+    // Nothing is nearer than the sensor's own body, and nothing is measured so far away.
+    for (const char* nothing : {" --max-range 0.01", " --box=5000,5000,5010,5010"}) {
+        EXPECT_EQ(run(eval + nothing), 3);
+        expect_said("has no point with ground truth in the part that is scored");
+    }
     EXPECT_EQ(run(eval + " --min-range 5 --max-range 5"), 2);
     expect_said("--min-range must be 0 or more, and less than --max-range");
 }
