@@ -32,17 +32,12 @@ public:
 
     void append(const io::FullScan& scan, const Labels& labels, const std::string& stem) override {
         require_labels(labels, "--to objects");
-        Waiting waiting{labels, {}};
-        std::vector<Eigen::Vector3d> places;
-        for (std::uint32_t i = 0; i < labels.size(); ++i) {
-            if (labels[i] != Label::dynamic || !is_measured(scan.points[i])) continue;
-            waiting.points.push_back(i);
-            places.emplace_back(scan.T_world_sensor * scan.points[i].cast<double>());
-        }
-        waiting_.push_back(std::move(waiting));
+        waiting_.push_back({labels, moving_points(scan.points, labels)});
+        const auto& moving = waiting_.back().points;
         stems_.push_back(stem);
         poses_.push_back(scan.T_world_sensor);
-        log_.add(stems_.size() - 1, scan.stamp, std::move(places));
+        log_.add(stems_.size() - 1, scan.stamp,
+                 places_at(scan.points, moving, scan.T_world_sensor));
     }
 
     std::string commit() override {

@@ -40,6 +40,16 @@ ObjectBox box_around(std::span<const Eigen::Vector3d> places, double yaw) {
     return result;
 }
 
+Eigen::Vector3d usual_size(std::span<const Eigen::Vector3d> sizes) {
+    Eigen::Vector3d usual;
+    for (int axis = 0; axis < 3; ++axis) {
+        std::vector<double> along;
+        for (const Eigen::Vector3d& size : sizes) along.push_back(size[axis]);
+        usual[axis] = value_at_rank(std::move(along), 9 * (sizes.size() - 1) / 10);
+    }
+    return usual;
+}
+
 std::vector<ObjectSummary> summaries_of(const std::vector<ObjectBox>& boxes) {
     std::map<std::uint32_t, ObjectSummary> by_number;
     for (const ObjectBox& box : boxes) {
@@ -51,13 +61,13 @@ std::vector<ObjectSummary> summaries_of(const std::vector<ObjectBox>& boxes) {
     }
     std::vector<ObjectSummary> objects;
     for (auto& [number, object] : by_number) {
-        for (int axis = 0; axis < 3; ++axis) {
-            std::vector<double> sizes;
-            for (const ObjectBox* box : object.boxes) sizes.push_back(box->size[axis]);
-            object.size[axis] = value_at_rank(std::move(sizes), 9 * (object.boxes.size() - 1) / 10);
-        }
         WayLength way;
-        for (const ObjectBox* box : object.boxes) way.add(box->stamp, box->center);
+        std::vector<Eigen::Vector3d> sizes;
+        for (const ObjectBox* box : object.boxes) {
+            way.add(box->stamp, box->center);
+            sizes.push_back(box->size);
+        }
+        object.size = usual_size(sizes);
         object.path = way.so_far();
         objects.push_back(std::move(object));
     }

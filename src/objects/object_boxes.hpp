@@ -43,6 +43,9 @@ private:
 /// Around places [m, world], along a direction of the plane.
 ObjectBox box_around(std::span<const Eigen::Vector3d> places, double yaw);
 
+/// [m] The size that nine tenths of these keep to, axis by axis. `sizes` must not be empty.
+Eigen::Vector3d usual_size(std::span<const Eigen::Vector3d> sizes);
+
 /// An object over all its scans.
 struct ObjectSummary {
     std::uint32_t object = 0;

@@ -5,6 +5,24 @@
 
 namespace dynamic_filter::app {
 
+std::vector<std::uint32_t> moving_points(const Points& points, const Labels& labels) {
+    std::vector<std::uint32_t> moving;
+    for (std::uint32_t i = 0; i < labels.size(); ++i) {
+        if (labels[i] == Label::dynamic && is_measured(points[i])) moving.push_back(i);
+    }
+    return moving;
+}
+
+std::vector<Eigen::Vector3d> places_at(const Points& points, std::span<const std::uint32_t> indices,
+                                       const Pose& T_world_sensor) {
+    std::vector<Eigen::Vector3d> places;
+    places.reserve(indices.size());
+    for (const std::uint32_t i : indices) {
+        places.emplace_back(T_world_sensor * points[i].cast<double>());
+    }
+    return places;
+}
+
 bool ObjectLog::is_settled(const Waiting& waiting) const {
     return std::all_of(waiting.objects.begin(), waiting.objects.end(), [&](auto object) {
         return object == kNoObject || tracker_.objects()[object].is_sure() ||

@@ -7,6 +7,7 @@
 #include <deque>
 #include <functional>
 #include <map>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -27,6 +28,12 @@ struct KnownScan {
     std::vector<std::uint32_t> numbers{};  ///< of the object of each place, from 1; 0: none
     std::vector<SeenObject> objects{};
 };
+
+/// The measured points that move, by index: those that objects are made of. `labels` is parallel.
+std::vector<std::uint32_t> moving_points(const Points& points, const Labels& labels);
+/// Their places [m] in the world.
+std::vector<Eigen::Vector3d> places_at(const Points& points, std::span<const std::uint32_t> indices,
+                                       const Pose& T_world_sensor);
 
 /// Follows what moves (object_tracker.hpp), and tells of each scan as soon as it is sure which of
 /// its objects are no stray echoes. These are numbered in the order in which they are seen first.

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/numbers.hpp"
-
 namespace dynamic_filter::app {
 
 namespace {
@@ -19,14 +17,10 @@ void keep_every_second(std::vector<ObjectWay::Place>& places) {
     places.resize(kept);
 }
 
-Eigen::Vector3d usual_size(const std::vector<ObjectWay::Place>& places) {
-    Eigen::Vector3d size;
-    for (int axis = 0; axis < 3; ++axis) {
-        std::vector<double> sizes;
-        for (const ObjectWay::Place& place : places) sizes.push_back(place.size[axis]);
-        size[axis] = value_at_rank(std::move(sizes), 9 * (places.size() - 1) / 10);
-    }
-    return size;
+Eigen::Vector3d usual_size_at(const std::vector<ObjectWay::Place>& places) {
+    std::vector<Eigen::Vector3d> sizes;
+    for (const ObjectWay::Place& place : places) sizes.push_back(place.size);
+    return usual_size(sizes);
 }
 
 }  // namespace
@@ -54,7 +48,7 @@ std::vector<ObjectWay> ObjectWays::take(std::size_t most) {
     std::vector<ObjectWay> ways;
     for (auto& [number, growing] : std::exchange(growing_, {})) {
         growing.way.path = growing.length.so_far();
-        growing.way.size = usual_size(growing.way.places);
+        growing.way.size = usual_size_at(growing.way.places);
         ways.push_back(std::move(growing.way));
     }
     std::stable_sort(ways.begin(), ways.end(),

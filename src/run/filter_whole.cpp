@@ -220,15 +220,6 @@ struct SeenScan {
     std::vector<Eigen::Vector3d> moving{};  ///< [m] places in the world, for the page
 };
 
-std::vector<Eigen::Vector3d> moving_places(const io::FullScan& scan, const Labels& labels) {
-    std::vector<Eigen::Vector3d> places;
-    for (std::size_t i = 0; i < labels.size(); ++i) {
-        if (labels[i] != Label::dynamic || !is_measured(scan.points[i])) continue;
-        places.emplace_back(scan.T_world_sensor * scan.points[i].cast<double>());
-    }
-    return places;
-}
-
 SeenScan see(const Whole& whole, std::size_t i, const io::FullScan& scan, const Labels& labels) {
     SeenScan seen{.instant = whole.instant.get(i)};
     seen.note = note_of(labels, seen.instant, scan.truth);
@@ -239,7 +230,7 @@ SeenScan see(const Whole& whole, std::size_t i, const io::FullScan& scan, const 
     const bool has_intensity = !whole.recording.info().intensity_is_truth;
     seen.drawn = whole.shown->draw(i, scan, labels, seen.instant,
                                    has_intensity ? intensities(scan.cloud) : std::vector<double>{});
-    seen.moving = moving_places(scan, labels);
+    seen.moving = places_at(scan.points, moving_points(scan.points, labels), scan.T_world_sensor);
     return seen;
 }
 
