@@ -53,22 +53,28 @@ UprightPlane seen_from_behind(const UprightPlane& plane) {
             .until = -plane.from};
 }
 
+/// The keyframe at the time of a scan; empty if it is no longer kept.
+std::optional<std::size_t> keyframe_of(const EvidenceMap& map, std::uint32_t owner) {
+    const auto& keyframes = map.keyframes().kept();
+    if (owner < keyframes.front().owner) return std::nullopt;
+    const auto next =
+        std::upper_bound(keyframes.begin(), keyframes.end(), owner,
+                         [](std::uint32_t o, const Keyframe& k) { return o < k.owner; });
+    return static_cast<std::size_t>(next - keyframes.begin() - 1);
+}
+
 /// Every `stride`-th voxel that was first seen through the plane, by keyframe.
 std::vector<SeenBehind> seen_through(const UprightPlane& plane, const EvidenceMap& map,
                                      std::size_t stride) {
-    const auto& keyframes = map.keyframes().kept();
     std::vector<SeenBehind> seen;
     for (std::size_t v = 0; v < map.grid().size(); v += stride) {
         const auto& state = map.grid()[static_cast<std::uint32_t>(v)];
         const std::uint32_t owner = state.evidence.first_owner;
-        if (owner < keyframes.front().owner) continue;
+        const auto keyframe = keyframe_of(map, owner);
+        if (!keyframe) continue;
         const auto at = crossing(plane, map.sensor_of_owner(owner), state.centroid);
         if (!at || at->along < plane.from || at->along > plane.until) continue;
-        const auto next =
-            std::upper_bound(keyframes.begin(), keyframes.end(), owner,
-                             [](std::uint32_t o, const Keyframe& k) { return o < k.owner; });
-        seen.push_back({static_cast<std::uint32_t>(v),
-                        static_cast<std::size_t>(next - keyframes.begin() - 1), *at});
+        seen.push_back({static_cast<std::uint32_t>(v), *keyframe, *at});
     }
     std::stable_sort(seen.begin(), seen.end(), [](const SeenBehind& a, const SeenBehind& b) {
         return a.keyframe < b.keyframe;
@@ -76,22 +82,41 @@ std::vector<SeenBehind> seen_through(const UprightPlane& plane, const EvidenceMa
     return seen;
 }
 
-/// What the keyframes of the voxels see `beyond` [m] before the places of the voxels in the mirror.
-std::vector<Sight> sights_before(const UprightPlane& plane, const EvidenceMap& map,
-                                 const std::vector<SeenBehind>& seen, float beyond) {
-    const Point normal(plane.normal.x(), plane.normal.y(), 0.0F);
+/// A place about which a keyframe is asked.
+struct Question {
+    std::size_t keyframe;
+    Point place;  ///< [m]
+};
+
+/// What the keyframes see at the places; questions to one keyframe should stand together.
+std::vector<Sight> answers(const EvidenceMap& map, const std::vector<Question>& questions) {
     std::vector<Sight> sights;
-    for (std::size_t i = 0; i < seen.size();) {
-        const std::size_t keyframe = seen[i].keyframe;
+    for (std::size_t i = 0; i < questions.size();) {
+        const std::size_t keyframe = questions[i].keyframe;
         Points places;
-        for (; i < seen.size() && seen[i].keyframe == keyframe; ++i) {
-            places.push_back(map.grid()[seen[i].voxel].centroid +
-                             (2.0F * seen[i].at.depth + beyond) * normal);
+        for (; i < questions.size() && questions[i].keyframe == keyframe; ++i) {
+            places.push_back(questions[i].place);
         }
         const auto some = map.look(map.keyframes().kept()[keyframe], places);
         sights.insert(sights.end(), some.begin(), some.end());
     }
     return sights;
+}
+
+Point upright_normal(const UprightPlane& plane) {
+    return {plane.normal.x(), plane.normal.y(), 0.0F};
+}
+
+/// What the keyframes of the voxels see `beyond` [m] before the places of the voxels in the mirror.
+std::vector<Sight> sights_before(const UprightPlane& plane, const EvidenceMap& map,
+                                 const std::vector<SeenBehind>& seen, float beyond) {
+    std::vector<Question> questions;
+    for (const SeenBehind& s : seen) {
+        const Point& behind = map.grid()[s.voxel].centroid;
+        questions.push_back(
+            {s.keyframe, behind + (2.0F * s.at.depth + beyond) * upright_normal(plane)});
+    }
+    return answers(map, questions);
 }
 
 /// A floor, a ceiling and walls across the plane go on behind an open doorway as they would in a
@@ -203,6 +228,52 @@ bool is_real_behind(const Mirror& mirror, const EvidenceMap& map,
     return occupied > free;
 }
 
+/// True if the voxel was mostly empty: something crossed it.
+bool was_crossed(const Evidence& e) { return e.n_free >= 3 && e.n_free > 2 * e.n_occ; }
+
+/// Places in the mirror of what moved before it, at the times at which that was there.
+std::vector<Question> images_of_what_moved(const Mirror& mirror, const EvidenceMap& map) {
+    std::vector<Question> images;
+    for (std::uint32_t v = 0; v < map.grid().size(); ++v) {
+        const auto& state = map.grid()[v];
+        const float before = mirror.plane.height(state.centroid.head<2>());
+        if (before < kBehindMirror || !was_crossed(state.evidence)) continue;
+        const std::uint32_t owner = state.evidence.first_owner;
+        const auto keyframe = keyframe_of(map, owner);
+        const Point image = state.centroid - 2.0F * before * upright_normal(mirror.plane);
+        if (keyframe && is_reflected(mirror, map.sensor_of_owner(owner), image)) {
+            images.push_back({*keyframe, image});
+        }
+    }
+    std::stable_sort(images.begin(), images.end(), [](const Question& a, const Question& b) {
+        return a.keyframe < b.keyframe;
+    });
+    return images;
+}
+
+/// True if what moves on one side does not move on the other at the same time: then it is an
+/// opening between places that look alike, such as the two halves of a building.
+bool moves_otherwise(const Mirror& mirror, const EvidenceMap& map,
+                     const std::vector<SeenBehind>& seen) {
+    constexpr int kTelling = 20;
+    std::vector<SeenBehind> moved;
+    for (const SeenBehind& s : seen) {
+        const auto cell = mirror.cell(s.at.along, s.at.z, s.at.angle);
+        const bool is_reflected_one = cell && mirror.reflects[*cell];
+        if (is_reflected_one && was_crossed(map.grid()[s.voxel].evidence)) moved.push_back(s);
+    }
+    int like = 0, unlike = 0;
+    const auto count = [&](const std::vector<Sight>& sights) {
+        for (const Sight sight : sights) {
+            like += is_occupied(sight) ? 1 : 0;
+            unlike += is_free(sight) ? 1 : 0;
+        }
+    };
+    count(sights_before(mirror.plane, map, moved, 0.0F));
+    count(answers(map, images_of_what_moved(mirror, map)));
+    return unlike >= kTelling && unlike > like;
+}
+
 /// The mirror in the plane or very near it, if there is one.
 std::optional<Mirror> mirror_in(const UprightPlane& plane, const EvidenceMap& map, double share) {
     constexpr float kDegree = 0.0174533F;
@@ -226,7 +297,10 @@ std::optional<Mirror> mirror_in(const UprightPlane& plane, const EvidenceMap& ma
     if (better.like < kFew) return std::nullopt;
     const auto plain = plain_ones(better.mirror.plane, map, seen);
     MarkedMirror exact = mirror_at(better.mirror.plane, map, seen, plain, share, kEnough);
-    if (exact.like < kLeastLike || is_real_behind(exact.mirror, map, seen)) return std::nullopt;
+    if (exact.like < kLeastLike || is_real_behind(exact.mirror, map, seen) ||
+        moves_otherwise(exact.mirror, map, seen)) {
+        return std::nullopt;
+    }
     // Where there is a mirror, fewer places tell how far it goes.
     return mirror_at(exact.mirror.plane, map, seen, plain, share, kFew).mirror;
 }

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace dynamic_filter::mirrors_test {
 
@@ -48,9 +49,12 @@ float until(const AlignedBox3f& box, const Point& from, const Point& way) {
 
 Point mirrored(const Point& p) { return {p.x(), -12.0F - p.y(), p.z()}; }
 
-float range(Part part, const Point& from, const Point& way) {
+/// `walker`: a person in the first room.
+using Walker = std::optional<AlignedBox3f>;
+
+float range(Part part, const Walker& walker, const Point& from, const Point& way) {
     if (part == Part::twin && from.y() < -6.0F) {
-        return range(part, mirrored(from), {way.x(), -way.y(), way.z()});
+        return range(part, {}, mirrored(from), {way.x(), -way.y(), way.z()});
     }
     const AlignedBox3f before(Point(-10.0F, -6.0F, 0.0F), Point(10.0F, 6.0F, 3.0F));
     const AlignedBox3f behind(Point(-10.0F, -14.0F, 0.0F), Point(10.0F, -6.0F, 3.0F));
@@ -59,6 +63,7 @@ float range(Part part, const Point& from, const Point& way) {
     for (const auto& box : starts_before ? things_before() : things_behind()) {
         nearest = std::min(nearest, until(box, from, way));
     }
+    if (walker && starts_before) nearest = std::min(nearest, until(*walker, from, way));
     const Point at = from + nearest * way;
     const bool is_through = starts_before && std::abs(at.y() + 6.0F) < 1e-3F &&
                             std::abs(at.x()) < 3.0F && at.z() > 0.1F && at.z() < 2.6F;
@@ -67,11 +72,19 @@ float range(Part part, const Point& from, const Point& way) {
     const bool looks_mirrored = part != Part::doorway;
     if (looks_mirrored) onward.y() = -onward.y();
     const Point on = at + 0.01F * onward;
-    return nearest + 0.01F + range(looks_mirrored ? Part::wall : part, on, onward);
+    return nearest + 0.01F +
+           range(looks_mirrored ? Part::wall : part, part == Part::mirror ? walker : Walker{}, on,
+                 onward);
+}
+
+/// Where somebody is who walks along the wall, half way between it and the sensor.
+AlignedBox3f walker_in(std::size_t scan) {
+    const Point middle(3.5F - 0.6F * static_cast<float>(scan), -2.2F, 0.9F);
+    return {middle - Point(0.25F, 0.25F, 0.9F), middle + Point(0.25F, 0.25F, 0.9F)};
 }
 
 /// Twelve scans before the wall, then some from behind it.
-EvidenceMap seen(Part part, std::size_t behind = 0) {
+EvidenceMap seen(Part part, std::size_t behind = 0, bool somebody_walks = false) {
     EvidenceMap map(Config{});
     StageTimes times;
     for (std::size_t i = 0; i < 12 + behind; ++i) {
@@ -88,7 +101,8 @@ EvidenceMap seen(Part part, std::size_t behind = 0) {
                 const float turn = 0.0174533F * (static_cast<float>(column) + 0.37F);
                 const Point way(std::cos(up) * std::cos(turn), std::cos(up) * std::sin(turn),
                                 std::sin(up));
-                scan.points.emplace_back(range(part, sensor, way) * way);
+                const Walker walker = somebody_walks ? Walker(walker_in(i)) : Walker{};
+                scan.points.emplace_back(range(part, walker, sensor, way) * way);
             }
         }
         map.insert(scan, times);
@@ -127,6 +141,11 @@ TEST(Mirrors, ADoorwayIntoAnotherRoomIsNone) {
 TEST(Mirrors, ARoomLikeTheFirstOneIsNoneOnceItWasSeenFromWithin) {
     EXPECT_EQ(find_mirrors(seen(Part::twin), {}).size(), 1U);  // nothing tells it from a mirror yet
     EXPECT_TRUE(find_mirrors(seen(Part::twin, 6), {}).empty());
+}
+
+TEST(Mirrors, ARoomLikeTheFirstOneIsNoneIfSomebodyWalksInOneOfThem) {
+    EXPECT_EQ(find_mirrors(seen(Part::mirror, 0, true), {}).size(), 1U);
+    EXPECT_TRUE(find_mirrors(seen(Part::twin, 0, true), {}).empty());
 }
 
 TEST(Mirrors, AClosedWallIsNone) { EXPECT_TRUE(find_mirrors(seen(Part::wall), {}).empty()); }
