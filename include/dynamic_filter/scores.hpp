@@ -63,8 +63,6 @@ struct VoxelCount {
     std::uint32_t still = 0;       ///< static points
     std::uint32_t dynamic = 0;     ///< dynamic points
     std::uint32_t unlabelled = 0;  ///< points of a map without labels
-    /// [m] sum of the coordinates of the labelled points.
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
 
     /// True if the voxel holds any point.
     [[nodiscard]] bool has_points() const { return still + dynamic + unlabelled > 0; }
@@ -91,15 +89,12 @@ public:
     /// Adds one point of a clean map that another program made; it belongs to result 0.
     void add_map_point(const Point& point);
 
-    /// Scores of one result. The keys name four ways to count a voxel that holds points of both
+    /// Scores of one result. The keys name three ways to count a voxel that holds points of both
     /// kinds:
     ///
     /// - "excluded" (the default): it counts as neither static nor dynamic.
     /// - "static_wins": it is static.
     /// - "majority": it has the kind of most of its points; static on a tie.
-    /// - "erasor": the centroid of each voxel gets the label of the majority. It is preserved if
-    ///   the nearest centroid of the clean map lies within half a voxel diagonal and has the same
-    ///   label. This key is missing for maps without labels, and on shifted grids.
     [[nodiscard]] std::map<std::string, VoxelScore> scores(std::size_t result = 0) const;
     /// The numbers of voxels behind them, with the same keys.
     [[nodiscard]] std::map<std::string, VoxelTotals> totals(std::size_t result = 0) const;
@@ -114,7 +109,6 @@ private:
     // Counts per voxel: one for the raw map, one for the removed points of each result.
     std::size_t stride_;
     std::vector<VoxelCount> counts_;
-    bool unlabelled_ = false;
 };
 
 /// Scores per point. A score is empty if the ground truth has no point of that kind, or if no
@@ -163,8 +157,8 @@ struct Confusion {
 struct Scores {
     /// Keys: how voxels with points of both kinds are counted, see VoxelTally::scores().
     std::map<std::string, VoxelScore> voxel;
-    /// The same, but for "erasor", on a grid that is shifted by half a voxel along each axis, or
-    /// empty. It shows whether the grid suits the result by chance, such as a map of these voxels.
+    /// The same on a grid that is shifted by half a voxel along each axis, or empty. It shows
+    /// whether the grid suits the result by chance, such as a map of these voxels.
     std::map<std::string, VoxelScore> voxel_shifted{};
     PointScore point;            ///< over all points
     double dynamic_share = 0.0;  ///< 0..1: voxels with a dynamic point / all voxels

@@ -17,7 +17,6 @@ class Bench:
     """Where and how much. `work` keeps recordings and the last run's output."""
     work: Path
     quick: bool = False
-    semantickitti: Path | None = None
     command: Path = BUILD / "dynamicfilter"
 
     @property
@@ -62,9 +61,9 @@ def both(bench, recording, options=()):
     return run(bench, recording, preset="default", options=options), run(bench, recording, options=options)
 
 
-def voxel(result, instant=False, reading="excluded"):
+def voxel(result, instant=False):
     metrics = result["metrics"]["instant"] if instant else result["metrics"]
-    v = metrics["voxel"][reading]
+    v = metrics["voxel"]["excluded"]
     return v["pr"], v["rr"], v["f1"]
 
 

@@ -43,6 +43,7 @@ ROOMS = {
     "page": "base geometry formats score recording objects dynamic_filter/filter.hpp",
     "run": "base geometry settings filter tracking online paper formats recording check score objects page",
     "upkeep": "base geometry formats recording draw objects export page run",
+    "arena": "base geometry formats recording score sim run",
     "live": "base geometry settings filter tracking online formats recording check/watch.hpp navigation page run",
     "commands": "*",
 }

@@ -22,6 +22,7 @@ void add_check(Program& program);
 void add_odometry(Program& program);
 void add_info(Program& program);
 void add_config(Program& program);
+void add_bench(Program& program);
 void add_serve(Program& program);
 
 }  // namespace dynamic_filter::app

@@ -22,6 +22,7 @@
 #include "recording/truth.hpp"
 #include "run/open_for_result.hpp"
 #include "run/scored_scans.hpp"
+#include "score/erasor_maps.hpp"
 #include "score/knowable_report.hpp"
 #include "score/protocols.hpp"
 #include "score/report.hpp"
@@ -137,14 +138,21 @@ Evaluation scores_of(const EvalOptions& o) {
     const io::Recording recording = scans_to_score(truth.recording, o);
     const Eigen::Vector3d origin = scoring_origin(recording, o.voxel);
     std::vector<std::atomic<bool>> left_out(recording.size());
-    const eval::ScanSource source =
-        noting(o.labels ? with_labels(recording, origin, *o.labels, o.part)
-                        : scan_source(recording, origin, {}, o.part),
-               left_out);
-    eval::Scores scores =
-        o.labels ? eval::score_labels(recording.size(), source, o.voxel)
-                 : eval::score_map(recording.size(), source,
-                                   positions_from(io::read_cloud(*o.map), origin), o.voxel);
+    const auto source_of = [&](const ScoredPart& part) {
+        return o.labels ? with_labels(recording, origin, *o.labels, part)
+                        : scan_source(recording, origin, {}, part);
+    };
+    const eval::ScanSource source = noting(source_of(o.part), left_out);
+    const Points map = o.map ? positions_from(io::read_cloud(*o.map), origin) : Points{};
+    eval::Scores scores = o.labels ? eval::score_labels(recording.size(), source, o.voxel)
+                                   : eval::score_map(recording.size(), source, map, o.voxel);
+    if (o.protocol == "erasor") {
+        const eval::ScanSource points = source_of(part_of_erasor(o.part));
+        scores.voxel["erasor"] =
+            (o.labels ? eval::score_erasor(recording.size(), points, o.voxel)
+                      : eval::score_erasor(recording.size(), points, map, o.voxel))
+                .score();
+    }
     std::vector<std::string> missing = names_of(recording, left_out);
     if (!scores.point.sa && !scores.point.da && missing.size() < recording.size()) {
         throw InputError(o.truth.data, "",

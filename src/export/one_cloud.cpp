@@ -17,6 +17,7 @@
 #include "export/places.hpp"
 #include "export/thinned_records.hpp"
 #include "navigation/survey.hpp"
+#include "recording/scans.hpp"
 #include "recording/world_records.hpp"
 
 namespace fs = std::filesystem;

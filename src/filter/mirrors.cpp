@@ -245,9 +245,8 @@ std::vector<Question> images_of_what_moved(const Mirror& mirror, const EvidenceM
             images.push_back({*keyframe, image});
         }
     }
-    std::stable_sort(images.begin(), images.end(), [](const Question& a, const Question& b) {
-        return a.keyframe < b.keyframe;
-    });
+    std::stable_sort(images.begin(), images.end(),
+                     [](const Question& a, const Question& b) { return a.keyframe < b.keyframe; });
     return images;
 }
 

@@ -12,6 +12,7 @@
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/parallel.hpp"
 #include "recording/scans.hpp"
+#include "run/data_json.hpp"
 #include "run/placed.hpp"
 #include "run/run_state.hpp"
 #include "settings/config_file.hpp"
@@ -47,6 +48,16 @@ void refuse_unnamed(const RunOptions& o) {
 /// The beginning of every mark.
 std::string version_text() { return fmt::format("version {}\n", DYNAMIC_FILTER_VERSION); }
 
+/// How the recordings are read, for the mark: with other poses, or in other units, it is another
+/// run. Where their files are does not matter.
+std::string reading_text(const Job& job, const DataOptions& how) {
+    std::string text;
+    for (const std::string& fingerprint : job.fingerprints) text += "read " + fingerprint + "\n";
+    DataOptions options = how;
+    options.poses.reset();
+    return text + "reading " + json_of(options).dump() + "\n";
+}
+
 }  // namespace
 
 bool is_tiled(const RunOptions& o) {
@@ -75,7 +86,7 @@ Job open_tiled_job(const RunOptions& o, std::vector<DriveSource> sources) {
         job.mark += state_of(drive.recording);
         job.fingerprints.push_back(fingerprint_of(drive.recording));
     }
-    job.mark += to_toml(job.config);
+    job.mark += reading_text(job, o.data) + to_toml(job.config);
     return job;
 }
 
@@ -124,11 +135,13 @@ void choose_job_motion(Job& job, const RunOptions& o) {
             job.remarks.push_back({kind, warning_of(found, o.data)});
         }
     });
-    job.mark = version_text() + state_of(recording) + to_toml(job.config);
+    job.mark =
+        version_text() + state_of(recording) + reading_text(job, o.data) + to_toml(job.config);
 }
 
 std::string mark_of_output(const Job& job, const RunOptions& o) {
-    return job.mark + (o.maps ? "" : "no maps\n") + (o.report ? "" : "no report\n") +
+    return job.mark + (o.refine == "auto" ? "" : "refine " + o.refine + "\n") +
+           (o.maps ? "" : "no maps\n") + (o.report ? "" : "no report\n") +
            (o.part.empty() ? "" : "part " + o.part + "\n");
 }
 

@@ -112,12 +112,13 @@ void refuse_other_run(const OutputFolder& output, std::string_view state) {
                           ": holds something that no run of this version began; use --overwrite "
                           "or another -o");
     }
-    throw ConfigError(
-        output.name().string() +
-        ": was begun with another recording, other settings, other tiles (--memory, "
-        "--tile-voxels), other outputs (--no-maps, --no-report) or another version; go on "
-        "with those (see config.toml and run.log there), or start afresh with "
-        "--overwrite");
+    throw ConfigError(output.name().string() +
+                      ": was begun with another recording, other poses or another way to read it, "
+                      "other settings, "
+                      "other tiles (--memory, --tile-voxels), other outputs (--no-maps, "
+                      "--no-report) or another version; go on "
+                      "with those (see config.toml and run.log there), or start afresh with "
+                      "--overwrite");
 }
 
 }  // namespace dynamic_filter::app

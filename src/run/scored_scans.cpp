@@ -31,9 +31,13 @@ eval::LabelledScan labelled(const io::FullScan& full, const Eigen::Vector3d& ori
         const Eigen::Vector3d point = full.points[p].cast<double>();
         const double range = point.norm();
         const bool is_scored = is_measured(full.points[p]) && range >= part.min &&
-                               range <= part.max &&
+                               range <= part.max && point.head<2>().norm() >= part.min_horizontal &&
                                (!part.box || part.box->contains(full.T_world_sensor * point));
-        if (!is_scored) scan.truth[p] = Label::unknown;
+        if (!is_scored) {
+            scan.truth[p] = Label::unknown;
+        } else if (part.unlabelled_is_static && scan.truth[p] == Label::unknown) {
+            scan.truth[p] = Label::static_;
+        }
     }
     return scan;
 }

@@ -25,8 +25,11 @@ constexpr std::array kProtocols{
         "with static and dynamic points are left out"},
     Protocol{
         "erasor", "erasor",
-        "voxels of {0:g} m; a voxel is preserved if the nearest voxel centroid of the clean map "
-        "is within {1:.3f} m and has the same label"},
+        "maps with one point in each voxel of {0:g} m, scan by scan and then of all scans; the "
+        "point "
+        "has the label of the nearest one that was measured, and is preserved if the nearest point "
+        "of the clean map is within {1:.3f} m and has the same label; points without ground truth "
+        "are static, and those nearer than 2.7 m to the sensor's axis are left out"},
     Protocol{
         "strict", "static_wins",
         "voxels of {0:g} m; a voxel is preserved if a point of the clean map lies in it; voxels "
@@ -67,11 +70,7 @@ std::string protocol_table(const std::string& protocol, const eval::Scores& scor
             return rule + fmt::format("SA {} %  DA {} %  AA {} %  HA {} %\n", percent(points.sa),
                                       percent(points.da), percent(points.aa), percent(points.ha));
         }
-        const auto found = scores.voxel.find(p.reading);
-        if (found == scores.voxel.end()) {
-            return rule + "this rule needs labels: give --labels in place of --map\n";
-        }
-        return rule + rates(found->second) + "\n" + on_shifted_grid(p, scores);
+        return rule + rates(scores.voxel.at(p.reading)) + "\n" + on_shifted_grid(p, scores);
     }
     return table(scores);
 }

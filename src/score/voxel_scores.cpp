@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "dynamic_filter/scores.hpp"
 
-#include <cmath>
-
-#include "geometry/neighbor_grid.hpp"
 #include "geometry/voxel_index.hpp"
 
 namespace dynamic_filter::eval {
@@ -43,7 +40,6 @@ struct Counts {
         kept.still -= removed.still;
         kept.dynamic -= removed.dynamic;
         kept.unlabelled = removed.unlabelled;  // add_map_point() counts them as removed
-        kept.sum -= removed.sum;
         return kept;
     }
 };
@@ -56,34 +52,8 @@ VoxelTotals read(const Counts& counts, Reading reading) {
     return totals;
 }
 
-void count(VoxelCount& voxel, const Point& point, Label truth) {
-    voxel.sum += point.cast<double>();
+void count(VoxelCount& voxel, Label truth) {
     (truth == Label::dynamic ? voxel.dynamic : voxel.still) += 1;
-}
-
-Point mean(const VoxelCount& voxel) {
-    return (voxel.sum / static_cast<double>(voxel.still + voxel.dynamic)).cast<float>();
-}
-
-VoxelTotals erasor_totals(const Counts& counts, double voxel_size) {
-    const auto radius = static_cast<float>(voxel_size * std::sqrt(3.0) / 2.0);
-    Points centroids;
-    std::vector<Kind> kinds;
-    for (std::size_t v = 0; v < counts.voxels(); ++v) {
-        const VoxelCount kept = counts.kept(v);
-        if (!kept.has_points()) continue;
-        centroids.push_back(mean(kept));
-        kinds.push_back(majority(kept));
-    }
-    const NeighborGrid grid(centroids, radius);
-    std::vector<Neighbor> nearest;
-    VoxelTotals totals;
-    for (std::size_t v = 0; v < counts.voxels(); ++v) {
-        grid.nearest(mean(counts.raw(v)), 1, nearest);
-        const Kind kind = majority(counts.raw(v));
-        add_voxel(totals, kind, !nearest.empty() && kinds[nearest.front().index] == kind);
-    }
-    return totals;
 }
 
 }  // namespace
@@ -138,15 +108,14 @@ void VoxelTally::add(std::span<const TruePoint> points) {
         if (i + kAhead < voxels.size()) __builtin_prefetch(&counts_[stride_ * voxels[i + kAhead]]);
         const TruePoint& p = *of_keys[i];
         VoxelCount* const of_voxel = &counts_[stride_ * voxels[i]];
-        count(of_voxel[0], p.point, p.truth);
+        count(of_voxel[0], p.truth);
         for (std::size_t r = 0; r + 1 < stride_; ++r) {
-            if ((p.removed >> r & 1U) != 0) count(of_voxel[1 + r], p.point, p.truth);
+            if ((p.removed >> r & 1U) != 0) count(of_voxel[1 + r], p.truth);
         }
     }
 }
 
 void VoxelTally::add_map_point(const Point& point) {
-    unlabelled_ = true;
     const auto cell = cell_of(point - shift_, static_cast<float>(1.0 / voxel_size_));
     const auto id = cell ? index_->find(pack(*cell)) : std::nullopt;
     if (id) counts_[*id * stride_ + 1].unlabelled += 1;
@@ -154,12 +123,9 @@ void VoxelTally::add_map_point(const Point& point) {
 
 std::map<std::string, VoxelTotals> VoxelTally::totals(std::size_t result) const {
     const Counts counts{counts_, stride_, result};
-    std::map<std::string, VoxelTotals> totals{{"excluded", read(counts, excluded)},
-                                              {"static_wins", read(counts, static_wins)},
-                                              {"majority", read(counts, majority)}};
-    const bool has_erasor = !unlabelled_ && shift_.isZero(0.0F);  // whose script has one grid
-    if (has_erasor) totals["erasor"] = erasor_totals(counts, voxel_size_);
-    return totals;
+    return {{"excluded", read(counts, excluded)},
+            {"static_wins", read(counts, static_wins)},
+            {"majority", read(counts, majority)}};
 }
 
 std::map<std::string, VoxelScore> VoxelTally::scores(std::size_t result) const {

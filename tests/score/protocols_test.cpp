@@ -52,12 +52,6 @@ TEST(Protocols, AllPrintsEveryReading) {
     }
 }
 
-TEST(Protocols, MapsWithoutLabelsHaveNoScoreOfErasor) {
-    eval::Scores of_a_map = scores();
-    of_a_map.voxel.erase("erasor");
-    EXPECT_NE(protocol_table("erasor", of_a_map, 0.2).find("give --labels"), std::string::npos);
-}
-
 TEST(Protocols, NamesAreThoseThatAreTaken) {
     for (const std::string& name : protocol_names()) {
         EXPECT_EQ(protocol_table(name, scores(), 0.2).empty(), false) << name;

@@ -124,7 +124,7 @@ TEST(ScanScores, ResultsBesideEachOtherScoreAsAlone) {
         const Scores beside = both.scores(r);
         EXPECT_EQ(beside.point.aa, alone.point.aa);
         EXPECT_EQ(beside.point.iou, alone.point.iou);
-        EXPECT_EQ(beside.voxel.at("erasor").f1, alone.voxel.at("erasor").f1);
+        EXPECT_EQ(beside.voxel.at("majority").f1, alone.voxel.at("majority").f1);
     }
     EXPECT_NE(both.scores(0).point.iou, both.scores(1).point.iou);
 }

@@ -69,32 +69,6 @@ TEST(VoxelTally, ReadsMixedVoxelsAsNamed) {
     EXPECT_DOUBLE_EQ(*scores.at("majority").rr, 1.0 - 1.0 / 3.0);
 }
 
-TEST(VoxelTally, ErasorReadingNeedsTheSameLabelAtTheNearestSurvivor) {
-    VoxelTally tally(0.2);
-    add(tally, in_voxel(0), kStill, kKept);
-    add(tally, in_voxel(10), kDynamic, kKept);
-    add(tally, in_voxel(20), kStill, kRemoved);       // no survivor near: lost
-    add(tally, in_voxel(30), kDynamic, kRemoved);     // rejected, although ...
-    add(tally, in_voxel(31, -0.05F), kStill, kKept);  // ... a static survivor is 0.15 m away
-    const auto s = tally.scores().at("erasor");
-    EXPECT_DOUBLE_EQ(*s.pr, 2.0 / 3.0);
-    EXPECT_DOUBLE_EQ(*s.rr, 0.5);
-}
-
-TEST(VoxelTally, ErasorReadingComparesTheMeansOfAllPointsAndOfTheKeptOnes) {
-    VoxelTally tally(0.2);
-    add(tally, in_voxel(0, -0.09F), kStill, kKept);
-    add(tally, in_voxel(0, 0.09F), kStill, kRemoved);  // the means are 0.09 m apart
-    add(tally, in_voxel(10, -0.09F), kStill, kRemoved);
-    for (int i = 0; i < 3; ++i) add(tally, in_voxel(10, -0.09F), kDynamic, kRemoved);
-    add(tally, in_voxel(11, 0.09F), kStill, kKept);
-    add(tally, in_voxel(11, 0.09F), kDynamic, kKept);
-    add(tally, in_voxel(11, 0.09F), kDynamic, kRemoved);
-    const auto s = tally.scores().at("erasor");
-    EXPECT_DOUBLE_EQ(*s.pr, 1.0);
-    EXPECT_DOUBLE_EQ(*s.rr, 1.0);  // of voxel 10 nothing is near, and voxel 11 is a tie now
-}
-
 TEST(VoxelTally, DynamicShareCountsVoxelsWithAnyMovingPoint) {
     EXPECT_EQ(worked_example().dynamic_voxels(), 4U);
     EXPECT_EQ(worked_example().voxels(), 5U);
@@ -110,7 +84,6 @@ TEST(VoxelTally, AMapMadeElsewherePreservesTheVoxelsItHasPointsIn) {
     const auto scores = tally.scores();
     EXPECT_DOUBLE_EQ(*scores.at("excluded").pr, 0.5);
     EXPECT_DOUBLE_EQ(*scores.at("excluded").rr, 0.5);
-    EXPECT_FALSE(scores.contains("erasor"));
 }
 
 /// A slow, plain re-count of the four readings.

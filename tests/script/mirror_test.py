@@ -7,6 +7,9 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 COVERED = {  # test -> the units that it covers
+    "arena/bench_test.py": "arena/bench arena/drive_arenas arena/find arena/map_arenas arena/moving_arenas arena/score_trial arena/submission "
+        "arena/twin_drives arena/twin_folders commands/bench",
+    "arena/table_test.cpp": "arena/arenas arena/published",
     "commands/command_test.cpp": "commands/check commands/cleaning commands/compare commands/config commands/convert commands/convert_recording "
         "commands/demo commands/evaluate commands/info commands/main commands/odometry commands/options commands/picture commands/render commands/run "
         "commands/serve commands/shared_options commands/simulate draw/animation draw/canvas export/bag export/benchmark "

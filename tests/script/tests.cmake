@@ -1,6 +1,3 @@
-add_test(NAME script/semantickitti
-         COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/semantickitti_test.py
-                 ${PROJECT_SOURCE_DIR} $<TARGET_FILE:dynamicfilter>)
 add_test(NAME script/headers
          COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/headers_test.py)
 set_tests_properties(script/headers PROPERTIES SKIP_RETURN_CODE 77)

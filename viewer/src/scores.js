@@ -4,7 +4,7 @@ import { h } from "./dom.js";
 import { fixed, percent } from "./format.js";
 
 const READINGS = {
-  excluded: "mixed voxels left out", static_wins: "mixed voxels static", majority: "mixed voxels by majority", erasor: "as ERASOR's script",
+  excluded: "mixed voxels left out", static_wins: "mixed voxels static", majority: "mixed voxels by majority",
 };
 const POINT_ROWS = [["sa", "static accuracy SA"], ["da", "dynamic accuracy DA"], ["aa", "geometric mean AA"], ["ha", "harmonic mean HA"], ["iou", "moving IoU"]];
 

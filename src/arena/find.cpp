@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "arena/find.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "base/text.hpp"
+#include "dynamic_filter/error.hpp"
+#include "recording/folders.hpp"
+#include "recording/scans.hpp"
+#include "recording/truth.hpp"
+
+namespace dynamic_filter::app {
+
+namespace fs = std::filesystem;
+
+std::optional<fs::path> first_folder(const std::vector<fs::path>& choices) {
+    const auto found = std::find_if(choices.begin(), choices.end(), io::is_folder);
+    return found == choices.end() ? std::nullopt : std::optional(*found);
+}
+
+std::optional<ScanWindow> semantickitti_window(const std::string& sequence) {
+    static const std::map<std::string, ScanWindow> windows = {{"00", {4390, 4530, 2}},
+                                                              {"01", {150, 250, 1}},
+                                                              {"02", {860, 950, 2}},
+                                                              {"05", {2350, 2670, 2}},
+                                                              {"07", {630, 820, 2}}};
+    const auto found = windows.find(sequence);
+    return found == windows.end() ? std::nullopt : std::optional(found->second);
+}
+
+void choose_window(DataOptions& data, const fs::path& folder, const std::string& extension,
+                   const ScanWindow& window) {
+    std::size_t wanted = window.first, index = 0;
+    std::optional<std::size_t> begin;
+    for (const fs::path& file : io::list_files(folder, {extension})) {
+        const auto number = io::parse_real(file.stem().string());
+        if (number && *number >= static_cast<double>(window.first) && !begin) begin = index;
+        if (begin && number == static_cast<double>(wanted) && wanted <= window.last) {
+            if ((index - *begin) != wanted - window.first) break;  // one between them is missing
+            wanted += window.step;
+        }
+        ++index;
+    }
+    if (wanted <= window.last) {
+        throw InputError(
+            folder, "",
+            fmt::format(
+                "scan {:06}{} is missing, or one before it; the arena needs all from {} to {}",
+                wanted, extension, window.first, window.last));
+    }
+    data.first = *begin;
+    data.last = *begin + (window.last - window.first);
+    data.stride = window.step;
+}
+
+std::optional<Trial> find_sequence(const fs::path& root, const std::string& sequence) {
+    const auto folder = first_folder({root / "sequences" / sequence,
+                                      root / "dataset" / "sequences" / sequence, root / sequence});
+    if (!folder || !io::is_folder(*folder / "velodyne")) return std::nullopt;
+    if (!io::is_folder(*folder / "labels")) {
+        throw InputError(*folder, "",
+                         "has scans, but no folder labels: unpack the label data of SemanticKITTI "
+                         "(semantic-kitti.org) into the same folder");
+    }
+    Trial trial{.entry = sequence, .data = {.data = *folder, .format = "kitti"}};
+    for (const char* name : {"poses_suma_optim.txt", "poses.txt"}) {
+        if (trial.data.poses || !io::present(*folder / name)) continue;
+        trial.data.poses = *folder / name;
+        trial.notes.push_back(fmt::format("poses of {}", name));
+    }
+    if (trial.data.poses) return trial;
+    throw InputError(*folder, "", "has neither poses_suma_optim.txt nor poses.txt");
+}
+
+std::vector<std::size_t> labelled_scans(const Trial& trial) {
+    return io::scans_with_truth(open(trial.data).info());
+}
+
+}  // namespace dynamic_filter::app

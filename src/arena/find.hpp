@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+/// Finds what an arena needs below the folder that the user gives.
+#pragma once
+
+#include "arena/arena.hpp"
+
+namespace dynamic_filter::app {
+
+/// The first of the folders that is there; nothing if none is.
+std::optional<std::filesystem::path> first_folder(
+    const std::vector<std::filesystem::path>& choices);
+
+/// Scans by the numbers in their names: `first`, `first + step` and so on up to `last`.
+struct ScanWindow {
+    std::size_t first = 0, last = 0, step = 1;
+};
+
+/// ERASOR's window of a sequence of SemanticKITTI, if it has one; the last scan is included.
+std::optional<ScanWindow> semantickitti_window(const std::string& sequence);
+
+/// Chooses the scans of the window among those in `folder`, which may hold others. Throws
+/// InputError with the first one that is missing.
+void choose_window(DataOptions& data, const std::filesystem::path& folder,
+                   const std::string& extension, const ScanWindow& window);
+
+/// A sequence in the layout of SemanticKITTI, with the poses that the arenas have in common: SuMa's
+/// if they are there. Throws InputError without labels or poses.
+std::optional<Trial> find_sequence(const std::filesystem::path& root, const std::string& sequence);
+
+/// The indices of the scans that have a label file.
+std::vector<std::size_t> labelled_scans(const Trial& trial);
+
+}  // namespace dynamic_filter::app
