@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <span>
 
 #include "arena/arena.hpp"
 #include "arena/submission.hpp"
@@ -112,7 +111,9 @@ void refuse_damaged(const io::Recording& recording) {
 DataOptions run_data(const Trial& trial, const BenchOptions& o) {
     DataOptions data = trial.data;
     if (o.poses.empty()) return data;
-    data.poses = o.poses == kNoPoses ? fs::path(kNoPoses) : trial.data.data / o.poses;
+    const fs::path& at = trial.data.data;  // a folder, or a bag in it
+    data.poses = o.poses == kNoPoses ? fs::path(kNoPoses)
+                                     : (io::is_folder(at) ? at : at.parent_path()) / o.poses;
     return data;
 }
 
@@ -153,6 +154,37 @@ std::string folder_name(std::string entry) {
     return entry;
 }
 
+/// Runs and scores each preset. False if it was interrupted.
+bool measure_ours(const Arena& arena, const Trial& trial, const io::Recording& recording,
+                  const BenchOptions& o, std::vector<MeasuredFigure>& figures) {
+    for (const std::string& preset : o.presets) {
+        const fs::path folder = o.output / folder_name(trial.entry) / preset;
+        if (!filter(trial, preset, folder, o)) return false;
+        const Estimate estimate{.labels = folder / "labels", .map = {}};
+        figures.push_back(
+            measure(arena, trial, recording, "DynamicFilter, preset " + preset, estimate));
+        if (!o.poses.empty()) {
+            figures.back().notes.push_back(o.poses == kNoPoses ? "run with own odometry"
+                                                               : "run with poses of " + o.poses);
+        }
+        if (!o.submission || preset != o.presets.front()) continue;
+        write_submission(arena, trial, recording, *estimate.labels, o.output / "submission");
+    }
+    return true;
+}
+
+void measure_peers(const Arena& arena, const Trial& trial, const io::Recording& recording,
+                   const std::vector<Peer>& peers, std::vector<MeasuredFigure>& figures) {
+    for (const Peer& peer : peers) {
+        if (const auto estimate = estimate_of(peer, trial.entry)) {
+            figures.push_back(measure(arena, trial, recording, peer.name, *estimate));
+            continue;
+        }
+        fmt::print(stderr, "note: {} has no result of {}: neither {}/ nor {}.pcd in {}\n",
+                   peer.name, trial.entry, trial.entry, trial.entry, peer.folder.string());
+    }
+}
+
 }  // namespace
 
 int bench(const BenchOptions& o) {
@@ -167,32 +199,16 @@ int bench(const BenchOptions& o) {
     for (const Trial& trial : trials) {
         const io::Recording recording = open(trial.data);
         refuse_damaged(recording);
-        for (const std::string& preset : o.no_run ? std::vector<std::string>{} : o.presets) {
-            const fs::path folder = o.output / folder_name(trial.entry) / preset;
-            if (!filter(trial, preset, folder, o)) {
-                fmt::print(stderr, "interrupted; the same command goes on\n");
-                return kInterrupted;
-            }
-            const Estimate estimate{.labels = folder / "labels", .map = {}};
-            figures.push_back(
-                measure(arena, trial, recording, "DynamicFilter, preset " + preset, estimate));
-            if (o.submission && preset == o.presets.front()) {
-                write_submission(arena, trial, recording, *estimate.labels,
-                                 o.output / "submission");
-            }
+        if (!o.no_run && !measure_ours(arena, trial, recording, o, figures)) {
+            fmt::print(stderr, "interrupted; the same command goes on\n");
+            return kInterrupted;
         }
-        for (const Peer& peer : peers) {
-            const auto estimate = estimate_of(peer, trial.entry);
-            if (!estimate) {
-                fmt::print(stderr, "note: {} has no result of {}: neither {}/ nor {}.pcd in {}\n",
-                           peer.name, trial.entry, trial.entry, trial.entry, peer.folder.string());
-                continue;
-            }
-            figures.push_back(measure(arena, trial, recording, peer.name, *estimate));
-        }
+        measure_peers(arena, trial, recording, peers, figures);
         write_tables(arena, figures, o.output);
     }
-    if (!o.quiet) fmt::print("written  {}\n", (o.output / "table.md").string());
+    if (o.quiet) return kDone;
+    fmt::print("\n{}\nwritten  {}\n", io::read_file(o.output / "table.md"),
+               (o.output / "table.md").string());
     return kDone;
 }
 

@@ -79,7 +79,8 @@ const std::vector<PublishedRow>& published_rows() {
 std::vector<PublishedFigure> published_figures(const std::string& arena, const std::string& entry) {
     std::vector<PublishedFigure> found;
     for (const PublishedRow& row : published_rows()) {
-        if (row.arena != arena) continue;
+        const bool is_of_it = row.arena == arena || arena == std::string(row.arena) + "-kitti";
+        if (!is_of_it) continue;
         for (const auto& [name, percent] : row.figures) {
             if (name != group_of_entry(entry)) continue;
             const auto same = std::find_if(found.begin(), found.end(), [&](const auto& figure) {

@@ -126,6 +126,10 @@ std::optional<double> mean_iou(const std::vector<eval::Confusion>& scans) {
 
 ArenaScores rates(const eval::VoxelScore& score) { return {score.pr, score.rr, score.f1}; }
 
+ArenaScores accuracies(const eval::PointScore& score) {
+    return {score.sa, score.da, score.aa, score.ha};
+}
+
 }  // namespace
 
 ArenaScores by_erasor(const Trial& trial, const io::Recording& recording,
@@ -146,8 +150,13 @@ ArenaScores by_strict(const Trial& trial, const io::Recording& recording,
 }
 
 ArenaScores by_cover(const Trial& trial, const io::Recording& recording, const Estimate& estimate) {
-    const eval::PointScore points = scores_of(trial, recording, estimate, {}).point;
-    return {points.sa, points.da, points.aa, points.ha};
+    return accuracies(scores_of(trial, recording, estimate, {}).point);
+}
+
+ArenaScores by_cover_to_50_m(const Trial& trial, const io::Recording& recording,
+                             const Estimate& estimate) {
+    const ScoredPart part{.max = std::nextafter(50.0, 0.0), .unlabelled_is_static = true};
+    return accuracies(scores_of(trial, recording, estimate, part).point);
 }
 
 ArenaScores by_moving(const Trial& trial, const io::Recording& recording,

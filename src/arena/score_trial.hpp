@@ -13,6 +13,10 @@ ArenaScores by_erasor(const Trial& trial, const io::Recording& recording, const 
 ArenaScores by_strict(const Trial& trial, const io::Recording& recording, const Estimate& estimate);
 /// SA, DA, AA, HA of DynamicMap_Benchmark.
 ArenaScores by_cover(const Trial& trial, const io::Recording& recording, const Estimate& estimate);
+/// The same of SemanticKITTI's scans as that benchmark extracts them: up to 50 m, and points
+/// without a label are static.
+ArenaScores by_cover_to_50_m(const Trial& trial, const io::Recording& recording,
+                             const Estimate& estimate);
 /// Moving IoU of all points together.
 ArenaScores by_moving(const Trial& trial, const io::Recording& recording, const Estimate& estimate);
 /// The same from 3 to 50 m.

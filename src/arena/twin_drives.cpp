@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "arena/twin.hpp"
 #include "base/degree.hpp"
+#include "base/json_vector.hpp"
 #include "dynamic_filter/bag.hpp"
 #include "dynamic_filter/file.hpp"
 #include "dynamic_filter/writers.hpp"
@@ -60,8 +61,6 @@ private:
     std::map<std::string, ordered_json> tables_;
 };
 
-ordered_json array_of_pose_translation(const Eigen::Vector3d& t) { return {t.x(), t.y(), t.z()}; }
-
 ordered_json rotation_of(const Pose& pose) {
     const Eigen::Quaterniond q(pose.linear());
     return {q.w(), q.x(), q.y(), q.z()};
@@ -73,19 +72,18 @@ void add_annotations(NuscenesTables& tables, const std::string& sample,
     for (const auto& [thing, box] : boxes_in(scan, scan.T_world_sensor)) {
         const std::string instance = fmt::format("{}-person-{}", scene, thing);
         const Eigen::Vector3d size = box.sizes().array() + 0.02;
-        tables["sample_annotation"].push_back(
-            {{"token", fmt::format("{}-{}", sample, thing)},
-             {"sample_token", sample},
-             {"instance_token", instance},
-             {"visibility_token", "4"},
-             {"attribute_tokens", {"pedestrian.moving"}},
-             {"translation", array_of_pose_translation(box.center())},
-             {"size", {size.y(), size.x(), size.z()}},
-             {"rotation", {1.0, 0.0, 0.0, 0.0}},
-             {"prev", ""},
-             {"next", ""},
-             {"num_lidar_pts", 1},
-             {"num_radar_pts", 0}});
+        tables["sample_annotation"].push_back({{"token", fmt::format("{}-{}", sample, thing)},
+                                               {"sample_token", sample},
+                                               {"instance_token", instance},
+                                               {"visibility_token", "4"},
+                                               {"attribute_tokens", {"pedestrian.moving"}},
+                                               {"translation", array_of(box.center())},
+                                               {"size", {size.y(), size.x(), size.z()}},
+                                               {"rotation", {1.0, 0.0, 0.0, 0.0}},
+                                               {"prev", ""},
+                                               {"next", ""},
+                                               {"num_lidar_pts", 1},
+                                               {"num_radar_pts", 0}});
     }
 }
 
@@ -206,11 +204,10 @@ void write_nuscenes_twin(const fs::path& root, const std::string& entry) {
                                              is_key ? "samples" : "sweeps", entry, stamp);
         const std::string token = fmt::format("{}-{}", entry, i);
         const Pose T_world_ego = scans[i].T_world_sensor * T_ego_lidar.inverse();
-        tables["ego_pose"].push_back(
-            {{"token", token},
-             {"timestamp", stamp},
-             {"rotation", rotation_of(T_world_ego)},
-             {"translation", array_of_pose_translation(T_world_ego.translation())}});
+        tables["ego_pose"].push_back({{"token", token},
+                                      {"timestamp", stamp},
+                                      {"rotation", rotation_of(T_world_ego)},
+                                      {"translation", array_of(T_world_ego.translation())}});
         tables["sample_data"].push_back({{"token", token},
                                          {"sample_token", sample},
                                          {"ego_pose_token", token},

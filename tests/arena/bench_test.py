@@ -11,7 +11,7 @@ from pathlib import Path
 
 COMMAND = sys.argv[1]
 TWINS = {  # an entry of each arena, and the least of its scores
-    "erasor": ("01", .9), "erasor2": ("01", .9), "strict": ("02", .9), "dynamicmap": ("01", .9), "mos": ("08", .75), "helimos": ("Velodyne", .9),
+    "erasor": ("01", .9), "erasor2": ("01", .9), "strict": ("02", .9), "dynamicmap": ("01", .9), "dynamicmap-kitti": ("01", .9), "mos": ("08", .75), "helimos": ("Velodyne", .9),
     "doals": ("station/sequence_1", .75), "moe": ("00", .85), "nuscenes": ("scene-0061", .8), "kitti-raw": ("0001", .7),
 }
 
