@@ -18,7 +18,8 @@ constexpr int kLeastRows = 40;           // of voxels in a plane
 constexpr std::size_t kFewVoxels =
     50000;                             // that are looked at to find out whether a plane may be one
 constexpr int kFew = 6, kEnough = 20;  // matches in a part of a plane
-constexpr int kLeastLike = 250;        // matches in a mirror
+constexpr int kLeastLike = 250;        // matches in a mirror in which something moves, too,
+constexpr int kLeastAtRest = 1000;     // and in one in which nothing does
 constexpr std::size_t kSamples = 800;  // of a plane, for the same purpose
 
 /// A voxel that was first seen through a plane.
@@ -250,10 +251,12 @@ std::vector<Question> images_of_what_moved(const Mirror& mirror, const EvidenceM
     return images;
 }
 
-/// True if what moves on one side does not move on the other at the same time: then it is an
-/// opening between places that look alike, such as the two halves of a building.
-bool moves_otherwise(const Mirror& mirror, const EvidenceMap& map,
-                     const std::vector<SeenBehind>& seen) {
+/// What moves on one side moves on the other at the same time, if it is a mirror. In an opening
+/// between places that look alike, such as the two halves of a building, it does not.
+enum class Motion { unseen, alike, otherwise };
+
+Motion motion_in(const Mirror& mirror, const EvidenceMap& map,
+                 const std::vector<SeenBehind>& seen) {
     constexpr int kTelling = 20;
     std::vector<SeenBehind> moved;
     for (const SeenBehind& s : seen) {
@@ -270,7 +273,8 @@ bool moves_otherwise(const Mirror& mirror, const EvidenceMap& map,
     };
     count(sights_before(mirror.plane, map, moved, 0.0F));
     count(answers(map, images_of_what_moved(mirror, map)));
-    return unlike >= kTelling && unlike > like;
+    if (std::max(like, unlike) < kTelling) return Motion::unseen;
+    return like > unlike ? Motion::alike : Motion::otherwise;
 }
 
 /// The mirror in the plane or very near it, if there is one.
@@ -296,10 +300,10 @@ std::optional<Mirror> mirror_in(const UprightPlane& plane, const EvidenceMap& ma
     if (better.like < kFew) return std::nullopt;
     const auto plain = plain_ones(better.mirror.plane, map, seen);
     MarkedMirror exact = mirror_at(better.mirror.plane, map, seen, plain, share, kEnough);
-    if (exact.like < kLeastLike || is_real_behind(exact.mirror, map, seen) ||
-        moves_otherwise(exact.mirror, map, seen)) {
-        return std::nullopt;
-    }
+    if (exact.like < kLeastLike || is_real_behind(exact.mirror, map, seen)) return std::nullopt;
+    const Motion motion = motion_in(exact.mirror, map, seen);
+    if (motion == Motion::otherwise) return std::nullopt;
+    if (motion == Motion::unseen && exact.like < kLeastAtRest) return std::nullopt;
     // Where there is a mirror, fewer places tell how far it goes.
     return mirror_at(exact.mirror.plane, map, seen, plain, share, kFew).mirror;
 }
