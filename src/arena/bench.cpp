@@ -14,9 +14,11 @@
 #include "base/progress.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
+#include "dynamic_filter/parallel.hpp"
 #include "formats/label_files.hpp"
 #include "recording/folders.hpp"
 #include "recording/scans.hpp"
+#include "run/placed.hpp"
 #include "run/run.hpp"
 
 namespace dynamic_filter::app {
@@ -102,9 +104,29 @@ std::vector<Trial> find_trials(const Arena& arena, const BenchOptions& o) {
     return trials;
 }
 
-/// Throws InputError if a scan is damaged: without it, the figures would not be those of the arena.
-void refuse_damaged(const io::Recording& recording) {
-    for (std::size_t i = 0; i < recording.size(); ++i) recording.check(i);
+/// Throws InputError if a scan that is scored is damaged, or has not one label for each point:
+/// without it, the figures would not be those of the arena. Others are left out by the run.
+void refuse_damaged(const Trial& trial, const io::Recording& recording) {
+    const io::Info& info = recording.info();
+    for (const std::size_t i : trial.scored.empty() ? all_scans(recording) : trial.scored) {
+        recording.check(i);
+        const bool tells_points = !info.label_files.empty() && !info.label_files[i].empty() &&
+                                  info.label_files[i].extension() == ".label" &&
+                                  info.scan_files[i].extension() == ".bin";
+        if (!tells_points) continue;
+        const auto labels = fs::file_size(info.label_files[i]) / 4;
+        const auto points = fs::file_size(info.scan_files[i]) / 16;
+        if (labels == points) continue;
+        throw InputError(info.label_files[i], "",
+                         fmt::format("has {} labels, but its scan has {} points", labels, points));
+    }
+}
+
+/// What the reader assumed, for whoever looks at the table.
+void tell_notes(const io::Recording& recording) {
+    for (const std::string& note : recording.info().notes) fmt::print(stderr, "note: {}\n", note);
+    for (const std::string& loss : recording.info().losses)
+        fmt::print(stderr, "lost     {}\n", loss);
 }
 
 /// How the run reads the recording.
@@ -117,9 +139,9 @@ DataOptions run_data(const Trial& trial, const BenchOptions& o) {
     return data;
 }
 
-/// Filters the recording into the folder, unless that is done. False if it was interrupted.
-bool filter(const Trial& trial, const std::string& preset, const fs::path& folder,
-            const BenchOptions& o) {
+/// Filters the recording into the folder, unless that is done. Returns the exit code.
+int filter(const Trial& trial, const std::string& preset, const fs::path& folder,
+           const BenchOptions& o) {
     RunOptions run;
     run.recordings = {trial.data.data};
     run.data = run_data(trial, o);
@@ -130,20 +152,42 @@ bool filter(const Trial& trial, const std::string& preset, const fs::path& folde
     run.maps = run.report = false;
     run.quiet = true;
     run.catches = false;
-    return app::run(run).exit_code != kInterrupted;
+    try {
+        return app::run(run).exit_code;
+    } catch (const ConfigError& error) {
+        if (!run.resume) throw;
+        throw ConfigError(
+            fmt::format("{} (`bench` begins afresh once that folder is removed, or "
+                        "with another -o)",
+                        error.what()));
+    }
 }
 
 MeasuredFigure measure(const Arena& arena, const Trial& trial, const io::Recording& recording,
-                       const std::string& method, const Estimate& estimate) {
-    MeasuredFigure figure{trial.entry, method, arena.score(trial, recording, estimate),
-                          trial.notes};
+                       const std::string& method, const Estimate& estimate, const BenchOptions& o) {
+    MeasuredFigure figure{trial.entry, method, {}, trial.notes};
+    with_threads(o.threads, [&] { figure.scores = arena.score(trial, recording, estimate); });
+    if (o.quiet) return figure;
     fmt::print("{}", figure_text(arena, figure));
     std::fflush(stdout);
     return figure;
 }
 
-void write_tables(const Arena& arena, std::vector<MeasuredFigure> figures, const fs::path& folder) {
-    add_means_of_groups(figures);
+/// Writes the tables. What an earlier call measured of other entries, or of other methods, stays.
+void write_tables(const Arena& arena, std::vector<MeasuredFigure> figures,
+                  const std::vector<MeasuredFigure>& earlier, const fs::path& folder) {
+    for (const MeasuredFigure& one : earlier) {
+        const bool is_new = std::none_of(figures.begin(), figures.end(), [&](const auto& figure) {
+            return figure.entry == one.entry && figure.method == one.method;
+        });
+        if (is_new) figures.push_back(one);
+    }
+    const auto place = [&](const MeasuredFigure& figure) {
+        return std::find(arena.entries.begin(), arena.entries.end(), figure.entry);
+    };
+    std::stable_sort(figures.begin(), figures.end(),
+                     [&](const auto& a, const auto& b) { return place(a) < place(b); });
+    add_means_of_groups(arena, figures);
     io::write_file(folder / "table.md", arena_markdown(arena, figures));
     io::write_file(folder / "table.json", arena_json(arena, figures));
 }
@@ -154,35 +198,55 @@ std::string folder_name(std::string entry) {
     return entry;
 }
 
-/// Runs and scores each preset. False if it was interrupted.
-bool measure_ours(const Arena& arena, const Trial& trial, const io::Recording& recording,
-                  const BenchOptions& o, std::vector<MeasuredFigure>& figures) {
+/// Whether the run took other poses than those of the trial.
+bool has_other_poses(const fs::path& run) {
+    const auto placed = read_placed(run);
+    return placed && !placed->tracked.empty();
+}
+
+/// Runs and scores each preset. Returns the worst exit code of the runs.
+int measure_ours(const Arena& arena, const Trial& trial, const io::Recording& recording,
+                 const BenchOptions& o, std::vector<MeasuredFigure>& figures) {
+    int worst = kDone;
     for (const std::string& preset : o.presets) {
         const fs::path folder = o.output / folder_name(trial.entry) / preset;
-        if (!filter(trial, preset, folder, o)) return false;
+        worst = std::max(worst, filter(trial, preset, folder, o));
+        if (interrupted()) return kInterrupted;
         const Estimate estimate{.labels = folder / "labels", .map = {}};
         figures.push_back(
-            measure(arena, trial, recording, "DynamicFilter, preset " + preset, estimate));
-        if (!o.poses.empty()) {
-            figures.back().notes.push_back(o.poses == kNoPoses ? "run with own odometry"
-                                                               : "run with poses of " + o.poses);
+            measure(arena, trial, recording, "DynamicFilter, preset " + preset, estimate, o));
+        if (has_other_poses(folder)) {
+            figures.back().notes.emplace_back(o.poses == kNoPoses || !recording.info().has_poses
+                                                  ? "run with own odometry"
+                                                  : "run with refined poses");
+        } else if (!o.poses.empty()) {
+            figures.back().notes.push_back("run with poses of " + o.poses);
         }
         if (!o.submission || preset != o.presets.front()) continue;
         write_submission(arena, trial, recording, *estimate.labels, o.output / "submission");
     }
-    return true;
+    return worst;
 }
 
 void measure_peers(const Arena& arena, const Trial& trial, const io::Recording& recording,
-                   const std::vector<Peer>& peers, std::vector<MeasuredFigure>& figures) {
+                   const std::vector<Peer>& peers, const BenchOptions& o,
+                   std::vector<MeasuredFigure>& figures) {
     for (const Peer& peer : peers) {
+        if (interrupted()) return;
         if (const auto estimate = estimate_of(peer, trial.entry)) {
-            figures.push_back(measure(arena, trial, recording, peer.name, *estimate));
+            figures.push_back(measure(arena, trial, recording, peer.name, *estimate, o));
             continue;
         }
         fmt::print(stderr, "note: {} has no result of {}: neither {}/ nor {}.pcd in {}\n",
                    peer.name, trial.entry, trial.entry, trial.entry, peer.folder.string());
     }
+}
+
+/// Throws OutputError if there can be no such folder.
+void make_folder(const fs::path& folder) {
+    std::error_code failure;
+    fs::create_directories(folder, failure);
+    if (failure) throw OutputError(folder, failure.message());
 }
 
 }  // namespace
@@ -194,22 +258,35 @@ int bench(const BenchOptions& o) {
     const std::vector<Peer> peers = peers_of(o);
     const std::vector<Trial> trials = find_trials(arena, o);
     refuse_same_folder(o.data, o.output);
-    fs::create_directories(o.output);
-    std::vector<MeasuredFigure> figures;
+    make_folder(o.output);
+    const fs::path table = o.output / "table.json";
+    const auto earlier = io::present(table) ? measured_in(arena, io::read_file(table))
+                                            : std::vector<MeasuredFigure>{};
+    std::vector<io::Recording> recordings;
     for (const Trial& trial : trials) {
-        const io::Recording recording = open(trial.data);
-        refuse_damaged(recording);
-        if (!o.no_run && !measure_ours(arena, trial, recording, o, figures)) {
-            fmt::print(stderr, "interrupted; the same command goes on\n");
-            return kInterrupted;
-        }
-        measure_peers(arena, trial, recording, peers, figures);
-        write_tables(arena, figures, o.output);
+        recordings.push_back(open(trial.data));
+        refuse_damaged(trial, recordings.back());
+        if (!o.quiet) tell_notes(recordings.back());
     }
-    if (o.quiet) return kDone;
+    int worst = kDone;
+    std::vector<MeasuredFigure> figures;
+    for (std::size_t t = 0; t < trials.size() && worst != kInterrupted; ++t) {
+        if (!o.no_run) {
+            worst = std::max(worst, measure_ours(arena, trials[t], recordings[t], o, figures));
+        }
+        measure_peers(arena, trials[t], recordings[t], peers, o, figures);
+        if (interrupted()) worst = kInterrupted;
+        write_tables(arena, figures, earlier, o.output);
+    }
+    if (worst == kInterrupted) fmt::print(stderr, "interrupted; the same command goes on\n");
+    if (worst == kRejected) {
+        fmt::print(stderr,
+                   "note: a run left out scans or gave warnings; they are in its run.log\n");
+    }
+    if (o.quiet || worst == kInterrupted) return worst;
     fmt::print("\n{}\nwritten  {}\n", io::read_file(o.output / "table.md"),
                (o.output / "table.md").string());
-    return kDone;
+    return worst;
 }
 
 void tell_arena(const std::string& name) {
@@ -229,6 +306,7 @@ void write_twins(const BenchOptions& o) {
     }
     refuse_unknown_entries(arena, o);
     for (const std::string& entry : o.only.empty() ? arena.entries : o.only) {
+        if (interrupted()) return;
         arena.write_twin(o.data, entry);
         if (!o.quiet) fmt::print("written  {} ({})\n", o.data.string(), entry);
     }

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
 
 #include "arena/find.hpp"
@@ -28,7 +29,8 @@ std::optional<Trial> find_scene(const fs::path& root, const std::string& scene) 
     Trial trial{.entry = scene, .data = {.data = root / scene, .format = "nuscenes"}};
     trial.scored = labelled_scans(trial);
     if (trial.scored.empty()) throw InputError(tables, "", "has no boxes of " + scene);
-    trial.notes.push_back(fmt::format("{} key frames", trial.scored.size()));
+    trial.notes.push_back(fmt::format(
+        "{} key frames; a box moves if its object moves at any of them", trial.scored.size()));
     return trial;
 }
 
@@ -44,13 +46,15 @@ std::vector<std::string> scenes_in(const fs::path& root) {
 
 // KITTI's raw drives.
 
-/// Folders of drives that have tracklets, in the root or in folders of days below it.
+/// Folders of drives that have scans and tracklets, in the root or in folders of days below it.
 std::vector<fs::path> labelled_drives(const fs::path& root) {
     std::vector<fs::path> days{root}, drives;
     for (const fs::path& day : io::list_folders(root)) days.push_back(day);
     for (const fs::path& day : days) {
         for (const fs::path& drive : io::list_folders(day)) {
-            if (io::present(drive / "tracklet_labels.xml")) drives.push_back(drive);
+            const bool is_whole = io::present(drive / "tracklet_labels.xml") &&
+                                  io::is_folder(drive / "velodyne_points");
+            if (is_whole) drives.push_back(drive);
         }
     }
     return drives;
@@ -63,10 +67,22 @@ std::string number_of_drive(const fs::path& drive) {
     return at == std::string::npos ? name : name.substr(at + 7, 4);
 }
 
+/// By number, or by the whole name where two days have a drive of that number.
+std::map<std::string, fs::path> drives_by_name(const fs::path& root) {
+    const std::vector<fs::path> drives = labelled_drives(root);
+    std::map<std::string, fs::path> named;
+    for (const fs::path& drive : drives) {
+        const auto same = std::count_if(drives.begin(), drives.end(), [&](const fs::path& other) {
+            return number_of_drive(other) == number_of_drive(drive);
+        });
+        named[same == 1 ? number_of_drive(drive) : drive.filename().string()] = drive;
+    }
+    return named;
+}
+
 std::vector<std::string> drives_in(const fs::path& root) {
     std::vector<std::string> names;
-    for (const fs::path& drive : labelled_drives(root)) names.push_back(number_of_drive(drive));
-    std::sort(names.begin(), names.end());
+    for (const auto& [name, drive] : drives_by_name(root)) names.push_back(name);
     return names;
 }
 
@@ -96,26 +112,26 @@ LabelledDrive labelled_drive(const fs::path& file, const io::Recording& recordin
     return drive;
 }
 
-std::optional<Trial> find_raw_drive(const fs::path& root, const std::string& number) {
-    for (const fs::path& folder : labelled_drives(root)) {
-        if (number_of_drive(folder) != number) continue;
-        Trial trial{.entry = number, .data = {.data = folder, .format = "kitti-raw"}};
-        const io::Recording recording = open(trial.data);
-        if (!recording.info().has_poses) {
-            throw InputError(folder, "", "has no oxts/data, from which the poses are");
-        }
-        const auto drive = std::make_shared<const LabelledDrive>(
-            labelled_drive(folder / "tracklet_labels.xml", recording));
-        trial.truth = [drive](const io::Recording& of, std::size_t i, const io::FullScan& scan) {
-            return truth_by_tracklets(drive->tracks, drive->motions, number_of_scan(of, i),
-                                      scan.points);
-        };
-        const auto moving =
-            std::count(drive->motions.begin(), drive->motions.end(), Label::dynamic);
-        trial.notes.push_back(fmt::format("{} of {} tracks move", moving, drive->tracks.size()));
-        return trial;
+std::optional<Trial> find_raw_drive(const fs::path& root, const std::string& name) {
+    const auto drives = drives_by_name(root);
+    const auto found = drives.find(name);
+    if (found == drives.end()) return std::nullopt;
+    const fs::path& folder = found->second;
+    Trial trial{.entry = name, .data = {.data = folder, .format = "kitti-raw"}};
+    const io::Recording recording = open(trial.data);
+    if (!recording.info().has_poses) {
+        throw InputError(folder, "", "has no oxts/data, from which the poses are");
     }
-    return std::nullopt;
+    const auto drive = std::make_shared<const LabelledDrive>(
+        labelled_drive(folder / "tracklet_labels.xml", recording));
+    trial.truth = [drive](const io::Recording& of, std::size_t i, const io::FullScan& scan) {
+        return truth_by_tracklets(drive->tracks, drive->motions, number_of_scan(of, i),
+                                  scan.points);
+    };
+    const auto moving = std::count(drive->motions.begin(), drive->motions.end(), Label::dynamic);
+    trial.notes.push_back(fmt::format("{} scans, {} of {} tracks move", recording.size(), moving,
+                                      drive->tracks.size()));
+    return trial;
 }
 
 }  // namespace

@@ -2,12 +2,14 @@
 #include "arena/find.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
 
 #include "base/text.hpp"
 #include "dynamic_filter/error.hpp"
+#include "dynamic_filter/poses.hpp"
 #include "recording/folders.hpp"
 #include "recording/scans.hpp"
 #include "recording/truth.hpp"
@@ -56,7 +58,8 @@ void choose_window(DataOptions& data, const fs::path& folder, const std::string&
     data.stride = window.step;
 }
 
-std::optional<Trial> find_sequence(const fs::path& root, const std::string& sequence) {
+std::optional<Trial> find_sequence(const fs::path& root, const std::string& sequence,
+                                   const std::vector<std::string>& pose_files) {
     const auto folder = first_folder({root / "sequences" / sequence,
                                       root / "dataset" / "sequences" / sequence, root / sequence});
     if (!folder || !io::is_folder(*folder / "velodyne")) return std::nullopt;
@@ -65,14 +68,30 @@ std::optional<Trial> find_sequence(const fs::path& root, const std::string& sequ
                          "has scans, but no folder labels: unpack the label data of SemanticKITTI "
                          "(semantic-kitti.org) into the same folder");
     }
+    if (!io::present(*folder / "calib.txt")) {
+        throw InputError(
+            *folder, "",
+            "has no calib.txt, without which the poses of the camera cannot be turned: "
+            "unpack the calibration files of KITTI's odometry benchmark (cvlibs.net) "
+            "into the same folder");
+    }
     Trial trial{.entry = sequence, .data = {.data = *folder, .format = "kitti"}};
-    for (const char* name : {"poses_suma_optim.txt", "poses.txt"}) {
+    for (const std::string& name : pose_files) {
         if (trial.data.poses || !io::present(*folder / name)) continue;
         trial.data.poses = *folder / name;
         trial.notes.push_back(fmt::format("poses of {}", name));
     }
     if (trial.data.poses) return trial;
-    throw InputError(*folder, "", "has neither poses_suma_optim.txt nor poses.txt");
+    throw InputError(*folder, "", fmt::format("has no {}", fmt::join(pose_files, " and no ")));
+}
+
+void require_whole(const Trial& trial, const io::Recording& recording) {
+    const std::size_t rows = io::read_poses(*trial.data.poses).poses.size();
+    if (rows == recording.size()) return;
+    throw InputError(trial.data.data, "",
+                     fmt::format("has {} scans, but {} has {} poses; the arena needs all scans, so "
+                                 "download the parts that are missing",
+                                 recording.size(), trial.data.poses->filename().string(), rows));
 }
 
 std::vector<std::size_t> labelled_scans(const Trial& trial) {

@@ -23,9 +23,14 @@ std::optional<ScanWindow> semantickitti_window(const std::string& sequence);
 void choose_window(DataOptions& data, const std::filesystem::path& folder,
                    const std::string& extension, const ScanWindow& window);
 
-/// A sequence in the layout of SemanticKITTI, with the poses that the arenas have in common: SuMa's
-/// if they are there. Throws InputError without labels or poses.
-std::optional<Trial> find_sequence(const std::filesystem::path& root, const std::string& sequence);
+/// A sequence in the layout of SemanticKITTI, with the first of the pose files that is there.
+/// Throws InputError without labels, calibration or poses.
+std::optional<Trial> find_sequence(const std::filesystem::path& root, const std::string& sequence,
+                                   const std::vector<std::string>& pose_files);
+
+/// Throws InputError unless the recording has a scan for each row of its pose file: data sets come
+/// in parts, and figures of some of them are not those of the whole.
+void require_whole(const Trial& trial, const io::Recording& recording);
 
 /// The indices of the scans that have a label file.
 std::vector<std::size_t> labelled_scans(const Trial& trial);

@@ -4,6 +4,7 @@
 #include "arena/find.hpp"
 #include "arena/rows.hpp"
 #include "arena/score_trial.hpp"
+#include "arena/truth_cloud.hpp"
 #include "arena/twin.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
@@ -40,7 +41,7 @@ Pose T_map_sensor_of_erasor(const Pose& T_world_camera) {
 /// `ends_before_last`: ERASOR's lists end before the last scan of the window.
 std::optional<Trial> find_window(const fs::path& root, const std::string& sequence,
                                  bool ends_before_last) {
-    auto trial = find_sequence(root, sequence);
+    auto trial = find_sequence(root, sequence, {"poses_suma_optim.txt", "poses.txt"});
     if (!trial) return trial;
     ScanWindow window = semantickitti_window(sequence).value();
     if (ends_before_last) window.last -= window.step;
@@ -51,8 +52,7 @@ std::optional<Trial> find_window(const fs::path& root, const std::string& sequen
 
 /// The map frame of ERASOR needs the poses of the camera again.
 void use_map_of_erasor(Trial& trial) {
-    const fs::path calib = trial.data.data / "calib.txt";
-    const Pose Tr = io::present(calib) ? io::read_calib_tr(calib) : Pose::Identity();
+    const Pose Tr = io::read_calib_tr(trial.data.data / "calib.txt");
     trial.T_map_sensor = [Tr](const Pose& T_world_sensor) {
         return T_map_sensor_of_erasor(Tr * T_world_sensor * Tr.inverse());
     };
@@ -96,7 +96,7 @@ Labels truth_of_dynamicmap(const io::Recording&, std::size_t, const io::FullScan
 }
 
 std::optional<Trial> find_extracted(const fs::path& root, const std::string& sequence) {
-    auto trial = find_sequence(root, sequence);
+    auto trial = find_sequence(root, sequence, {"poses.txt"});
     if (!trial) return trial;
     ScanWindow window = semantickitti_window(sequence).value();
     window.step = 1;
@@ -174,7 +174,7 @@ std::vector<Arena> map_arenas() {
          .download = "Zenodo record 10886629 (00.zip, 05.zip, av2.zip, semindoor.zip); 01 is made "
                      "with the benchmark's extract_semkitti.py",
          .find = find_dynamicmap,
-         .score = by_cover,
+         .score = by_truth_cloud,
          .write_twin = write_dynamicmap_twin}};
 }
 

@@ -14,6 +14,7 @@
 #include "dynamic_filter/file.hpp"
 #include "recording/folders.hpp"
 #include "recording/scans.hpp"
+#include "recording/truth.hpp"
 
 namespace dynamic_filter::app {
 
@@ -24,7 +25,18 @@ namespace fs = std::filesystem;
 // SemanticKITTI-MOS.
 
 std::optional<Trial> find_mos(const fs::path& root, const std::string& sequence) {
-    return find_sequence(root, sequence);
+    auto trial = find_sequence(root, sequence, {"poses.txt"});
+    if (!trial) return trial;
+    const io::Recording recording = open(trial->data);
+    require_whole(*trial, recording);
+    const std::size_t labelled = io::scans_with_truth(recording.info()).size();
+    if (labelled != recording.size()) {
+        throw InputError(trial->data.data / "labels", "",
+                         fmt::format("has labels of {} of {} scans; the arena needs all", labelled,
+                                     recording.size()));
+    }
+    trial->notes.push_back(fmt::format("{} scans", recording.size()));
+    return trial;
 }
 
 // HeLiMOS.
@@ -57,7 +69,8 @@ std::optional<Trial> find_helimos(const fs::path& root, const std::string& senso
             .data = *scans / sensor, .poses = *scans / sensor / "poses.txt", .format = "kitti"}};
     const std::set<std::size_t> test = numbers_in(*scans / "test.txt");
     const io::Recording recording = open(trial.data);
-    trial.scored = labelled_scans(trial);
+    require_whole(trial, recording);
+    trial.scored = io::scans_with_truth(recording.info());
     if (trial.scored.empty()) {
         throw InputError(*scans / sensor, "", "has no folder labels with a file of any scan");
     }
@@ -107,9 +120,13 @@ std::optional<Trial> find_moe(const fs::path& root, const std::string& sequence)
                         "are unpacked into one folder",
                         name));
     }
-    return Trial{.entry = sequence,
-                 .data = {.data = folder, .poses = folder / "gt_poses.txt", .format = "folder"},
-                 .truth = truth_of_moe};
+    Trial trial{.entry = sequence,
+                .data = {.data = folder, .poses = folder / "gt_poses.txt", .format = "folder"},
+                .truth = truth_of_moe};
+    const io::Recording recording = open(trial.data);
+    require_whole(trial, recording);
+    trial.notes.push_back(fmt::format("{} scans", recording.size()));
+    return trial;
 }
 
 // DOALS.
@@ -183,6 +200,7 @@ std::optional<Trial> find_doals(const fs::path& root, const std::string& entry) 
     const auto scans = std::make_shared<const std::vector<std::size_t>>(
         scans_of(*rows, file, recording.info().stamps));
     trial.scored = *scans;
+    trial.notes.push_back(fmt::format("{} labelled scans", scans->size()));
     trial.truth = [rows, scans, file](const io::Recording&, std::size_t i,
                                       const io::FullScan& scan) {
         Labels truth(scan.points.size(), Label::static_);

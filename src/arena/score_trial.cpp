@@ -22,15 +22,6 @@ std::vector<std::size_t> scored_scans(const Trial& trial, const io::Recording& r
     return trial.scored.empty() ? all_scans(recording) : trial.scored;
 }
 
-Labels verdict_of(const fs::path& labels, const io::Recording& recording, std::size_t i,
-                  std::size_t points) {
-    const fs::path file = io::label_file(labels, io::stem(recording, i));
-    Labels verdict = io::read_labels(file);
-    if (verdict.size() == points) return verdict;
-    throw InputError(
-        file, "", fmt::format("has {} labels, but the scan has {} points", verdict.size(), points));
-}
-
 /// The scan with the ground truth of the arena.
 io::FullScan read_scan(const Trial& trial, const io::Recording& recording, std::size_t i) {
     io::FullScan scan = recording.read(i);
@@ -65,17 +56,6 @@ Scored scored(const Trial& trial, const io::Recording& recording, const Estimate
                 }
                 return std::optional(std::move(scan));
             }};
-}
-
-Points map_of(const Estimate& estimate, const Eigen::Vector3d& origin) {
-    Points points = positions_from(io::read_cloud(*estimate.map), origin);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        if (points[i].allFinite()) continue;
-        throw InputError(*estimate.map, fmt::format("point {}", i),
-                         "is not finite; a map with such points cannot be scored");
-    }
-    if (points.empty()) throw InputError(*estimate.map, "", "has no points");
-    return points;
 }
 
 void require_verdicts(const Estimate& estimate) {
@@ -126,11 +106,31 @@ std::optional<double> mean_iou(const std::vector<eval::Confusion>& scans) {
 
 ArenaScores rates(const eval::VoxelScore& score) { return {score.pr, score.rr, score.f1}; }
 
+}  // namespace
+
 ArenaScores accuracies(const eval::PointScore& score) {
     return {score.sa, score.da, score.aa, score.ha};
 }
 
-}  // namespace
+Labels verdict_of(const fs::path& labels, const io::Recording& recording, std::size_t i,
+                  std::size_t points) {
+    const fs::path file = io::label_file(labels, io::stem(recording, i));
+    Labels verdict = io::read_labels(file);
+    if (verdict.size() == points) return verdict;
+    throw InputError(
+        file, "", fmt::format("has {} labels, but the scan has {} points", verdict.size(), points));
+}
+
+Points map_of(const Estimate& estimate, const Eigen::Vector3d& origin) {
+    Points points = positions_from(io::read_cloud(*estimate.map), origin);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (points[i].allFinite()) continue;
+        throw InputError(*estimate.map, fmt::format("point {}", i),
+                         "is not finite; a map with such points cannot be scored");
+    }
+    if (points.empty()) throw InputError(*estimate.map, "", "has no points");
+    return points;
+}
 
 ArenaScores by_erasor(const Trial& trial, const io::Recording& recording,
                       const Estimate& estimate) {
@@ -139,7 +139,7 @@ ArenaScores by_erasor(const Trial& trial, const io::Recording& recording,
     if (estimate.labels) {
         return rates(eval::score_erasor(scans.size(), scans.source, eval::kVoxelSize).score());
     }
-    Points map = positions_from(io::read_cloud(*estimate.map), Eigen::Vector3d::Zero());
+    const Points map = map_of(estimate, Eigen::Vector3d::Zero());
     return rates(eval::score_erasor(scans.size(), scans.source, map, eval::kVoxelSize).score());
 }
 
@@ -147,10 +147,6 @@ ArenaScores by_strict(const Trial& trial, const io::Recording& recording,
                       const Estimate& estimate) {
     const ScoredPart part{.min = 2.7, .max = 1000.0};
     return rates(scores_of(trial, recording, estimate, part).voxel.at("static_wins"));
-}
-
-ArenaScores by_cover(const Trial& trial, const io::Recording& recording, const Estimate& estimate) {
-    return accuracies(scores_of(trial, recording, estimate, {}).point);
 }
 
 ArenaScores by_cover_to_50_m(const Trial& trial, const io::Recording& recording,

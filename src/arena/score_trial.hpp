@@ -4,6 +4,7 @@
 #pragma once
 
 #include "arena/arena.hpp"
+#include "dynamic_filter/scores.hpp"
 
 namespace dynamic_filter::app {
 
@@ -11,10 +12,8 @@ namespace dynamic_filter::app {
 ArenaScores by_erasor(const Trial& trial, const io::Recording& recording, const Estimate& estimate);
 /// PR, RR, F1 of FreeDOM's tool: voxels of 0.2 m from 2.7 m on; one static point makes them static.
 ArenaScores by_strict(const Trial& trial, const io::Recording& recording, const Estimate& estimate);
-/// SA, DA, AA, HA of DynamicMap_Benchmark.
-ArenaScores by_cover(const Trial& trial, const io::Recording& recording, const Estimate& estimate);
-/// The same of SemanticKITTI's scans as that benchmark extracts them: up to 50 m, and points
-/// without a label are static.
+/// SA, DA, AA, HA of SemanticKITTI's scans as DynamicMap_Benchmark extracts them: up to 50 m, and
+/// points without a label are static.
 ArenaScores by_cover_to_50_m(const Trial& trial, const io::Recording& recording,
                              const Estimate& estimate);
 /// Moving IoU of all points together.
@@ -30,5 +29,16 @@ ArenaScores by_moving_and_cover(const Trial& trial, const io::Recording& recordi
 ArenaScores by_scan(const Trial& trial, const io::Recording& recording, const Estimate& estimate);
 /// PR, RR, F1 without mixed voxels, AA and the moving IoU: the scores of this project.
 ArenaScores by_voxels(const Trial& trial, const io::Recording& recording, const Estimate& estimate);
+
+// What they share with truth_cloud.hpp.
+
+/// SA, DA, AA, HA.
+ArenaScores accuracies(const eval::PointScore& score);
+/// The labels of scan i. Throws InputError if there are none, or not one for each point.
+Labels verdict_of(const std::filesystem::path& labels, const io::Recording& recording,
+                  std::size_t i, std::size_t points);
+/// The points of a map, less the origin. Throws InputError if it has none, or one that is not
+/// finite, because such maps seem to have nothing that moves.
+Points map_of(const Estimate& estimate, const Eigen::Vector3d& origin);
 
 }  // namespace dynamic_filter::app

@@ -6,12 +6,15 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "score/report.hpp"
 
 namespace dynamic_filter::app {
 
 namespace {
+
+constexpr const char* kOurs = "final verdicts";  // after the last scan
 
 std::string cell(const ArenaColumn& column, const std::optional<double>& score) {
     return column.is_percent ? percent(score) : three_digits(score);
@@ -94,9 +97,10 @@ nlohmann::ordered_json scores_json(const Arena& arena, const ArenaScores& scores
 
 }  // namespace
 
-void add_means_of_groups(std::vector<MeasuredFigure>& figures) {
+void add_means_of_groups(const Arena& arena, std::vector<MeasuredFigure>& figures) {
     std::vector<MeasuredFigure> means;
     std::vector<std::vector<std::size_t>> counts;  // by mean and column
+    std::vector<std::size_t> entries;              // by mean
     for (const MeasuredFigure& figure : figures) {
         if (!has_group(figure.entry)) continue;
         const std::string group = group_of_entry(figure.entry);
@@ -109,9 +113,12 @@ void add_means_of_groups(std::vector<MeasuredFigure>& figures) {
             means.back().notes.clear();
             means.back().scores.assign(figure.scores.size(), std::nullopt);
             counts.emplace_back(figure.scores.size());
+            entries.push_back(0);
             mean = means.end() - 1;
         }
-        auto& count = counts[static_cast<std::size_t>(mean - means.begin())];
+        const auto m = static_cast<std::size_t>(mean - means.begin());
+        ++entries[m];
+        auto& count = counts[m];
         for (std::size_t c = 0; c < figure.scores.size(); ++c) {
             if (!figure.scores[c]) continue;
             mean->scores[c] = mean->scores[c].value_or(0.0) + *figure.scores[c];
@@ -119,11 +126,15 @@ void add_means_of_groups(std::vector<MeasuredFigure>& figures) {
         }
     }
     for (std::size_t m = 0; m < means.size(); ++m) {
+        const auto all = std::count_if(
+            arena.entries.begin(), arena.entries.end(),
+            [&](const std::string& entry) { return group_of_entry(entry) == means[m].entry; });
+        if (std::cmp_not_equal(entries[m], all)) continue;
         for (std::size_t c = 0; c < counts[m].size(); ++c) {
             if (means[m].scores[c]) *means[m].scores[c] /= static_cast<double>(counts[m][c]);
         }
+        figures.push_back(means[m]);
     }
-    figures.insert(figures.end(), means.begin(), means.end());
 }
 
 std::string arena_markdown(const Arena& arena, const std::vector<MeasuredFigure>& figures) {
@@ -131,7 +142,7 @@ std::string arena_markdown(const Arena& arena, const std::vector<MeasuredFigure>
     for (const std::string& entry : entries_of(figures)) {
         for (const MeasuredFigure& figure : figures) {
             if (figure.entry != entry) continue;
-            text += row_of(arena, entry, figure.method, figure.scores, "",
+            text += row_of(arena, entry, figure.method, figure.scores, kOurs,
                            fmt::format("measured here{}{}", figure.notes.empty() ? "" : "; ",
                                        fmt::join(figure.notes, "; ")));
         }
@@ -153,6 +164,8 @@ std::string arena_json(const Arena& arena, const std::vector<MeasuredFigure>& fi
                                     {"method", figure.method},
                                     {"scores", scores_json(arena, figure.scores)},
                                     {"measured", true},
+                                    {"how", kOurs},
+                                    {"source", "measured here"},
                                     {"notes", figure.notes}});
         }
         for (const PublishedFigure& figure : published_at(arena, entry)) {
@@ -167,6 +180,33 @@ std::string arena_json(const Arena& arena, const std::vector<MeasuredFigure>& fi
     return text_of(json);
 }
 
+std::vector<MeasuredFigure> measured_in(const Arena& arena, const std::string& text) {
+    std::vector<MeasuredFigure> figures;
+    try {
+        const auto json = nlohmann::ordered_json::parse(text);
+        if (json.at("arena") != arena.name) return {};
+        for (const auto& row : json.at("rows")) {
+            const std::string entry = row.at("entry");
+            const bool is_mean = std::find(arena.entries.begin(), arena.entries.end(), entry) ==
+                                     arena.entries.end() &&
+                                 !arena.entries_in;
+            if (!row.at("measured").get<bool>() || is_mean) continue;
+            MeasuredFigure& figure = figures.emplace_back();
+            figure.entry = entry;
+            figure.method = row.at("method");
+            for (const ArenaColumn& column : arena.columns) {
+                const auto& score = row.at("scores").at(column.name);
+                figure.scores.push_back(score.is_null() ? std::nullopt
+                                                        : std::optional(score.get<double>()));
+            }
+            figure.notes = row.at("notes").get<std::vector<std::string>>();
+        }
+    } catch (const nlohmann::json::exception&) {
+        return {};
+    }
+    return figures;
+}
+
 std::string published_markdown(const Arena& arena) {
     std::vector<std::string> entries;
     for (const std::string& entry : arena.entries) {
@@ -178,7 +218,7 @@ std::string published_markdown(const Arena& arena) {
     for (std::size_t c = 0; c < arena.columns.size(); ++c) {
         const auto rows = published_rows(arena, entries, c);
         if (rows.empty()) continue;
-        text += fmt::format("\n| {}: method | {} | how | source |\n|---|",
+        text += fmt::format("\n**{}**\n\n| method | {} | how | source |\n|---|",
                             title_of(arena.columns[c]), fmt::join(entries, " | "));
         for (std::size_t e = 0; e < entries.size() + 2; ++e) text += "---|";
         text += "\n";

@@ -135,10 +135,15 @@ void write_dynamicmap_twin(const fs::path& root, const std::string& entry) {
         std::vector<float> moves;
         for (const Label label : scans[i].labels)
             moves.push_back(label == Label::dynamic ? 1.F : 0.F);
-        io::Cloud cloud = cloud_of(
-            shifted_world(scans[i].points, scans[i].T_world_sensor, Eigen::Vector3d::Zero()),
-            {"intensity"}, {moves});
-        all.data.insert(all.data.end(), cloud.data.begin(), cloud.data.end());
+        const Points world =
+            shifted_world(scans[i].points, scans[i].T_world_sensor, Eigen::Vector3d::Zero());
+        const io::Cloud truth = cloud_of(world, {"intensity"}, {moves});
+        all.data.insert(all.data.end(), truth.data.begin(), truth.data.end());
+        // The scans of av2 have no intensity, and those of semindoor that of the sensor.
+        io::Cloud cloud = entry == "av2" ? cloud_of(world, {}, {})
+                          : entry == "semindoor"
+                              ? cloud_of(world, {"intensity"}, {scans[i].intensity})
+                              : truth;
         cloud.viewpoint = scans[i].T_world_sensor;
         io::write_pcd(folder / "pcd" / fmt::format("{:06}.pcd", first + i), cloud);
     }

@@ -43,6 +43,11 @@ void add_bench(Program& program) {
     add_threads(c, o->threads);
     add_quiet(c, o->quiet);
     c.action([o, preset, twin] {
+        if (*twin && o->data.empty())
+            throw ConfigError("--twin needs DATA, the folder to write to");
+        if (o->no_run && o->submission) {
+            throw ConfigError("--submission is of this program, which --no-run leaves out");
+        }
         if (o->data.empty()) {
             tell_arena(o->arena);
             return static_cast<int>(kDone);

@@ -12,6 +12,7 @@
 #include "live/dry_run.hpp"
 #include "live/foxglove_server.hpp"
 #include "live/map_saver.hpp"
+#include "live/save_requests.hpp"
 #include "live/subscriptions.hpp"
 
 namespace dynamic_filter::live {
@@ -46,7 +47,7 @@ class Chores {
 public:
     Chores(Bus& bus, LiveConfig& config, Intake& intake, Subscriptions& subscriptions,
            Session& session, Outputs& outputs, FoxgloveServer* foxglove, MapSaver* saver,
-           bool quiet)
+           SaveRequests& requests, bool quiet)
         : bus_(bus),
           config_(config),
           intake_(intake),
@@ -55,6 +56,7 @@ public:
           outputs_(outputs),
           foxglove_(foxglove),
           saver_(saver),
+          requests_(requests),
           quiet_(quiet) {}
 
     void run() {
@@ -111,6 +113,7 @@ private:
         for (const std::string& notice : notices) fmt::print(stderr, "note: {}\n", notice);
     }
     void tell_saved(const Saved& result) {
+        requests_.answer(result);
         if (result.is_saved) return tell(std::vector<std::string>{result.text});
         warn(result.text);
     }
@@ -183,6 +186,7 @@ private:
     Outputs& outputs_;
     FoxgloveServer* foxglove_;  // may be null
     MapSaver* saver_;           // may be null
+    SaveRequests& requests_;
     bool quiet_;
     Figures before_;
     bool silent_ = false;
@@ -239,9 +243,10 @@ int live(Bus& bus, const LiveOptions& o, LiveConfig config) {
         saver.emplace(session, *o.map, o.overwrite);
         catch_save_requests();
     }
+    SaveRequests requests(bus, config.output.prefix, saver ? &*saver : nullptr);
     Subscriptions subscriptions(bus, config, intake);
     Chores chores(bus, config, intake, subscriptions, session, outputs, foxglove.get(),
-                  saver ? &*saver : nullptr, o.quiet);
+                  saver ? &*saver : nullptr, requests, o.quiet);
     while (!app::interrupted()) {
         chores.run();
         if (session.is_busy()) {

@@ -36,8 +36,10 @@ Saved saved(const Session& session, const std::filesystem::path& file) {
         const std::vector<StaticVoxel> voxels = session.static_map();
         if (voxels.empty()) return {false, "nothing static is known yet, so no map is saved"};
         io::write_cloud(file, cloud_of(voxels));
-        return {true, fmt::format("saved {}: {} points, {} bytes", file.string(), voxels.size(),
-                                  std::filesystem::file_size(file))};
+        const std::uint64_t bytes = std::filesystem::file_size(file);
+        return {true,
+                fmt::format("saved {}: {} points, {} bytes", file.string(), voxels.size(), bytes),
+                file, voxels.size(), bytes};
     } catch (const std::exception& error) {
         return {false, fmt::format("the map is not saved: {}", error.what())};
     }
@@ -67,7 +69,8 @@ void MapSaver::run() {
     constexpr auto kNow = std::chrono::seconds(0);
     if (running_.valid() && running_.wait_for(kNow) != std::future_status::ready) return;
     take_result();
-    if (save_is_wanted == 0) return;
+    const bool is_asked_for = is_wanted_.exchange(false);
+    if (save_is_wanted == 0 && !is_asked_for) return;
     save_is_wanted = 0;
     running_ = std::async(std::launch::async, [this] { return saved(session_, file_); });
 }

@@ -2,6 +2,8 @@
 /// Saves the static map of the live filter while it goes on.
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <filesystem>
 #include <future>
 #include <string>
@@ -11,22 +13,27 @@
 
 namespace dynamic_filter::live {
 
-/// What came of it, as a sentence.
+/// What came of it.
 struct Saved {
     bool is_saved = false;
-    std::string text;
+    std::string text;  ///< as a sentence
+    std::filesystem::path file{};
+    std::uint64_t points = 0, bytes = 0;
 };
 
 /// From now on, SIGUSR1 asks for the map. One for the process.
 void catch_save_requests();
 
-/// All functions have one caller; a thread of its own writes. The session must outlive it.
+/// All functions but request() have one caller; a thread of its own writes. The session must
+/// outlive it.
 class MapSaver {
 public:
     /// `file`: a cloud, by its extension; each save replaces the one before, as a whole. Throws
     /// ConfigError if it cannot be written, or is there already and must not be replaced.
     MapSaver(Session& session, std::filesystem::path file, bool overwrite);
-    /// Begins to save if SIGUSR1 came; one that came while the map is written is done afterwards.
+    /// Asks for the map, as SIGUSR1 does. May be called in any thread.
+    void request() { is_wanted_ = true; }
+    /// Begins to save if somebody asked; who asks while the map is written gets it afterwards.
     void run();
     /// Saves the map, and waits until it is written.
     Saved save();
@@ -37,6 +44,7 @@ private:
 
     Session& session_;
     std::filesystem::path file_;
+    std::atomic<bool> is_wanted_ = false;
     std::future<Saved> running_;
     std::vector<Saved> results_;
 };

@@ -37,6 +37,15 @@ bool all_intensities_are_flags(const Info& info) {
     return any_dynamic;
 }
 
+/// Of the first, the middle and the last scan.
+bool some_intensities_are_flags(const Info& info) {
+    const std::size_t n = info.scan_files.size();
+    for (const std::size_t i : {std::size_t{0}, n / 2, n - 1}) {
+        if (judge_intensity(info.scan_files[i]) == Verdict::no_truth) return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 bool any_has_viewpoint(const Paths& scans) {
@@ -56,7 +65,9 @@ void require_viewpoints(Info& info) {
 
 void find_intensity_truth(Info& info, const Layout& layout) {
     if (!info.label_files.empty()) return;  // label files are more precise
-    info.intensity_is_truth = layout.truth_map || all_intensities_are_flags(info);
+    // Beside a map of the truth, the intensities of some sets are the sensor's.
+    info.intensity_is_truth =
+        layout.truth_map ? some_intensities_are_flags(info) : all_intensities_are_flags(info);
     if (info.intensity_is_truth) {
         info.notes.emplace_back("intensity is taken as ground truth (1: dynamic)");
     }

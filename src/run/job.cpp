@@ -3,8 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <span>
 #include <utility>
 
+#include "base/crc.hpp"
+#include "base/input.hpp"
 #include "check/advice.hpp"
 #include "check/motion.hpp"
 #include "check/replaced_poses.hpp"
@@ -48,13 +52,33 @@ void refuse_unnamed(const RunOptions& o) {
 /// The beginning of every mark.
 std::string version_text() { return fmt::format("version {}\n", DYNAMIC_FILTER_VERSION); }
 
+/// The poses to a micrometre, because their last bits depend on the machine.
+std::uint32_t crc_of_poses(const io::Recording& recording) {
+    std::vector<std::int64_t> numbers;
+    for (const Pose& pose : recording.info().T_world_sensor) {
+        for (const double value : pose.matrix().reshaped()) {
+            numbers.push_back(std::isfinite(value) ? std::llround(value * 1e6) : INT64_MAX);
+        }
+    }
+    return crc_of(std::as_bytes(std::span(numbers)));
+}
+
 /// How the recordings are read, for the mark: with other poses, or in other units, it is another
-/// run. Where their files are does not matter.
+/// run. How the layout is called, and where poses and mask lie, does not matter.
 std::string reading_text(const Job& job, const DataOptions& how) {
     std::string text;
-    for (const std::string& fingerprint : job.fingerprints) text += "read " + fingerprint + "\n";
+    for (const Drive& drive : job.drives) {
+        text += fmt::format("poses {:08x}\n", crc_of_poses(drive.recording));
+    }
     DataOptions options = how;
     options.poses.reset();
+    if (options.mask && *options.mask != kNoMask) {
+        text += fmt::format("mask {:08x}\n", crc_of(io::read_bytes(*options.mask)));
+        options.mask.reset();
+    }
+    options.format.clear();
+    options.topic.clear();
+    options.pose_topic.clear();
     return text + "reading " + json_of(options).dump() + "\n";
 }
 

@@ -114,7 +114,7 @@ void refuse_other_run(const OutputFolder& output, std::string_view state) {
     }
     throw ConfigError(output.name().string() +
                       ": was begun with another recording, other poses or another way to read it, "
-                      "other settings, "
+                      "other settings or --refine, "
                       "other tiles (--memory, --tile-voxels), other outputs (--no-maps, "
                       "--no-report) or another version; go on "
                       "with those (see config.toml and run.log there), or start afresh with "

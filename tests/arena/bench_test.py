@@ -49,6 +49,18 @@ def every_arena(work):
         expect("written" if is_alone else "not there: .*Download ", said)
 
 
+def truth_beside_the_scans(work):
+    """The scans of av2 have no intensity, those of semindoor the sensor's: the truth is in gt_cloud.pcd alone."""
+    data, out = work / "others", work / "others-out"
+    call("dynamicmap", data, "--twin", "--only", "av2", "--only", "semindoor")
+    call("dynamicmap", data, "-o", out, "--preset", "default")
+    for entry in ("av2", "semindoor"):
+        scores = measured(out)[entry, "DynamicFilter, preset default"]
+        assert min(scores.values()) > .9, f"{entry}: {scores}"
+    (data / "av2/gt_cloud.pcd").unlink()
+    expect("gt_cloud.pcd", call("dynamicmap", data, "-o", out, "--preset", "default", "--only", "av2", code=3))
+
+
 def goes_on(work):
     """A second call does not filter again, and the table is the same."""
     out = work / "moe-out"
@@ -70,6 +82,8 @@ def peers(work):
     expect("01 +Twin", said)
     ours = measured(results)["01", "DynamicFilter, preset default"]
     assert measured(out) == {("01", "Twin"): ours}
+    call("dynamicmap", data, "-o", out, "--no-run", "--peer", f"Other={labels}", "--only", "01")
+    assert measured(out) == {("01", "Twin"): ours, ("01", "Other"): ours}, "an earlier row is gone"
     submitted = work / "submission"
     call("dynamicmap", data, "-o", results, "--preset", "default", "--submission", "--only", "01")
     (work / "maps").mkdir()
@@ -93,8 +107,9 @@ def header(cloud):
 
 def submissions(work):
     """What the benchmarks ask for, by their rules."""
-    exported = (work / "dynamicmap-out/submission/01/eval/dynamicfilter_output_exportGT.pcd").read_bytes()
-    truth = (work / "dynamicmap/01/gt_cloud.pcd").read_bytes()
+    call("dynamicmap", work / "others", "-o", work / "others-out", "--preset", "default", "--submission", "--only", "semindoor")
+    exported = (work / "others-out/submission/semindoor/eval/dynamicfilter_output_exportGT.pcd").read_bytes()
+    truth = (work / "others/semindoor/gt_cloud.pcd").read_bytes()
     (ours, at), (theirs, begin) = header(exported), header(truth)
     assert ours["POINTS"] == theirs["POINTS"] and ours["FIELDS"] == "x y z intensity"
     for point in range(0, int(ours["POINTS"]), 997):
@@ -132,6 +147,15 @@ def wrong_input(work):
     label = sequence / "labels/000210.label"
     label.write_bytes(label.read_bytes()[:400])
     expect("000210.label", call("erasor", work / "erasor", "-o", work / "erasor-out", "--preset", "default", "--only", "01", code=3))
+    (sequence / "calib.txt").rename(sequence / "away.txt")
+    expect("has no calib.txt", call("erasor", work / "erasor", "-o", work / "x", "--only", "01", code=3))
+    (sequence / "away.txt").rename(sequence / "calib.txt")
+    (work / "mos/sequences/08/labels/000007.label").unlink()
+    expect("has labels of 59 of 60 scans", call("mos", work / "mos", "-o", work / "x", code=3))
+    (work / "mos/sequences/08/velodyne/000059.bin").unlink()
+    expect("59 scans", call("mos", work / "mos", "-o", work / "x", code=3))
+    expect("--twin needs DATA", call("moe", "--twin", code=2))
+    expect("is of this program", call("mos", work / "mos", "--no-run", "--peer", f"A={work}", "--submission", code=2))
     (sequence / "labels").rename(sequence / "gone")
     expect("no folder labels: unpack", call("erasor", work / "erasor", "-o", work / "x", "--only", "01", code=3))
     tracks = next((work / "kitti-raw").rglob("tracklet_labels.xml"))
@@ -140,6 +164,11 @@ def wrong_input(work):
     indices = work / "doals/station/sequence_1/indices.csv"
     indices.write_text("17,1,2\n")
     expect("no scan of the bag has the stamp", call("doals", work / "doals", "-o", work / "x", code=3))
+    scan = work / "moe/00/pcd/000039.pcd"
+    whole = scan.read_bytes()
+    scan.unlink()
+    expect("39 scans", call("moe", work / "moe", "-o", work / "x", code=3))
+    scan.write_bytes(whole)
     (work / "moe/00/label/000003.txt").write_text("1 1 0\n")
     expect("has 1 rows, but the scan has", call("moe", work / "moe", "-o", work / "moe-out", "--preset", "default", code=3))
 
@@ -147,7 +176,7 @@ def wrong_input(work):
 def main():
     with tempfile.TemporaryDirectory() as scratch:
         work = Path(scratch)
-        for part in (every_arena, goes_on, peers, submissions, wrong_input):
+        for part in (every_arena, truth_beside_the_scans, goes_on, peers, submissions, wrong_input):
             part(work)
             print("passed", part.__name__, flush=True)
 

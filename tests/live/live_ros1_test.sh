@@ -85,6 +85,27 @@ stop INT
 diff -r ref/labels first/labels || fail "labels differ from those of run"
 cmp ref/static_map.pcd first/static_map.pcd || fail "maps differ"
 
+# Asked by a message, the node saves the map and answers.
+start asked --map asked.pcd
+play
+timeout 60 /usr/bin/python3 - > answer.json 2> answer.err << 'END' || fail "no answer: $(cat answer.err)"
+import time
+import rospy
+from std_msgs.msg import Empty, String
+rospy.init_node("asker", disable_signals=True)
+answers = []
+rospy.Subscriber("/dynamicfilter/saved_map", String, lambda message: answers.append(message.data))
+asks = rospy.Publisher("/dynamicfilter/save_map", Empty, queue_size=1)
+while not asks.get_num_connections():
+    time.sleep(0.05)
+asks.publish(Empty())
+while not answers:
+    time.sleep(0.05)
+print(answers[0])
+END
+grep -q "^{\"saved\":true,\"file\":\"$PWD/asked.pcd\",\"points\":[0-9]*,\"bytes\":[0-9]*}$" answer.json || fail "the answer: $(cat answer.json)"
+stop INT
+
 # A master that dies and comes back.
 start survivor
 play

@@ -60,6 +60,21 @@ stop TERM
 [ -s gone.mcap ] && [ ! -e gone ] || fail "SIGTERM leaves the recording alone"
 "$command" info gone.mcap | grep -q '40' || fail "the recording is not complete"
 
+# Asked by a message, the filter saves the map while scans come, and answers; without --map it says why not.
+start asked --map asked.pcd
+"$player" drive.mcap --domain $ROS_DOMAIN_ID --save > player.json || fail "labels are missing: $(cat player.json)"
+stop TERM
+python3 - player.json "$PWD/asked.pcd" << 'END' || fail "the answer: $(cat player.json)"
+import json, sys
+answer = json.load(open(sys.argv[1]))["answer"]
+assert answer["saved"] and answer["file"] == sys.argv[2] and answer["points"] > 1000 and answer["bytes"] > 1000, answer
+END
+grep -q '^input    40 scans received; 40 taken' asked.log || fail "the request lost scans: $(cat asked.log)"
+start refused
+"$player" drive.mcap --domain $ROS_DOMAIN_ID --save > player.json || fail "labels are missing: $(cat player.json)"
+stop TERM
+grep -q '"saved":false,"why":"the filter was started without --map FILE"' player.json || fail "the refusal: $(cat player.json)"
+
 # The map at SIGUSR1, while scans come and after them, and at the end; none before the first scan.
 start saved --map map.pcd
 kill -USR1 "$live"

@@ -70,6 +70,7 @@ struct Heard {
     std::size_t labels = 0, unknown_stamps = 0, dynamic = 0;
     std::map<std::string, std::size_t> others;
     std::map<std::int64_t, Labels> verdicts;  // only for --check
+    std::string saved;                        // the answer to --save
 };
 
 void count_labels(Heard& heard, bool keep, const io::Topic& topic, const Bytes& message) {
@@ -167,6 +168,19 @@ int play(Bus& bus, const Options& o) {
         bus.subscribe({"/diagnostics", "diagnostic_msgs/DiagnosticArray", encoding}, reliable,
                       count);
     }
+    if (o.save) {
+        bus.advertise({o.prefix + "/save_map", "std_msgs/Empty", encoding}, reliable);
+        bus.subscribe({o.prefix + "/saved_map", "std_msgs/String", encoding}, reliable,
+                      [&](const io::Topic&, const Bytes& message) {
+                          const std::size_t head = encoding == io::MessageEncoding::cdr ? 4 : 0;
+                          std::uint32_t length = 0;
+                          std::memcpy(&length, message->data() + head, sizeof length);
+                          const std::lock_guard hold(heard.lock);
+                          heard.saved.assign(
+                              reinterpret_cast<const char*>(message->data() + head + 4),
+                              length - (head == 0 ? 0 : 1));
+                      });
+    }
     bus.advertise({o.topic, "sensor_msgs/PointCloud2", encoding}, reliable);
     bus.advertise({"/tf", "tf2_msgs/TFMessage", encoding}, {true, false, 100});
     const bool met = eventually(
@@ -199,6 +213,13 @@ int play(Bus& bus, const Options& o) {
                 const std::lock_guard hold(heard.lock);
                 heard.sent[stamp_ns] = Clock::now();
             }
+            if (o.save && pass == 0 && k == scans.size() / 2) {
+                // In CDR a message without fields has a byte that means nothing.
+                const std::size_t size = encoding == io::MessageEncoding::cdr ? 5 : 0;
+                std::vector<std::byte> empty(size);
+                if (size > 1) empty[1] = std::byte{1};
+                bus.publish(o.prefix + "/save_map", 0.0, share(empty));
+            }
             bus.publish("/tf", 0.0, poses);
             refused += bus.publish(o.topic, 0.0, points) ? 0U : 1U;
         }
@@ -210,10 +231,19 @@ int play(Bus& bus, const Options& o) {
             return heard.labels == sent;
         },
         3.0);
+    if (o.save) {
+        eventually(
+            [&] {
+                const std::lock_guard hold(heard.lock);
+                return !heard.saved.empty();
+            },
+            10.0);
+    }
     bus.stop();
     std::string others;
     for (const auto& [name, count] : heard.others)
         others += fmt::format(", \"{}\": {}", name, count);
+    if (o.save) others += ", \"answer\": " + (heard.saved.empty() ? "null" : heard.saved);
     if (o.check) others += fmt::format(", \"differing\": {}", differing_labels(o, heard));
     fmt::print(
         "{{\"sent\": {}, \"refused\": {}, \"labels\": {}, \"foreign\": {}, \"dynamic\": {}, "
@@ -234,6 +264,7 @@ void add_player_options(CLI::App& app, PlayerOptions& o) {
     app.add_option("--wait", o.wait);
     app.add_option("--jump", o.jump);
     app.add_flag("--all", o.all);
+    app.add_flag("--save", o.save);
     app.add_flag("--check", o.check);
 }
 

@@ -21,6 +21,7 @@ struct PlayerOptions {
     double wait = 20.0;  ///< [s] for a subscriber
     double jump = 0.0;   ///< [s] by which the clock is set on in the middle of a pass
     bool all = false;    ///< also receive the other topics, as a display would
+    bool save = false;   ///< ask for the map after half of the scans, and wait for the answer
     bool check = false;  ///< filter the bag here, too, and count the labels that differ
 };
 

@@ -49,6 +49,7 @@ constexpr std::array kParts = {
          "uint8 UINT32=6\nuint8 FLOAT32=7\nuint8 FLOAT64=8\nstring name\nuint32 offset\n"
          "uint8 datatype\nuint32 count\n"},
     Part{"std_msgs/ColorRGBA", "float32 r\nfloat32 g\nfloat32 b\nfloat32 a\n"},
+    Part{"std_msgs/String", "string data\n"},
     Part{"tf2_msgs/TFMessage", "geometry_msgs/TransformStamped[] transforms\n"},
     Part{"visualization_msgs/MarkerArray", "visualization_msgs/Marker[] markers\n"},
 };
@@ -123,6 +124,8 @@ const Definition* find_definition(const std::string& type) {
         Definition{"nav_msgs/Odometry", "cd5e73d190d741a2f92e81eda573aca7"},
         Definition{"nav_msgs/Path", "6227e2b7e9cce15051f669a5e197bbf7"},
         Definition{"sensor_msgs/PointCloud2", "1158d486dd51d683ce2f1be655c3c181"},
+        Definition{"std_msgs/Empty", "d41d8cd98f00b204e9800998ecf8427e"},
+        Definition{"std_msgs/String", "992ce8a1687cec8c8bd883ec73ca41d1"},
         Definition{"tf2_msgs/TFMessage", "94810edda583a504dfda3829e70d7eec"},
         Definition{"visualization_msgs/MarkerArray", "d155b9ce5188fbaf89745847fd5882d7"},
     };
