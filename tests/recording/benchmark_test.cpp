@@ -27,9 +27,11 @@ TEST_F(BenchmarkTest, IntensityThatIsAMeasurement) {
     EXPECT_FALSE(open().info().has_truth());  // all 0: nothing says that it is truth
     put_pcd("pcd/000000.pcd", 1.0, 0.5F);
     EXPECT_FALSE(open().info().has_truth());
-    put_pcd("gt_cloud.pcd", 0.0, 1.0F);
+    put_pcd("gt_cloud.pcd", 0.0, 1.0F);  // where the truth is then, alone
+    EXPECT_FALSE(open().info().has_truth());
+    put_pcd("pcd/000000.pcd", 1.0, 0.0F);  // a scan in which nothing moves
     EXPECT_TRUE(open().info().has_truth());
-    EXPECT_EQ(open().read(0).truth[0], Label::unknown);
+    EXPECT_EQ(open().read(0).truth[0], Label::static_);
 }
 
 TEST_F(BenchmarkTest, AScanThatCannotBeReadDecidesNothing) {

@@ -68,7 +68,7 @@ TEST_P(Kinds, RefuseWhatTheyCannotHold) {
     };
     writer->write({"/a", "nav_msgs/Odometry", encoding}, 1, {});
     EXPECT_HAS(error({"/a", "tf2_msgs/TFMessage", encoding}, 1), "already");
-    EXPECT_HAS(error({"/b", "std_msgs/String", encoding}, 1), "std_msgs/String is not known");
+    EXPECT_HAS(error({"/b", "std_msgs/Int8", encoding}, 1), "std_msgs/Int8 is not known");
     EXPECT_HAS(error({"/c", "nav_msgs/Odometry", other}, 1), "the encoding of ROS");
     EXPECT_HAS(error({"/a", "nav_msgs/Odometry", encoding}, -1), "before 1970");
 }
