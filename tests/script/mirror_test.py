@@ -7,7 +7,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 COVERED = {  # test -> the units that it covers
-    "arena/bench_test.py": "arena/bench arena/drive_arenas arena/find arena/map_arenas arena/moving_arenas arena/score_trial arena/submission "
+    "arena/bench_test.py": "arena/bench arena/drive_arenas arena/find arena/map_arenas arena/moving_arenas arena/score_trial arena/submission arena/truth_cloud "
         "arena/twin_drives arena/twin_folders commands/bench",
     "arena/table_test.cpp": "arena/arenas arena/published",
     "commands/command_test.cpp": "commands/check commands/cleaning commands/compare commands/config commands/convert commands/convert_recording "
