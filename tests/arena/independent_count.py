@@ -473,6 +473,24 @@ def strict_case(rng, case, data, labels):
     return entry, strict_scores(points, dynamic, clean.astype(float))
 
 
+def dynamicmap_kitti_case(rng, case, data, labels):
+    """Points up to 50 m. What is unlabelled within 3 m is the vehicle, which moves; elsewhere it is static."""
+    entry = ("01", "02")[case % 2]
+    scans, cameras = kitti_scans(rng, entry, 60, lidar_frame, 1.5)
+    ranges = [np.linalg.norm(scan.points.astype(float), axis=1) for scan in scans]
+    scans = [scan.take((np.abs(r - 3) > 1e-3) & (np.abs(r - 50) > 1e-3)) for scan, r in zip(scans, ranges)]
+    first, end, _ = WINDOWS[entry]
+    used = [scan for scan in scans if first <= scan.number <= end]
+    ranges = [np.linalg.norm(scan.points.astype(float), axis=1) for scan in used]
+    points, dynamic, found = joined([(scan.on_map()[r < 50], (moving(scan.classes) | ((scan.classes < 2) & (r < 3)))[r < 50],
+                                      scan.found[r < 50]) for scan, r in zip(used, ranges)])
+    found = clear_of_kept_limit(points, found)
+    for scan, r, part in zip(used, ranges, np.split(found, np.cumsum([(r < 50).sum() for r in ranges])[:-1])):
+        scan.found[r < 50] = part
+    write_kitti(rng, data, labels, entry, scans, cameras)
+    return entry, within(kth_scores(points, dynamic, points[~found]))
+
+
 def viewpoint(pose):
     """tx ty tz qw qx qy qz. The sensor turns about its z mostly: the largest part of the quaternion is w or z."""
     x, y, z = pose[:3, 3]
@@ -611,7 +629,8 @@ def write_moe_labels(rng, path, truth):
 
 # ---------------------------------------------------------------- comparison
 
-ARENAS = {"erasor": erasor_case, "erasor2": erasor2_case, "strict": strict_case, "dynamicmap": dynamicmap_case,
+ARENAS = {"erasor": erasor_case, "erasor2": erasor2_case, "strict": strict_case,
+          "dynamicmap-kitti": dynamicmap_kitti_case, "dynamicmap": dynamicmap_case,
           "mos": mos_case, "helimos": helimos_case, "moe": moe_case}
 
 
