@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "arena/arena.hpp"
+#include "arena/score_trial.hpp"
 #include "arena/submission.hpp"
 #include "arena/table.hpp"
 #include "base/exit_code.hpp"
@@ -108,7 +109,7 @@ std::vector<Trial> find_trials(const Arena& arena, const BenchOptions& o) {
 /// without it, the figures would not be those of the arena. Others are left out by the run.
 void refuse_damaged(const Trial& trial, const io::Recording& recording) {
     const io::Info& info = recording.info();
-    for (const std::size_t i : trial.scored.empty() ? all_scans(recording) : trial.scored) {
+    for (const std::size_t i : scored_scans(trial, recording)) {
         recording.check(i);
         const bool tells_points = !info.label_files.empty() && !info.label_files[i].empty() &&
                                   info.label_files[i].extension() == ".label" &&

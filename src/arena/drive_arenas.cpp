@@ -16,6 +16,7 @@
 #include "recording/folders.hpp"
 #include "recording/layouts/nuscenes_tables.hpp"
 #include "recording/scans.hpp"
+#include "recording/truth.hpp"
 
 namespace dynamic_filter::app {
 
@@ -27,7 +28,7 @@ std::optional<Trial> find_scene(const fs::path& root, const std::string& scene) 
     const fs::path tables = root / "v1.0-mini";
     if (!io::is_folder(tables)) return std::nullopt;
     Trial trial{.entry = scene, .data = {.data = root / scene, .format = "nuscenes"}};
-    trial.scored = labelled_scans(trial);
+    trial.scored = io::scans_with_truth(open(trial.data).info());
     if (trial.scored.empty()) throw InputError(tables, "", "has no boxes of " + scene);
     trial.notes.push_back(fmt::format(
         "{} key frames; a box moves if its object moves at any of them", trial.scored.size()));

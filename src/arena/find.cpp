@@ -11,8 +11,6 @@
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/poses.hpp"
 #include "recording/folders.hpp"
-#include "recording/scans.hpp"
-#include "recording/truth.hpp"
 
 namespace dynamic_filter::app {
 
@@ -92,10 +90,6 @@ void require_whole(const Trial& trial, const io::Recording& recording) {
                      fmt::format("has {} scans, but {} has {} poses; the arena needs all scans, so "
                                  "download the parts that are missing",
                                  recording.size(), trial.data.poses->filename().string(), rows));
-}
-
-std::vector<std::size_t> labelled_scans(const Trial& trial) {
-    return io::scans_with_truth(open(trial.data).info());
 }
 
 }  // namespace dynamic_filter::app

@@ -32,7 +32,4 @@ std::optional<Trial> find_sequence(const std::filesystem::path& root, const std:
 /// in parts, and figures of some of them are not those of the whole.
 void require_whole(const Trial& trial, const io::Recording& recording);
 
-/// The indices of the scans that have a label file.
-std::vector<std::size_t> labelled_scans(const Trial& trial);
-
 }  // namespace dynamic_filter::app

@@ -38,17 +38,24 @@ Pose T_map_sensor_of_erasor(const Pose& T_world_camera) {
     return ahead * T_world_camera * calibration * Eigen::Translation3d(0.0, 0.0, 1.73);
 }
 
-/// `ends_before_last`: ERASOR's lists end before the last scan of the window.
+/// The sequence with the scans of ERASOR's window, changed by `change`.
 std::optional<Trial> find_window(const fs::path& root, const std::string& sequence,
-                                 bool ends_before_last) {
-    auto trial = find_sequence(root, sequence, {"poses_suma_optim.txt", "poses.txt"});
+                                 const std::vector<std::string>& pose_files,
+                                 void (*change)(ScanWindow&)) {
+    auto trial = find_sequence(root, sequence, pose_files);
     if (!trial) return trial;
     ScanWindow window = semantickitti_window(sequence).value();
-    if (ends_before_last) window.last -= window.step;
+    change(window);
     choose_window(trial->data, trial->data.data / "velodyne", ".bin", window);
     trial->notes.push_back(fmt::format("{} scans", (window.last - window.first) / window.step + 1));
     return trial;
 }
+
+// SuMa's poses, which ERASOR2 ships, are those of ERASOR's tables.
+const std::vector<std::string> kSumaFirst{"poses_suma_optim.txt", "poses.txt"};
+
+/// ERASOR's lists end before the last scan of the window.
+void end_before_last(ScanWindow& window) { window.last -= window.step; }
 
 /// The map frame of ERASOR needs the poses of the camera again.
 void use_map_of_erasor(Trial& trial) {
@@ -59,7 +66,7 @@ void use_map_of_erasor(Trial& trial) {
 }
 
 std::optional<Trial> find_erasor(const fs::path& root, const std::string& sequence) {
-    auto trial = find_window(root, sequence, true);
+    auto trial = find_window(root, sequence, kSumaFirst, end_before_last);
     if (trial) use_map_of_erasor(*trial);
     return trial;
 }
@@ -77,7 +84,7 @@ Labels truth_of_erasor2(const io::Recording& recording, std::size_t i, const io:
 }
 
 std::optional<Trial> find_erasor2(const fs::path& root, const std::string& sequence) {
-    auto trial = find_window(root, sequence, false);
+    auto trial = find_window(root, sequence, kSumaFirst, [](ScanWindow&) {});
     if (!trial) return trial;
     use_map_of_erasor(*trial);
     trial->truth = truth_of_erasor2;
@@ -96,18 +103,13 @@ Labels truth_of_dynamicmap(const io::Recording&, std::size_t, const io::FullScan
 }
 
 std::optional<Trial> find_extracted(const fs::path& root, const std::string& sequence) {
-    auto trial = find_sequence(root, sequence, {"poses.txt"});
-    if (!trial) return trial;
-    ScanWindow window = semantickitti_window(sequence).value();
-    window.step = 1;
-    choose_window(trial->data, trial->data.data / "velodyne", ".bin", window);
-    trial->truth = truth_of_dynamicmap;
-    trial->notes.push_back(fmt::format("{} scans", window.last - window.first + 1));
+    auto trial = find_window(root, sequence, {"poses.txt"}, [](ScanWindow& w) { w.step = 1; });
+    if (trial) trial->truth = truth_of_dynamicmap;
     return trial;
 }
 
 std::optional<Trial> find_strict(const fs::path& root, const std::string& sequence) {
-    auto trial = find_window(root, sequence, true);
+    auto trial = find_window(root, sequence, kSumaFirst, end_before_last);
     if (trial) trial->notes.emplace_back("the scans of FreeDOM's table are not published");
     return trial;
 }

@@ -18,10 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::size_t> scored_scans(const Trial& trial, const io::Recording& recording) {
-    return trial.scored.empty() ? all_scans(recording) : trial.scored;
-}
-
 /// The scan with the ground truth of the arena.
 io::FullScan read_scan(const Trial& trial, const io::Recording& recording, std::size_t i) {
     io::FullScan scan = recording.read(i);
@@ -107,6 +103,10 @@ std::optional<double> mean_iou(const std::vector<eval::Confusion>& scans) {
 ArenaScores rates(const eval::VoxelScore& score) { return {score.pr, score.rr, score.f1}; }
 
 }  // namespace
+
+std::vector<std::size_t> scored_scans(const Trial& trial, const io::Recording& recording) {
+    return trial.scored.empty() ? all_scans(recording) : trial.scored;
+}
 
 ArenaScores accuracies(const eval::PointScore& score) {
     return {score.sa, score.da, score.aa, score.ha};

@@ -30,7 +30,10 @@ ArenaScores by_scan(const Trial& trial, const io::Recording& recording, const Es
 /// PR, RR, F1 without mixed voxels, AA and the moving IoU: the scores of this project.
 ArenaScores by_voxels(const Trial& trial, const io::Recording& recording, const Estimate& estimate);
 
-// What they share with truth_cloud.hpp.
+// What they share with others of this room.
+
+/// The scans with ground truth, by index.
+std::vector<std::size_t> scored_scans(const Trial& trial, const io::Recording& recording);
 
 /// SA, DA, AA, HA.
 ArenaScores accuracies(const eval::PointScore& score);

@@ -3,18 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <map>
-#include <span>
 
 #include "arena/score_trial.hpp"
 #include "arena/truth_cloud.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/writers.hpp"
 #include "formats/label_files.hpp"
-#include "geometry/neighbor_grid.hpp"
-#include "recording/folders.hpp"
-#include "recording/scans.hpp"
 
 namespace dynamic_filter::app {
 
@@ -36,7 +31,7 @@ void write_predictions(const Trial& trial, const io::Recording& recording, const
                        const fs::path& folder) {
     const fs::path to = folder / "sequences" / sequence_of(trial.entry) / "predictions";
     fs::create_directories(to);
-    for (const std::size_t i : trial.scored.empty() ? all_scans(recording) : trial.scored) {
+    for (const std::size_t i : scored_scans(trial, recording)) {
         const std::string stem = io::stem(recording, i);
         Labels found = verdict_of(labels, recording, i, recording.read(i).points.size());
         for (Label& label : found) {
@@ -55,15 +50,13 @@ void write_clean_map(const Trial& trial, const io::Recording& recording, const f
     const fs::path to = folder / trial.entry;
     fs::create_directories(to / "eval");
     io::write_pcd(to / "dynamicfilter_output.pcd", map);
-    const NeighborGrid grid(io::positions(map), 0.1F);
+    const Points truth = io::positions(truth_cloud(trial, recording));
+    const std::vector<char> is_kept = near_map(truth, io::positions(map));
     io::Cloud exported;
     exported.fields = map.fields;
     exported.point_bytes = map.point_bytes;
-    for (const Point& point : io::positions(truth_cloud(trial, recording))) {
-        const std::array record{point.x(), point.y(), point.z(),
-                                grid.any_within(point, 0.05F) ? 0.0F : 1.0F};
-        const auto bytes = std::as_bytes(std::span(record));
-        exported.data.insert(exported.data.end(), bytes.begin(), bytes.end());
+    for (std::size_t p = 0; p < truth.size(); ++p) {
+        put_point(exported, truth[p], is_kept[p] != 0 ? 0.0F : 1.0F);
     }
     io::write_pcd(to / "eval" / "dynamicfilter_output_exportGT.pcd", exported);
 }

@@ -40,13 +40,13 @@ PointCounts points_in_scans(const Trial& trial, const io::Recording& recording) 
     return counts;
 }
 
+}  // namespace
+
 void put_point(io::Cloud& cloud, const Point& p, float intensity) {
     const std::array record{p.x(), p.y(), p.z(), intensity};
     const auto bytes = std::as_bytes(std::span(record));
     cloud.data.insert(cloud.data.end(), bytes.begin(), bytes.end());
 }
-
-}  // namespace
 
 io::Cloud truth_cloud(const Trial& trial, const io::Recording& recording) {
     const fs::path file = trial.data.data / "gt_cloud.pcd";
@@ -88,23 +88,28 @@ io::Cloud clean_cloud(const io::Recording& recording, const fs::path& labels) {
     return map;
 }
 
+std::vector<char> near_map(const Points& truth, const Points& map) {
+    constexpr auto kNear = static_cast<float>(eval::kCoverDistance);
+    const NeighborGrid grid(map, 2.0F * kNear);
+    std::vector<char> is_near(truth.size());
+    parallel_for(truth.size(), 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t p = begin; p < end; ++p) {
+            is_near[p] = grid.any_within(truth[p], kNear) ? 1 : 0;
+        }
+    });
+    return is_near;
+}
+
 ArenaScores by_truth_cloud(const Trial& trial, const io::Recording& recording,
                            const Estimate& estimate) {
     const io::Cloud truth = truth_cloud(trial, recording);
-    const Points points = io::positions(truth);
     const std::vector<double> moves = io::values(truth, *truth.find("intensity"));
-    const NeighborGrid map(estimate.labels ? io::positions(clean_cloud(recording, *estimate.labels))
-                                           : map_of(estimate, Eigen::Vector3d::Zero()),
-                           2.0F * static_cast<float>(eval::kCoverDistance));
-    std::vector<char> is_kept(points.size());
-    parallel_for(points.size(), 4096, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t p = begin; p < end; ++p) {
-            is_kept[p] =
-                map.any_within(points[p], static_cast<float>(eval::kCoverDistance)) ? 1 : 0;
-        }
-    });
+    const std::vector<char> is_kept =
+        near_map(io::positions(truth), estimate.labels
+                                           ? io::positions(clean_cloud(recording, *estimate.labels))
+                                           : map_of(estimate, Eigen::Vector3d::Zero()));
     eval::CoverCount count;
-    for (std::size_t p = 0; p < points.size(); ++p) {
+    for (std::size_t p = 0; p < moves.size(); ++p) {
         count.add(moves[p] == 1.0 ? Label::dynamic : Label::static_, is_kept[p] != 0);
     }
     return accuracies(eval::point_score(count));

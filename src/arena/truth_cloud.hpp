@@ -16,6 +16,12 @@ io::Cloud truth_cloud(const Trial& trial, const io::Recording& recording);
 /// InputError if a scan has no labels, or if nothing is left.
 io::Cloud clean_cloud(const io::Recording& recording, const std::filesystem::path& labels);
 
+/// Whether each point of the truth is within 0.05 m of a clean map.
+std::vector<char> near_map(const Points& truth, const Points& map);
+
+/// Appends a point to a cloud of x y z intensity.
+void put_point(io::Cloud& cloud, const Point& p, float intensity);
+
 /// SA, DA, AA, HA of DynamicMap_Benchmark: how much of the truth is within 0.05 m of a clean map.
 ArenaScores by_truth_cloud(const Trial& trial, const io::Recording& recording,
                            const Estimate& estimate);

@@ -199,16 +199,22 @@ std::vector<SeenBehind> some_of(const std::vector<SeenBehind>& seen, std::size_t
     return some;
 }
 
-/// True if keyframes from behind the mirror saw most of what is seen in it: then it is an opening,
-/// with the same on both sides.
-bool is_real_behind(const Mirror& mirror, const EvidenceMap& map,
-                    const std::vector<SeenBehind>& seen) {
-    constexpr std::size_t kMostKeyframes = 20, kMostPlaces = 500;
+/// Those that were seen where the mirror reflects.
+std::vector<SeenBehind> reflected_ones(const Mirror& mirror, const std::vector<SeenBehind>& seen) {
     std::vector<SeenBehind> reflected;
     for (const SeenBehind& s : seen) {
         const auto cell = mirror.cell(s.at.along, s.at.z, s.at.angle);
         if (cell && mirror.reflects[*cell]) reflected.push_back(s);
     }
+    return reflected;
+}
+
+/// True if keyframes from behind the mirror saw most of what is seen in it: then it is an opening,
+/// with the same on both sides.
+bool is_real_behind(const Mirror& mirror, const EvidenceMap& map,
+                    const std::vector<SeenBehind>& seen) {
+    constexpr std::size_t kMostKeyframes = 20, kMostPlaces = 500;
+    const std::vector<SeenBehind> reflected = reflected_ones(mirror, seen);
     Points places;
     for (const SeenBehind& s : some_of(reflected, kMostPlaces)) {
         places.push_back(map.grid()[s.voxel].centroid);
@@ -258,12 +264,9 @@ enum class Motion { unseen, alike, otherwise };
 Motion motion_in(const Mirror& mirror, const EvidenceMap& map,
                  const std::vector<SeenBehind>& seen) {
     constexpr int kTelling = 20;
-    std::vector<SeenBehind> moved;
-    for (const SeenBehind& s : seen) {
-        const auto cell = mirror.cell(s.at.along, s.at.z, s.at.angle);
-        const bool is_reflected_one = cell && mirror.reflects[*cell];
-        if (is_reflected_one && was_crossed(map.grid()[s.voxel].evidence)) moved.push_back(s);
-    }
+    std::vector<SeenBehind> moved = reflected_ones(mirror, seen);
+    std::erase_if(moved,
+                  [&](const SeenBehind& s) { return !was_crossed(map.grid()[s.voxel].evidence); });
     int like = 0, unlike = 0;
     const auto count = [&](const std::vector<Sight>& sights) {
         for (const Sight sight : sights) {

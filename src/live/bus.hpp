@@ -4,6 +4,7 @@
 /// writers of bags serve the network, too.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -35,6 +36,12 @@ struct SeenTopic {
     std::size_t publishers = 0;  ///< number of publishers, without those of this process
     Quality offered;             ///< the least that all publishers offer
 };
+
+/// [s] The clock of this machine: the stamp of messages that belong to no scan.
+inline double seconds_since_epoch() {
+    return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch())
+        .count();
+}
 
 /// Takes messages that the filter publishes. Thread-safe.
 class Publisher {

@@ -33,11 +33,6 @@ struct Seen {
     std::vector<std::string> notices;
 };
 
-double now_of_this_machine() {
-    return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch())
-        .count();
-}
-
 Seen listen_to(Bus& bus, const LiveConfig& config, double look) {
     Seen seen;
     Intake intake(config);
@@ -53,7 +48,7 @@ Seen listen_to(Bus& bus, const LiveConfig& config, double look) {
         auto scan = intake.pop(kMoment);
         if (!scan) continue;
         ++seen.scans;
-        seen.delay = now_of_this_machine() - scan->stamp;
+        seen.delay = seconds_since_epoch() - scan->stamp;
         if (!seen.first) seen.first = *scan;
         seen.last = std::move(*scan);
     }

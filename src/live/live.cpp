@@ -103,11 +103,6 @@ public:
     }
 
 private:
-    static double seconds_since_epoch() {
-        return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch())
-            .count();
-    }
-
     void tell(const std::vector<std::string>& notices) {
         if (quiet_) return;
         for (const std::string& notice : notices) fmt::print(stderr, "note: {}\n", notice);

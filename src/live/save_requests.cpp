@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "live/save_requests.hpp"
 
-#include <chrono>
 #include <nlohmann/json.hpp>
 
 #include "formats/messages/message_writer.hpp"
@@ -17,11 +16,6 @@ Bytes text_message(const std::string& text, io::MessageEncoding encoding) {
     io::MessageWriter out(encoding);
     out.text(text);
     return std::make_shared<const std::vector<std::byte>>(out.moved_bytes());
-}
-
-double now() {
-    return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch())
-        .count();
 }
 
 }  // namespace
@@ -55,7 +49,8 @@ SaveRequests::SaveRequests(Bus& bus, const std::string& prefix, MapSaver* saver)
 }
 
 void SaveRequests::answer(const Saved& saved) {
-    bus_.publish(topics_.answer.name, now(), text_message(answer_text(saved), bus_.encoding()));
+    bus_.publish(topics_.answer.name, seconds_since_epoch(),
+                 text_message(answer_text(saved), bus_.encoding()));
 }
 
 }  // namespace dynamic_filter::live
