@@ -103,8 +103,8 @@ struct Info {
     /// the pose of a FullScan, are those of the sensor.
     std::optional<Eigen::Vector3d> sensor_at;
     double point_unit = 1.0;  ///< [m] per unit of the coordinates of points in the files
-    /// What moves with the sensor, such as its vehicle, in the sensor frame. Points in these boxes
-    /// are no measurements of the world.
+    /// What moves with the sensor, such as its vehicle, in the sensor frame; with a rig file, in
+    /// the frame of the vehicle. Points in these boxes are no measurements of the world.
     Boxes own_body{};
     bool intensity_is_truth = false;  ///< `benchmark` with ground truth in the intensity
     std::vector<std::string> notes;   ///< assumptions that were made, as sentences for the user
@@ -139,6 +139,8 @@ struct FullScan {
     /// 1 for each point of the own body, or empty; in `points`, they are at the origin, as points
     /// without a measurement.
     std::vector<std::uint8_t> own{};
+    std::size_t sensor = 0;     ///< which of several sensors made it
+    std::string sensor_name{};  ///< its name in the rig file; empty: the only sensor, or no name
 };
 
 struct RecordingParts;
@@ -209,7 +211,8 @@ inline constexpr const char* kOtherFields =
 /// More losses, after those that there are.
 Recording with_losses(const Recording& recording, const std::vector<std::string>& losses);
 
-/// Name of a scan without folder and extension: "000123" for velodyne/000123.bin.
+/// Name of a scan without folder and extension: "000123" for velodyne/000123.bin, and
+/// "front_000123" for that of the sensor "front" of a rig.
 std::string stem(const Recording& recording, std::size_t i);
 
 /// Reads ground-truth labels in the format of SemanticKITTI. The low 16 bits count: 251-259 are

@@ -76,6 +76,10 @@ struct SimulationOptions {
     int drives = 0;
     /// Which of the drives, from 1; 0: the first. All drives of a seed are in one world frame.
     int drive = 0;
+    /// Of this sensor in the frame that the scene's only sensor would have: one of several sensors
+    /// of a vehicle. The same scene with another mount is what another sensor sees at that time.
+    Pose mount = Pose::Identity();
+    double delay = 0.0;  ///< [s] stamp of the first scan, less than the time between two scans
 };
 
 /// One simulated sweep with its ground truth.

@@ -41,6 +41,10 @@ struct Scan {
     /// measured at once, or if motion compensation was done already. The times are used where the
     /// filter estimates or refines poses: it then does the motion compensation itself.
     std::vector<float> times{};
+    /// Which of several sensors on one vehicle made the scan, from 0. Each sensor has beams of its
+    /// own, and sees its own part of the surroundings. Within a second, its scans may come after
+    /// later ones of another sensor.
+    std::size_t sensor = 0;
 };
 
 /// True for a point that carries a measurement: finite, and not at the origin of the sensor.

@@ -18,6 +18,7 @@
 #include "dynamic_filter/file.hpp"
 #include "export/outputs.hpp"
 #include "export/part.hpp"
+#include "geometry/pose.hpp"
 #include "python/src/module.hpp"
 #include "recording/scans.hpp"
 #include "run/run.hpp"
@@ -237,16 +238,23 @@ void bind_programs(py::module_& module) {
         [](const std::string& scene, const fs::path& output, const std::string& sensor,
            int pedestrians, std::uint64_t seed, std::optional<std::size_t> frames, double rate,
            double pose_noise, double pose_noise_deg, bool sweep, int rounds, double km, int drives,
-           bool knowable, bool overwrite, bool quiet) {
-            return simulate({scene, sensor, pedestrians, seed, frames, rate, pose_noise,
-                             pose_noise_deg, sweep, rounds, km, drives},
-                            output, knowable, overwrite, quiet);
+           const std::optional<std::array<double, 6>>& mount, double delay, bool knowable,
+           bool overwrite, bool quiet) {
+            sim::SimulationOptions options{scene,  sensor, pedestrians, seed,
+                                           frames, rate,   pose_noise,  pose_noise_deg,
+                                           sweep,  rounds, km,          drives};
+            if (mount)
+                options.mount =
+                    placed(Eigen::Vector3d(mount->data()), Eigen::Vector3d(&(*mount)[3]));
+            options.delay = delay;
+            return simulate(options, output, knowable, overwrite, quiet);
         },
         py::arg("scene"), py::arg("output"), py::kw_only(), py::arg("sensor") = "vlp16",
         py::arg("pedestrians") = -1, py::arg("seed") = 1, py::arg("frames") = py::none(),
         py::arg("rate") = 0.0, py::arg("pose_noise") = 0.0, py::arg("pose_noise_deg") = 0.0,
         py::arg("sweep") = false, py::arg("rounds") = 0, py::arg("km") = 0.0, py::arg("drives") = 0,
-        py::arg("knowable") = false, py::arg("overwrite") = false, py::arg("quiet") = true,
+        py::arg("mount") = py::none(), py::arg("delay") = 0.0, py::arg("knowable") = false,
+        py::arg("overwrite") = false, py::arg("quiet") = true,
         R"(Simulates a recording with exact labels, and writes it in KITTI's layout to the folder `output`.
 
 scene: crowd, street, square, hall, jam, queue, platform, slow, mirrors or city. The drives of a city become recordings in
@@ -261,6 +269,8 @@ sweep: True measures points one after the other while the sensor moves, like a r
 are then PCD files with a field t [s].
 rounds: rounds of the robot in the scene crowd; 0: the default.
 km: length [km] of each drive in the scene city; drives: their number; 0: the defaults.
+mount: (x, y, z, roll, pitch, yaw) [m, deg] of this sensor in the frame of the scene's own one: another sensor on the
+same vehicle. delay: stamp of the first scan [s], so that sensors take turns.
 knowable: True also writes what could be known of each point; evaluate() reads it.
 overwrite: True replaces an earlier recording. quiet: False shows the progress on stderr.
 Returns the number of points. Raises ConfigError (also if there is an earlier recording), OutputError,

@@ -43,6 +43,9 @@ std::vector<std::string_view> split_at(std::string_view line, char separator);
 std::string_view trim(std::string_view text);
 std::string to_lower(std::string_view text);
 inline bool is_digit(char c) { return c >= '0' && c <= '9'; }
+inline bool is_letter_or_digit(char c) {
+    return is_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
 /// True for lines of pose files that hold no data; the line has no blanks at its ends.
 inline bool is_blank_or_comment(std::string_view line) {
     return line.empty() || line.front() == '#';

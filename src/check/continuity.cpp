@@ -12,6 +12,7 @@
 #include "check/samples.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/parallel.hpp"
+#include "recording/recording_parts.hpp"
 #include "tracking/upright.hpp"
 
 namespace dynamic_filter::io {
@@ -54,31 +55,46 @@ ScanGist gist_of(const Points& points, const Pose& T_world_sensor) {
 
 void Continuity::add(std::size_t scan, ScanGist gist) {
     constexpr std::size_t kEnough = 200;  // points
+    auto& [last, steps] = series_[sensors_.empty() ? 0 : sensors_[scan]];
     Step step{.scan = scan, .points = gist.points};
-    const Pose way = last_.T_world_sensor.inverse() * gist.T_world_sensor;
+    const Pose way = last.T_world_sensor.inverse() * gist.T_world_sensor;
     step.way = way.translation().norm();
-    step.is_comparable = !steps_.empty() && scan == steps_.back().scan + 1 &&
+    step.is_comparable = !steps.empty() && follows(steps.back().scan, scan) &&
                          way.matrix().allFinite() &&
-                         std::min(last_.upright.size(), gist.upright.size()) > kEnough;
-    if (step.is_comparable) step.overlay = overlay_of(last_.upright, gist.upright, way);
-    steps_.push_back(step);
-    last_ = std::move(gist);
+                         std::min(last.upright.size(), gist.upright.size()) > kEnough;
+    if (step.is_comparable) step.overlay = overlay_of(last.upright, gist.upright, way);
+    steps.push_back(step);
+    last = std::move(gist);
+}
+
+/// True if the sensor made no scan between these two of its scans.
+bool Continuity::follows(std::size_t last, std::size_t scan) const {
+    if (sensors_.empty()) return scan == last + 1;
+    const auto at = [&](std::size_t i) {
+        return sensors_.begin() + static_cast<std::ptrdiff_t>(i);
+    };
+    return std::find(at(last + 1), at(scan), sensors_[scan]) == at(scan);
 }
 
 std::vector<Alarm> Continuity::breaks() const {
+    std::vector<Alarm> breaks;
+    for (const auto& [sensor, series] : series_) find_breaks(series.steps, breaks);
+    return breaks;
+}
+
+void Continuity::find_breaks(const std::vector<Step>& steps, std::vector<Alarm>& breaks) {
     constexpr double kClear = 0.4, kHalf = 0.5, kFarther = 2.0, kStride = 1.0;
     constexpr double kBelowMost = 0.6;  // of what a quarter of the neighbors fall below
     constexpr std::size_t kMost = 5;    // more do not tell more
-    std::vector<Alarm> breaks;
-    for (std::size_t i = 1; i < steps_.size() && breaks.size() < kMost; ++i) {
-        const Step& step = steps_[i];
+    for (std::size_t i = 1; i < steps.size() && breaks.size() < kMost; ++i) {
+        const Step& step = steps[i];
         const auto with = [](double Step::*value) {
             return [value](const Step& s) {
                 return s.is_comparable ? std::optional(s.*value) : std::nullopt;
             };
         };
-        const auto [overlay, low_overlay] = usual(steps_, i, with(&Step::overlay));
-        const double way = usual(steps_, i, with(&Step::way)).median;
+        const auto [overlay, low_overlay] = usual(steps, i, with(&Step::overlay));
+        const double way = usual(steps, i, with(&Step::way)).median;
         const bool is_low =
             step.overlay < kHalf * overlay && step.overlay < kBelowMost * low_overlay;
         const bool is_break =
@@ -92,18 +108,18 @@ std::vector<Alarm> Continuity::breaks() const {
                                      step.way, 100.0 * step.overlay, 100.0 * overlay),
                  .advice = "check that the names of scans sort by time and that no scan or pose is "
                            "missing there",
-                 .first = steps_[i - 1].scan,
+                 .first = steps[i - 1].scan,
                  .last = step.scan,
                  .worst = step.scan});
         }
-        const double points = usual(steps_, i, [](const Step& s) {
+        const double points = usual(steps, i, [](const Step& s) {
                                   return std::optional(static_cast<double>(s.points));
                               }).median;
-        const bool follows = i + 1 < steps_.size();
+        const bool follows = i + 1 < steps.size();
         const auto is_short = [&](const Step& s) {
             return static_cast<double>(s.points) < kHalf * points;
         };
-        if (is_short(step) && !is_short(steps_[i - 1]) && follows && !is_short(steps_[i + 1])) {
+        if (is_short(step) && !is_short(steps[i - 1]) && follows && !is_short(steps[i + 1])) {
             breaks.push_back(
                 {.what = fmt::format("it has {} points, the scans beside it about {:.0f}: a part "
                                      "of it is missing",
@@ -114,7 +130,6 @@ std::vector<Alarm> Continuity::breaks() const {
                  .worst = step.scan});
         }
     }
-    return breaks;
 }
 
 std::vector<Alarm> breaks_in(const Recording& recording) {
@@ -134,7 +149,7 @@ std::vector<Alarm> breaks_in(const Recording& recording) {
             }
         }
     });
-    Continuity continuity;
+    Continuity continuity(recording.parts().sensors);
     for (std::size_t k = 0; k < scans.size(); ++k) {
         if (gists[k]) continuity.add(scans[k], *std::move(gists[k]));
     }

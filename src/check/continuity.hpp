@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "check/watch.hpp"
@@ -20,9 +22,13 @@ struct ScanGist {
 };
 ScanGist gist_of(const Points& points, const Pose& T_world_sensor);
 
-/// Compares scans with those before them, in order. Single caller.
+/// Compares scans with those before them, in order; of several sensors, with those of their own.
+/// Single caller.
 class Continuity {
 public:
+    /// `sensors`: which sensor made each scan of the recording, or empty.
+    explicit Continuity(std::vector<std::size_t> sensors = {}) : sensors_(std::move(sensors)) {}
+
     /// The next scan, and its index in the recording.
     void add(std::size_t scan, ScanGist gist);
 
@@ -37,8 +43,15 @@ private:
         double way = 0.0;      // [m] from there
         bool is_comparable = false;
     };
-    ScanGist last_;
-    std::vector<Step> steps_;
+    struct Series {  // of a sensor
+        ScanGist last;
+        std::vector<Step> steps;
+    };
+    [[nodiscard]] bool follows(std::size_t last, std::size_t scan) const;
+    static void find_breaks(const std::vector<Step>& steps, std::vector<Alarm>& breaks);
+
+    std::vector<std::size_t> sensors_;
+    std::map<std::size_t, Series> series_;  // keys: sensors
 };
 
 /// The same for a recording, of which at most 1500 scans, in pieces of 50, are read.

@@ -20,6 +20,7 @@
 #include "geometry/thinning.hpp"
 #include "recording/mask.hpp"
 #include "recording/recording_parts.hpp"
+#include "recording/rig_poses.hpp"
 #include "recording/scans.hpp"
 #include "settings/config_file.hpp"
 
@@ -185,23 +186,42 @@ void use_found_poses(io::Recording& recording, const Config& config, const Motio
     chosen.tracked = std::move(found.tracked);
 }
 
-/// Of several sensors, the first one shows what holds for all. Their poses stay, because odometry
-/// follows one sensor, and no own body is looked for, because each sees it elsewhere.
+/// Poses that were found for the scans of the first sensor place all sensors of a rig.
+void place_rig(io::Recording& recording, const io::Recording& first, ChosenMotion& chosen) {
+    chosen.tracked = io::tracked_for_all(recording, chosen.tracked);
+    if (first.parts().with_times && has_times(io::with_times(recording))) {
+        recording = io::with_times(recording, first.info().sweep);
+    }
+    use_track(recording, chosen.tracked);
+}
+
+/// Of several sensors, the first one shows what holds for all. Poses are found and refined for it,
+/// if it is known where the others are beside it. No own body is looked for, because each sensor
+/// sees it elsewhere.
 ChosenMotion choose_for_several(io::Recording& recording, io::Recording first, Config& config,
                                 MotionChoice choice) {
-    const std::string refine = std::exchange(choice.refine, "off");
+    const bool moves_together = io::knows_places(recording.parts()) && !choice.online;
+    const std::string refine = choice.refine;
+    if (!moves_together) choice.refine = "off";
+    if (!moves_together && !recording.info().has_poses) {
+        throw InputError(recording.info().root, "",
+                         "has no poses; online, odometry follows one sensor alone. Give poses, or "
+                         "leave --online out");
+    }
     choice.finds_body = false;
     io::MotionLook look(first, config.odometry, choice.deskew);
     choice.look = &look;
-    const std::string doubt = refine == "off" ? "" : io::doubt_about_poses(look);
+    const std::string doubt = moves_together || refine == "off" ? "" : io::doubt_about_poses(look);
     ChosenMotion chosen = choose_motion(first, config, choice);
+    if (!chosen.tracked.empty()) place_rig(recording, first, chosen);
     if (first.info().deskewed) {
         recording = io::deskewed(io::as_measured(recording), first.info().sweep);
     }
     if (!doubt.empty()) {
         recording = io::with_losses(
-            recording, {doubt + "; the poses of several sensors are not refined: choose the clouds "
-                                "of one with --topic TOPIC@FRAME"});
+            recording, {doubt + "; the poses of several sensors are not refined here: choose the "
+                                "clouds of one with --topic TOPIC@FRAME, or say where each sensor "
+                                "is in a rig file (docs/upkeep.md)"});
     }
     return chosen;
 }
@@ -277,7 +297,9 @@ std::string use_track(io::Recording& recording,
 }
 
 void write_poses(const std::filesystem::path& path, const io::Recording& sensor) {
-    const io::Recording recording = io::with_sensor_at(sensor, Eigen::Vector3d::Zero());
+    const io::Recording recording = io::knows_places(sensor.parts())
+                                        ? io::with_vehicle_poses(sensor)
+                                        : io::with_sensor_at(sensor, Eigen::Vector3d::Zero());
     if (path.extension() == ".tum") {
         io::write_poses_tum(path, recording.info().stamps, recording.info().T_world_sensor);
     } else {

@@ -43,8 +43,8 @@ void ensure_poses(io::Recording& recording, const Config& config, const MotionCh
 /// Returns how far the odometry got, in a sentence.
 std::string use_track(io::Recording& recording, const std::vector<std::optional<Tracked>>& tracked);
 
-/// The recording's poses, of the frame of the points of its files: .tum with stamps, otherwise
-/// KITTI's rows.
+/// The recording's poses, of the frame of the points of its files, or of the vehicle if the
+/// recording is a rig: .tum with stamps, otherwise KITTI's rows.
 void write_poses(const std::filesystem::path& path, const io::Recording& sensor);
 
 }  // namespace dynamic_filter::app

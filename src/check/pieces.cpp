@@ -43,6 +43,14 @@ std::vector<Piece> read_pieces(const Recording& recording, std::size_t most, std
     return pieces;
 }
 
+Twist velocity_at(const Recording& recording, std::size_t i) {
+    const Info& info = recording.info();
+    const std::size_t from = i == 0 ? 0 : i - 1, to = std::min(i + 1, recording.size() - 1);
+    const double passed = info.stamps[to] - info.stamps[from];
+    if (!(passed > 0.0)) return Twist::Zero();
+    return log(info.T_world_sensor[from].inverse() * info.T_world_sensor[to]) / passed;
+}
+
 std::vector<Pose> given_poses(const Piece& piece) {
     std::vector<Pose> poses;
     for (const Scan& scan : piece) poses.push_back(scan.T_world_sensor);

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "dynamic_filter/motion.hpp"
 #include "dynamic_filter/recording.hpp"
 #include "dynamic_filter/settings.hpp"
 
@@ -23,6 +24,9 @@ std::vector<Piece> read_pieces(const Recording& recording, std::size_t most, std
 
 /// At most `in_a_row` scans from `first` on; those that cannot be read are left out.
 Piece read_piece(const Recording& recording, std::size_t first, std::size_t in_a_row);
+
+/// Of the sensor at a scan, from the poses before and after it, in the sensor frame, per second.
+Twist velocity_at(const Recording& recording, std::size_t i);
 
 /// The poses that the scans have.
 std::vector<Pose> given_poses(const Piece& piece);

@@ -33,15 +33,6 @@ struct Screened {
     Twist velocity = Twist::Zero();
 };
 
-/// From the poses before and after the scan.
-Twist velocity_at(const Recording& recording, std::size_t i) {
-    const Info& info = recording.info();
-    const std::size_t from = i == 0 ? 0 : i - 1, to = std::min(i + 1, recording.size() - 1);
-    const double passed = info.stamps[to] - info.stamps[from];
-    if (!(passed > 0.0)) return Twist::Zero();
-    return log(info.T_world_sensor[from].inverse() * info.T_world_sensor[to]) / passed;
-}
-
 std::vector<Screened> read_place(const Recording& recording, std::size_t first) {
     std::vector<Screened> scans;
     for (const std::size_t apart : kScreened) {

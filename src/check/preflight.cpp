@@ -13,6 +13,7 @@
 #include "check/choose_poses.hpp"
 #include "check/motion_look.hpp"
 #include "check/overlay.hpp"
+#include "check/rig_fit.hpp"
 #include "check/rotation_parts.hpp"
 #include "check/samples.hpp"
 #include "check/scan_times.hpp"
@@ -571,11 +572,17 @@ Preflight check_recording(const Recording& recording, Depth depth) {
 Preflight check_recording(const Recording& recording, Depth depth, MotionLook& look) {
     const std::vector<Recording> sensors = by_sensor(recording);
     if (sensors.size() == 1) return check_sensor(recording, depth, look);
+    // A sensor that is elsewhere on the vehicle makes all of its poses look wrong.
+    std::vector<Finding> misplaced = misplaced_sensors(recording, look.config());
     Preflight result;
     for (const Recording& sensor : sensors) {
         MotionLook own_look(sensor, look.config(), look.deskew());
-        merge(result, check_sensor(sensor, depth, own_look));
+        Preflight of_sensor = check_sensor(sensor, depth, own_look);
+        const bool is_first = &sensor == &sensors.front();
+        if (!is_first && !misplaced.empty()) of_sensor.findings.clear();
+        merge(result, std::move(of_sensor));
     }
+    std::move(misplaced.begin(), misplaced.end(), std::back_inserter(result.findings));
     return result;
 }
 

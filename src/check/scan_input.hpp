@@ -14,8 +14,8 @@ namespace dynamic_filter::io {
 inline std::optional<Scan> read_scan(const Recording& recording, std::size_t i) {
     try {
         FullScan scan = recording.read(i);
-        return Scan{std::move(scan.points), scan.T_world_sensor,  scan.stamp, i,
-                    scan.has_pose,          std::move(scan.times)};
+        return Scan{std::move(scan.points), scan.T_world_sensor,   scan.stamp, i,
+                    scan.has_pose,          std::move(scan.times), scan.sensor};
     } catch (const InputError&) {
         return std::nullopt;
     }

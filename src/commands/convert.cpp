@@ -16,6 +16,7 @@
 #include "export/outputs.hpp"
 #include "export/part.hpp"
 #include "formats/voxel_map/map_index.hpp"
+#include "recording/rig_file.hpp"
 
 namespace fs = std::filesystem;
 
@@ -151,7 +152,7 @@ int convert(const ConvertOptions& o) {
     }
     refuse_map_options(o);
     const bool is_recording = !o.data.format.empty() || fs::is_directory(o.data.data, ignored) ||
-                              io::Bag::recognises(o.data.data);
+                              io::Bag::recognises(o.data.data) || io::is_rig_file(o.data.data);
     refuse_idle_options(o, kind, is_recording);
     return is_recording ? convert_recording(o) : convert_cloud(o);
 }

@@ -15,6 +15,7 @@
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/recording.hpp"
 #include "formats/voxel_map/map_index.hpp"
+#include "recording/rig_file.hpp"
 #include "recording/scans.hpp"
 
 namespace dynamic_filter::app {
@@ -203,7 +204,8 @@ int info(const DataOptions& of) {
     } else if (of.format == "bag" || (of.format.empty() && io::Bag::recognises(file))) {
         describe_bag(file);
         describe_scans_of_bag(of);
-    } else if (of.format.empty() && std::filesystem::is_regular_file(file)) {
+    } else if (of.format.empty() && std::filesystem::is_regular_file(file) &&
+               !io::is_rig_file(file)) {
         refuse_selection(of);
         describe_cloud(file, io::read_cloud(file));
     } else {

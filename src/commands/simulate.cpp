@@ -9,6 +9,7 @@
 #include "base/exit_code.hpp"
 #include "base/output_folder.hpp"
 #include "base/progress.hpp"
+#include "base/text.hpp"
 #include "commands/all.hpp"
 #include "commands/shared_options.hpp"
 #include "commands/write_simulation.hpp"
@@ -16,6 +17,7 @@
 #include "export/outputs.hpp"
 #include "formats/knowable_file.hpp"
 #include "formats/label_files.hpp"
+#include "geometry/pose.hpp"
 #include "sim/knowable.hpp"
 
 namespace dynamic_filter::app {
@@ -26,7 +28,19 @@ struct SimulateOptions {
     sim::SimulationOptions simulation;
     std::filesystem::path output;
     bool knowable = false, overwrite = false, quiet = false;
+    std::string mount{};
 };
+
+/// The pose of "X,Y,Z,ROLL,PITCH,YAW". Throws ConfigError.
+Pose mount_of(const std::string& text) {
+    const std::vector<double> numbers = io::parse_reals(text);
+    if (numbers.size() != 6) {
+        throw ConfigError("--mount: '" + text +
+                          "' is no mount; expected X,Y,Z in metres and ROLL,PITCH,YAW in degrees, "
+                          "such as -0.5,0,0.2,0,10,180");
+    }
+    return placed({numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]});
+}
 
 /// x y z intensity t.
 io::Cloud timed_cloud(const sim::SimulatedScan& scan) {
@@ -145,7 +159,9 @@ std::size_t write_simulation(const sim::SimulationOptions& options,
 
 int simulate(const SimulateOptions& o) {
     catch_interrupts();
-    for (const auto& [options, folder] : simulated_recordings(o.simulation, o.output)) {
+    sim::SimulationOptions simulation = o.simulation;
+    if (!o.mount.empty()) simulation.mount = mount_of(o.mount);
+    for (const auto& [options, folder] : simulated_recordings(simulation, o.output)) {
         if (interrupted()) break;
         OutputFolder output(folder, recording_files(), replaced_if(o.overwrite));
         const std::size_t points = write_simulation(options, output.path(), o.quiet, o.knowable);
@@ -174,6 +190,10 @@ void add_simulate(Program& program) {
     c.whole("--drives", s.drives, {1, 1000},
             "drives on different days, in the scene city (default: 3); they become OUTPUT/drive_1 "
             "and so on");
+    c.text("--mount", o->mount,
+           "X,Y,Z,ROLL,PITCH,YAW [m, deg] of this sensor in the frame of the scene's own sensor: "
+           "another sensor on the same vehicle, in a recording of its own");
+    c.number("--delay", s.delay, {0.0, 10.0}, "stamp of the first scan [s]; sensors take turns");
     c.flag("--sweep", s.sweep,
            "measure the points of a scan one after the other while everything moves, as a real "
            "sensor does; the scans are "

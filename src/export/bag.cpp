@@ -33,11 +33,13 @@ public:
             const bool wide = field.type == io::FieldType::i64 || field.type == io::FieldType::u64;
             if (wide) rounded_ = "64-bit integers are rounded to doubles";
         }
+        const std::string& name = scan.sensor_name;
+        const std::string frame = name.empty() ? "lidar" : name;
         write("/tf", "tf2_msgs/TFMessage", scan.stamp,
-              io::transform_message(kWorld, kSensor, scan.T_world_sensor, scan.stamp, encoding_));
-        const auto write_points = [&](const char* name, const io::Cloud& points) {
-            write(name, "sensor_msgs/PointCloud2", scan.stamp,
-                  io::cloud_message(points, scan.stamp, kSensor, encoding_));
+              io::transform_message(kWorld, frame, scan.T_world_sensor, scan.stamp, encoding_));
+        const auto write_points = [&](const char* topic, const io::Cloud& points) {
+            write((name.empty() ? "" : "/" + name) + topic, "sensor_msgs/PointCloud2", scan.stamp,
+                  io::cloud_message(points, scan.stamp, frame, encoding_));
         };
         if (only_.empty()) write_points("/points", cloud);
         if (labels.empty()) return;
@@ -54,12 +56,12 @@ public:
     }
 
 private:
-    void write(const char* name, const char* type, double stamp,
+    void write(const std::string& name, const char* type, double stamp,
                const std::vector<std::byte>& message) {
         writer_->write({name, type, encoding_}, io::to_nanoseconds(stamp), message);
     }
 
-    static constexpr const char *kWorld = "map", *kSensor = "lidar";
+    static constexpr const char* kWorld = "map";
 
     /// The record with the coordinates that the filter sees.
     static io::Cloud in_sensor(const io::FullScan& scan) {

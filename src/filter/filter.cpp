@@ -38,19 +38,27 @@ CellBounds bounds_of(const Region& region, double voxel_size) {
 }  // namespace
 
 struct DynamicFilter::Impl {
+    /// Each of several sensors sees objects at times of its own.
+    struct Sensor {
+        Eigen::Index axis;  // see beam_axis(), of its first scan
+        Objects objects;
+    };
+
     Impl(const Config& settings, const std::optional<CellBounds>& bounds)
         : config(checked(settings)),
           frame{.voxel_size = config.map.voxel_size},
           map(config, bounds),
-          instant(config),
-          objects(config.scans.instances) {}
+          instant(config) {}
 
     Scan place(Scan scan);
     Verdict judge(const Scan& scan);
     [[nodiscard]] LocatedScan locate(const Scan& scan) const {
+        const Eigen::Index axis = scan.sensor < sensors.size() ? sensors[scan.sensor].axis : 2;
         return axis == 2 ? frame.locate(scan, map.grid().voxels())
                          : frame.locate(turned_to_z(scan, axis), map.grid().voxels());
     }
+    /// What is known of the sensor; a new one is added with its first scan.
+    Sensor& sensor_of(const Scan& scan);
     [[nodiscard]] std::vector<bool> what_stays(std::size_t index, const PointVoxels& voxels) const;
     [[nodiscard]] std::vector<StaticVoxel> in_world(std::span<const VoxelOccupancy> voxels) const;
     void judge_mirrors();
@@ -63,10 +71,9 @@ struct DynamicFilter::Impl {
 
     Config config;
     MapFrame frame;
-    Eigen::Index axis = 2;  // see beam_axis(), of the first scan
+    std::vector<Sensor> sensors;  // by Scan::sensor
     EvidenceMap map;
     InstantLabels instant;
-    Objects objects;
     bool finished = false;
     std::vector<Mirror> mirrors;  // after finish()
     VoxelDecisions decided;       // after finish()
@@ -100,6 +107,7 @@ Verdict DynamicFilter::judge(Scan scan) { return impl_->judge(impl_->place(std::
 Verdict DynamicFilter::Impl::judge(const Scan& scan) {
     return timed(times, "judge", [&] {
         const PointVoxels voxels = map.insert(scan, times);
+        Objects& objects = sensors[scan.sensor].objects;
         Verdict verdict;
         std::optional<Clusters> clusters;
         timed(times, "instant_verdict", [&] {  // clusters need no labels
@@ -129,21 +137,31 @@ Scan DynamicFilter::Impl::place(Scan scan) {
     if (!scan.has_pose) {
         throw Error(name + " has no pose; OnlineFilter finds the poses of such scans");
     }
-    if (map.grid().scans() == 0) axis = beam_axis(scan.points);
+    const Eigen::Index axis = sensor_of(scan).axis;
     frame.begin(scan.T_world_sensor);
     scan.T_world_sensor = frame.to_map(scan.T_world_sensor);
     return turned_to_z(std::move(scan), axis);
 }
 
+DynamicFilter::Impl::Sensor& DynamicFilter::Impl::sensor_of(const Scan& scan) {
+    while (sensors.size() <= scan.sensor) {
+        sensors.push_back({beam_axis(scan.points), Objects(config.scans.instances)});
+    }
+    return sensors[scan.sensor];
+}
+
 void DynamicFilter::begin_drive() {
     impl_->map.begin_drive();
-    impl_->objects = Objects(impl_->config.scans.instances);
+    for (Impl::Sensor& sensor : impl_->sensors) {
+        sensor.objects = Objects(impl_->config.scans.instances);
+    }
 }
 
 void DynamicFilter::look_again(std::size_t drive, Scan scan) {
     if (!impl_->frame.origin) return;
     scan.T_world_sensor = impl_->frame.to_map(scan.T_world_sensor);
-    scan = turned_to_z(std::move(scan), impl_->axis);
+    const Eigen::Index axis = impl_->sensor_of(scan).axis;
+    scan = turned_to_z(std::move(scan), axis);
     timed(impl_->times, "look_again", [&] { impl_->map.look_again(drive, scan); });
 }
 
@@ -262,7 +280,7 @@ void DynamicFilter::keep_within(const Pose& T_world_center, double radius, std::
     const std::vector<std::uint32_t> kept =
         impl_->map.keep_within(center.cast<float>(), static_cast<float>(radius), most);
     impl_->instant.keep(kept);
-    impl_->objects.keep(kept);
+    for (Impl::Sensor& sensor : impl_->sensors) sensor.objects.keep(kept);
 }
 
 std::size_t DynamicFilter::size() const { return impl_->map.grid().size(); }

@@ -22,29 +22,31 @@ bool Keyframes::is_reliable(const BeamPattern& beams, const Scan& scan) const {
 }
 
 bool Keyframes::add(const Scan& scan, std::uint32_t owner) {
-    if (last_keyframe_ && !is_keyframe(*last_keyframe_, scan, keyframe_)) return false;
-    const BeamPattern beams = beams_ ? *beams_ : estimate_beam_pattern({&scan, 1});
-    if (!beams_ && is_reliable(beams, scan)) {
-        beams_ = beams;
-        thinned_ = thinning_of(scan.points);
+    if (scan.sensor >= sensors_.size()) sensors_.resize(scan.sensor + 1);
+    Sensor& sensor = sensors_[scan.sensor];
+    if (sensor.last_keyframe && !is_keyframe(*sensor.last_keyframe, scan, keyframe_)) return false;
+    const BeamPattern beams = sensor.beams ? *sensor.beams : estimate_beam_pattern({&scan, 1});
+    if (!sensor.beams && is_reliable(beams, scan)) {
+        sensor.beams = beams;
+        sensor.thinned = thinning_of(scan.points);
     }
-    last_keyframe_ = Scan{{}, scan.T_world_sensor, scan.stamp, scan.index};
-    const bool looks_far = kept_.empty() || scan.stamp - last_far_look_ >= keyframe_.interval;
-    if (looks_far) last_far_look_ = scan.stamp;
+    sensor.last_keyframe = Scan{{}, scan.T_world_sensor, scan.stamp, scan.index};
+    const bool looks_far =
+        !sensor.last_far_look || scan.stamp - *sensor.last_far_look >= keyframe_.interval;
+    if (looks_far) sensor.last_far_look = scan.stamp;
     const float reach =
         looks_far ? farthest_ : std::min(static_cast<float>(config_.near_reach), farthest_);
-    kept_.push_back({BeamImage(scan.points, thinned_ > 0.0F ? kFine : beams),
-                     scan.T_world_sensor.inverse().cast<float>(), reach, scan.index, thinned_,
+    kept_.push_back({BeamImage(scan.points, sensor.thinned > 0.0F ? kFine : beams),
+                     scan.T_world_sensor.inverse().cast<float>(), reach, scan.index, sensor.thinned,
                      owner});
     ++total_;
-    if (kept_.size() > most_) kept_.pop_front();
+    if (kept_.size() > most_ * sensors_.size()) kept_.pop_front();
     return true;
 }
 
 void Keyframes::begin_drive() {
     kept_.clear();
-    last_keyframe_.reset();
-    beams_.reset();
+    sensors_.clear();
 }
 
 std::vector<Keyframes::Asked> Keyframes::asked_by_new() const {

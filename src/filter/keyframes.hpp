@@ -24,7 +24,8 @@ struct Keyframe {
     std::uint32_t owner = 0;  ///< its number in the order of the scans, as in Evidence
 };
 
-/// Stores the newest keyframes of a drive. Single caller.
+/// Stores the newest keyframes of a drive. Each of several sensors has keyframes as if it were
+/// alone. Single caller.
 class Keyframes {
 public:
     explicit Keyframes(const Config& config)
@@ -54,8 +55,10 @@ public:
     [[nodiscard]] std::size_t total() const {
         return total_;
     }  ///< including those that are no longer kept
-    /// Measured on the first scan that has enough points; empty before that scan.
-    [[nodiscard]] const std::optional<BeamPattern>& beams() const { return beams_; }
+    /// Of the first sensor: measured on its first scan that has enough points; empty before it.
+    [[nodiscard]] std::optional<BeamPattern> beams() const {
+        return sensors_.empty() ? std::nullopt : sensors_.front().beams;
+    }
 
 private:
     [[nodiscard]] bool is_reliable(const BeamPattern& beams, const Scan& scan) const;
@@ -64,10 +67,13 @@ private:
     ScansConfig::Observers config_;
     float farthest_;  // [m]
     std::size_t most_;
-    std::optional<BeamPattern> beams_;
-    float thinned_ = 0.0F;               // [m] measured with `beams_`
-    std::optional<Scan> last_keyframe_;  // only its pose and stamp
-    double last_far_look_ = 0.0;         // [s]
+    struct Sensor {
+        std::optional<BeamPattern> beams;
+        float thinned = 0.0F;                 // [m] measured with `beams`
+        std::optional<Scan> last_keyframe;    // only its pose and stamp
+        std::optional<double> last_far_look;  // [s]
+    };
+    std::vector<Sensor> sensors_;  // by Scan::sensor
     std::deque<Keyframe> kept_;
     std::size_t total_ = 0;
 };

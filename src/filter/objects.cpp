@@ -58,7 +58,8 @@ void note_leaving(Track& track, const Cluster& cluster, const Keyframe& keyframe
 
 }  // namespace
 
-std::optional<Clusters> Objects::clusters_in(const Scan& scan, const PointVoxels& voxels) const {
+std::optional<Clusters> Objects::clusters_in(const Scan& scan, const PointVoxels& voxels) {
+    ++scans_;
     if (last_stamp_ && scan.stamp - *last_stamp_ < config_.every) return std::nullopt;
     return find_clusters(scan.points, voxels, config_);
 }
@@ -68,8 +69,8 @@ void Objects::update(const Scan& scan, const PointVoxels& voxels, const Clusters
     const double elapsed = last_stamp_ ? scan.stamp - *last_stamp_ : config_.every;
     EvidenceGrid& grid = map.grid();
     const std::uint32_t newest = grid.scans() - 1;
-    // Number of scans for which this one stands.
-    const std::uint32_t scans = last_stamp_ ? newest - last_scan_ : 1;
+    // Number of scans of the sensor for which this one stands.
+    const std::uint32_t scans = std::exchange(scans_, 0);
     const Point sensor = scan.T_world_sensor.translation().cast<float>();
     Point sensor_velocity = Point::Zero();
     if (last_stamp_) sensor_velocity = (sensor - last_sensor_) / static_cast<float>(elapsed);

@@ -40,6 +40,8 @@ namespace dynamic_filter {
 /// beside a car that passes. So a voxel counts only if it was seen empty, or was not seen at all,
 /// before the track came.
 ///
+/// Of several sensors, each has objects of its own.
+///
 /// Source: docs/how-it-works.md, "Objects". Single caller. Memory: 4 bytes for each voxel of the
 /// map, 8 bytes for each voxel of the tracks in sight, and 5 KB for each track.
 class Objects {
@@ -48,8 +50,7 @@ public:
 
     /// The clusters of the scan that was last added to the grid; empty if it follows sooner than
     /// `every`, because then it is skipped.
-    [[nodiscard]] std::optional<Clusters> clusters_in(const Scan& scan,
-                                                      const PointVoxels& voxels) const;
+    [[nodiscard]] std::optional<Clusters> clusters_in(const Scan& scan, const PointVoxels& voxels);
     /// Follows the clusters of that scan. `labels` are its instant verdicts; points of moving
     /// objects become dynamic there.
     void update(const Scan& scan, const PointVoxels& voxels, const Clusters& clusters,
@@ -89,6 +90,7 @@ private:
     Point last_sensor_ = Point::Zero();      // [m] place of the sensor in the last scan
     std::optional<Eigen::Vector3d> origin_;  // [m, world frame] of the compared surfaces
     std::uint32_t last_scan_ = 0;
+    std::uint32_t scans_ = 0;  // since the last update, with the newest
 };
 
 }  // namespace dynamic_filter

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "base/edit_distance.hpp"
 #include "base/exit_code.hpp"
 #include "base/progress.hpp"
@@ -23,8 +25,9 @@ using Clock = std::chrono::steady_clock;
 struct Seen {
     UsableTopics topics;
     std::string cloud;
-    std::string ambiguous;  ///< why no topic of scans could be chosen
-    std::size_t scans = 0;  ///< with poses, or to be tracked
+    std::vector<std::string> missing;  ///< topics of input.cloud that nobody publishes
+    std::string ambiguous;             ///< why no topic of scans could be chosen
+    std::size_t scans = 0;             ///< with poses, or to be tracked
     std::optional<LiveScan> first, last;
     double delay = 0.0;  ///< [s] of the newest stamp behind the clock of this machine
     IntakeCounters counters;
@@ -54,6 +57,12 @@ Seen listen_to(Bus& bus, const LiveConfig& config, double look) {
     }
     seen.topics = usable(bus.seen());
     seen.cloud = subscriptions.cloud();
+    for (const std::string& topic : cloud_topics(config)) {
+        const auto& there = subscriptions.clouds();
+        if (std::find(there.begin(), there.end(), topic) == there.end()) {
+            seen.missing.push_back(topic);
+        }
+    }
     seen.counters = intake.counters();
     seen.origin = intake.origin();
     seen.poses = intake.poses_text();
@@ -119,8 +128,10 @@ std::vector<std::string> problems_of(const Seen& seen, const Bus& bus, const Liv
     if (t.clouds.empty() && !t.packets.empty()) problems.push_back(needs_driver(t.packets.front()));
     if (t.clouds.empty() && t.packets.empty() && t.poses.empty() && t.transforms.empty()) {
         problems.push_back(nothing_there(bus));
-    } else if (seen.cloud.empty() && !config.input.cloud.empty()) {
-        problems.push_back(no_such_cloud(seen, config.input.cloud));
+    } else if (!seen.missing.empty()) {
+        for (const std::string& topic : seen.missing) {
+            problems.push_back(no_such_cloud(seen, topic));
+        }
     } else if (seen.cloud.empty() && seen.ambiguous.empty() && t.packets.empty()) {
         problems.emplace_back("nobody publishes a PointCloud2 or a CustomMsg of Livox");
     } else if (!seen.cloud.empty() && seen.counters.received == 0) {

@@ -41,7 +41,7 @@ std::vector<std::string> keys_of(const Map& map) {
 
 }  // namespace
 
-Intake::Intake(const LiveConfig& config) : config_(config) {
+Intake::Intake(const LiveConfig& config) : config_(config), cloud_topics_(cloud_topics(config)) {
     const std::string& pose = config.input.pose;
     if (pose == "none") origin_ = PoseOrigin::odometry;
     if (pose == "/tf") origin_ = PoseOrigin::frames;
@@ -206,6 +206,10 @@ std::optional<LiveScan> Intake::read_cloud() {
         scan.stamp = message.header.stamp;
         scan.stamp_ns = message.header.stamp_ns;
         scan.arrived = arrived.at;
+        const auto of = std::find(cloud_topics_.begin(), cloud_topics_.end(), arrived.topic.name);
+        if (of != cloud_topics_.end()) {
+            scan.sensor = static_cast<std::size_t>(of - cloud_topics_.begin());
+        }
         if (config_.input.deskew) scan.times = io::point_times(scan.cloud, scan.stamp);
         if (scan.stamp < 0.0 || scan.stamp >= kEndOfTime) {
             throw io::Malformed(
@@ -270,8 +274,9 @@ void Intake::decide(const LiveScan& scan) {
                             "another",
                             fmt::join(keys_of(topics_), ", "), pose_topic_));
         }
-    } else if (seconds_between(*first_cloud_, std::chrono::steady_clock::now()) >=
-               config_.input.decide) {
+    } else if (cloud_topics_.size() < 2 &&
+               seconds_between(*first_cloud_, std::chrono::steady_clock::now()) >=
+                   config_.input.decide) {
         origin_ = PoseOrigin::odometry;
         tell(fmt::format("no poses came for {:.0f} s, so they are found by odometry from now on",
                          config_.input.decide));
@@ -326,6 +331,11 @@ void Intake::note_world(const std::string& world, const std::string& why) {
 std::string Intake::why_no_pose(const std::string& frame, double stamp) const {
     if (origin_ == PoseOrigin::topic && !topics_.contains(pose_topic_)) {
         return fmt::format("nothing was received on {}", pose_topic_);
+    }
+    if (origin_ == PoseOrigin::undecided && cloud_topics_.size() > 1) {
+        return fmt::format(
+            "no poses of '{}', and several sensors need them: /tf must lead to the frame of each",
+            frame);
     }
     if (origin_ == PoseOrigin::undecided) {
         return frames_.size() == 0

@@ -41,6 +41,7 @@ struct LiveScan {
     std::optional<Pose> T_root_sensor;
     std::vector<std::uint8_t> own;  ///< see FullScan::own
     SteadyTime arrived;             ///< when the bus delivered the cloud
+    std::size_t sensor = 0;         ///< see Scan::sensor
 };
 
 /// Numbers of clouds; received = taken + malformed + without_pose + overrun + those that wait.
@@ -103,6 +104,7 @@ private:
     void tell(std::string text);
 
     const LiveConfig& config_;
+    const std::vector<std::string> cloud_topics_;  // several: by sensor
 
     mutable std::mutex lock_;  // guards the members below
     std::condition_variable came_;

@@ -223,7 +223,9 @@ int live(Bus& bus, const LiveOptions& o, LiveConfig config) {
     }
     if (o.dry_run) return dry_run(bus, config, o.look);
     std::optional<Recorder> recorder;
-    if (o.record) recorder.emplace(*o.record, bus.encoding(), o.overwrite);
+    if (o.record) {
+        recorder.emplace(*o.record, bus.encoding(), o.overwrite, cloud_topics(config).size() > 1);
+    }
     const auto foxglove = serve(config, bus.encoding());
     if (!o.quiet) {
         fmt::print(stderr, "listens  {}\n", bus.description());

@@ -5,7 +5,9 @@
 #include <fmt/ranges.h>
 
 #include <cstdlib>
+#include <set>
 
+#include "base/text.hpp"
 #include "dynamic_filter/error.hpp"
 
 namespace dynamic_filter::live {
@@ -33,6 +35,24 @@ void check_grid(const LiveConfig::Grid& grid) {
         throw ConfigError(
             fmt::format("setting 'grid.robot_height': {} must be greater than 'grid.step', {}",
                         grid.robot_height, grid.step));
+    }
+}
+
+/// The sensors of a vehicle are linked by /tf alone.
+void check_sensors(const LiveConfig& config) {
+    const std::vector<std::string> topics = cloud_topics(config);
+    if (topics.size() < 2) return;
+    if (std::set<std::string>(topics.begin(), topics.end()).size() < topics.size()) {
+        throw ConfigError("setting 'input.cloud': names a topic twice");
+    }
+    if (config.input.pose == "none") {
+        throw ConfigError(
+            "setting 'input.pose': the own odometry follows one sensor, and 'input.cloud' names "
+            "several");
+    }
+    if (!config.input.mask.empty()) {
+        throw ConfigError(
+            "setting 'input.mask': is in the frame of one sensor, and 'input.cloud' names several");
     }
 }
 
@@ -65,6 +85,15 @@ void validate(const LiveConfig& config) {
     validate(config.filter);
     check_prefix(config);
     check_grid(config.grid);
+    check_sensors(config);
+}
+
+std::vector<std::string> cloud_topics(const LiveConfig& config) {
+    std::vector<std::string> topics;
+    for (const std::string_view topic : io::split_tokens(config.input.cloud)) {
+        topics.emplace_back(topic);
+    }
+    return topics;
 }
 
 LiveConfig load_live_config(const app::ConfigOptions& options,

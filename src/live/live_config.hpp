@@ -55,7 +55,10 @@ void visit_live(C& c, F&& f) {
               "localhost, all (the default interface), or the name of an interface such as eth0; "
               "empty: what CYCLONEDDS_URI says, or else localhost; ROS 2 only"},
       c.bus.network);
-    f(Setting{"input.cloud", "", "", "topic of the scans; empty: the only one"}, c.input.cloud);
+    f(Setting{"input.cloud", "", "",
+              "topic of the scans, or several with blanks between them, of the sensors of one "
+              "vehicle; empty: the only one"},
+      c.input.cloud);
     f(Setting{"input.pose", "", "",
               "/tf, a topic of Odometry or PoseStamped, or none for own odometry; empty: /tf, or "
               "else the first topic with poses, or else own odometry"},
@@ -145,6 +148,9 @@ void visit(C& c, F&& f) {
     visit_live(c, f);
     visit(c.filter, f);
 }
+
+/// The topics of input.cloud: one for each sensor.
+std::vector<std::string> cloud_topics(const LiveConfig& config);
 
 /// Sets one setting of live or of the filter. Throws ConfigError, which names the nearest key.
 void set(LiveConfig& config, const std::string& key, const std::string& value);

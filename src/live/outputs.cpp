@@ -201,7 +201,7 @@ JudgedScan Outputs::judged(const LiveScan& scan, const Verdict& verdict) {
     const bool in_world = scan.has_pose && scan.frame == scan.world;
     publish_removed(scan.stamp, points, verdict.labels,
                     in_world ? Pose::Identity() : T_world_sensor, world);
-    publish_path(scan.stamp, T_world_sensor, world);
+    if (scan.sensor == 0) publish_path(scan.stamp, T_world_sensor, world);
     return {scan.frame, scan.stamp_ns, points, verdict.labels};
 }
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "dynamic_filter/bag.hpp"
 #include "dynamic_filter/error.hpp"
@@ -23,8 +22,12 @@ fs::path without_slash(const fs::path& folder) {
 
 }  // namespace
 
-Recorder::Recorder(const fs::path& output, io::MessageEncoding encoding, bool overwrite)
-    : output_(without_slash(output)), encoding_(encoding), overwrite_(overwrite) {
+Recorder::Recorder(const fs::path& output, io::MessageEncoding encoding, bool overwrite,
+                   bool several)
+    : output_(without_slash(output)),
+      encoding_(encoding),
+      overwrite_(overwrite),
+      several_(several) {
     if (overwrite_ || !is_taken(output_)) return;
     throw ConfigError(fmt::format("{} or {}: exists; choose another --record, or --overwrite",
                                   output_.string(), bag_of(output_).string()));
@@ -53,16 +56,18 @@ void Recorder::begin() {
     }
     writer_ = io::BagWriter::create(bag_of(current));
     written_.push_back(current);
-    last_scan_ = last_pose_ = -std::numeric_limits<double>::infinity();
+    last_scan_.clear();
+    last_pose_.clear();
 }
 
 void Recorder::add(const LiveScan& scan) {
-    if (writer_ != nullptr && scan.stamp <= last_scan_) {
+    const auto last = last_scan_.find(scan.frame);
+    if (writer_ != nullptr && last != last_scan_.end() && scan.stamp <= last->second) {
         writer_->commit();
         writer_.reset();
     }
     if (writer_ == nullptr) begin();
-    last_scan_ = scan.stamp;
+    last_scan_[scan.frame] = scan.stamp;
     writer_->write({"/points", "sensor_msgs/PointCloud2", encoding_}, scan.stamp_ns,
                    io::cloud_message(scan.cloud, scan.stamp, scan.frame, encoding_));
     if (!scan.has_pose) return;
@@ -73,10 +78,16 @@ void Recorder::add(const LiveScan& scan) {
 }
 
 void Recorder::write_pose(const LiveScan& scan, double stamp, const Pose& T_world_sensor) {
-    if (stamp <= last_pose_) return;
-    last_pose_ = stamp;
+    const auto [last, is_first] = last_pose_.try_emplace(scan.frame, stamp);
+    if (!is_first && stamp <= last->second) return;
+    last->second = stamp;
     // Points in the world's frame have no frame of the sensor.
     const std::string child = scan.frame == scan.world ? "sensor" : scan.frame;
+    if (several_) {
+        writer_->write({"/tf", "tf2_msgs/TFMessage", encoding_}, io::to_nanoseconds(stamp),
+                       io::transform_message(scan.world, child, T_world_sensor, stamp, encoding_));
+        return;
+    }
     writer_->write({"/odometry", "nav_msgs/Odometry", encoding_}, io::to_nanoseconds(stamp),
                    io::odometry_message(scan.world, child, T_world_sensor, stamp, encoding_));
 }

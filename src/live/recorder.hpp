@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -16,8 +17,10 @@ namespace dynamic_filter::live {
 /// recording has one time. Single caller.
 class Recorder {
 public:
+    /// `several`: the scans are those of several sensors, whose poses are then written to /tf.
     /// Throws ConfigError if the folder or the bag exists and must not be replaced.
-    Recorder(const std::filesystem::path& output, io::MessageEncoding encoding, bool overwrite);
+    Recorder(const std::filesystem::path& output, io::MessageEncoding encoding, bool overwrite,
+             bool several = false);
 
     void add(const LiveScan& scan);
     /// Completes the bags; without it, the last one is not left. Returns the output folders whose
@@ -32,10 +35,10 @@ private:
 
     std::filesystem::path output_;
     io::MessageEncoding encoding_;
-    bool overwrite_;
+    bool overwrite_, several_;
     std::unique_ptr<io::BagWriter> writer_;  // null until the first scan
     std::vector<std::filesystem::path> written_;
-    double last_scan_ = 0.0, last_pose_ = 0.0;  // [s] in the current bag
+    std::map<std::string, double> last_scan_, last_pose_;  // [s] in the current bag; keys: frames
 };
 
 /// Makes the folder `output` of its bag, with the settings of the live filter. Returns the exit

@@ -26,7 +26,7 @@ OnlineOptions options_of(const LiveConfig& config) {
 
 /// The scan as the filter saw it.
 Scan scan_of(const LiveScan& scan, const Verdict& verdict) {
-    Scan seen{scan.points, scan.T_world_sensor, scan.stamp, verdict.index, true, {}};
+    Scan seen{scan.points, scan.T_world_sensor, scan.stamp, verdict.index, true, {}, scan.sensor};
     if (!verdict.tracked) return seen;
     seen.T_world_sensor = verdict.tracked->T_world_sensor;
     if (!scan.times.empty()) {
@@ -91,8 +91,8 @@ OnlineCallbacks Session::callbacks() {
 
 void Session::push(LiveScan scan) {
     scan.own = io::take_out(own_body_, scan.points);
-    Scan core{scan.points,   scan.T_world_sensor, scan.stamp,
-              next_index_++, scan.has_pose,       scan.times};
+    Scan core{scan.points,   scan.T_world_sensor, scan.stamp, next_index_++,
+              scan.has_pose, scan.times,          scan.sensor};
     {
         const std::lock_guard hold(lock_);
         if (failure_) std::rethrow_exception(failure_);

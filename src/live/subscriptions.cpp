@@ -68,9 +68,11 @@ Quality quality_for(const SeenTopic& topic, const std::string& qos) {
 
 void Subscriptions::update() {
     const UsableTopics topics = usable(bus_.seen());
-    if (cloud_.empty()) choose_cloud(topics);
+    choose_clouds(topics);
     for (const SeenTopic& topic : topics.clouds) {
-        if (topic.name == cloud_) subscribe(topic);
+        if (std::find(clouds_.begin(), clouds_.end(), topic.name) != clouds_.end()) {
+            subscribe(topic);
+        }
     }
     for (const SeenTopic& topic : topics.transforms) subscribe(topic);
     const bool undecided = intake_.origin() == PoseOrigin::undecided;
@@ -80,23 +82,42 @@ void Subscriptions::update() {
     }
 }
 
-void Subscriptions::choose_cloud(const UsableTopics& topics) {
-    if (!config_.input.cloud.empty()) {
-        if (is_listed(topics.clouds, config_.input.cloud)) cloud_ = config_.input.cloud;
-        return;
+void Subscriptions::choose_clouds(const UsableTopics& topics) {
+    const std::vector<std::string> wanted = cloud_topics(config_);
+    for (const std::string& name : wanted) {
+        const bool is_new = std::find(clouds_.begin(), clouds_.end(), name) == clouds_.end();
+        if (is_new && is_listed(topics.clouds, name)) clouds_.push_back(name);
     }
-    if (topics.clouds.empty()) return;
+    tell_missing(wanted);
+    if (!wanted.empty() || !clouds_.empty() || topics.clouds.empty()) return;
     // Others may be found a moment later.
     constexpr auto kMoment = std::chrono::milliseconds(1000);
     const auto now = std::chrono::steady_clock::now();
     if (!first_seen_) first_seen_ = now;
     if (now - *first_seen_ < kMoment) return;
     if (topics.clouds.size() > 1) {
-        throw ConfigError(fmt::format(
-            "several topics have point clouds: {}; choose one with --set input.cloud=TOPIC",
-            fmt::join(names_of(topics.clouds), ", ")));
+        throw ConfigError(
+            fmt::format("several topics have point clouds: {}; choose one with --set "
+                        "input.cloud=TOPIC, or name "
+                        "all sensors of the vehicle",
+                        fmt::join(names_of(topics.clouds), ", ")));
     }
-    cloud_ = topics.clouds.front().name;
+    clouds_.push_back(topics.clouds.front().name);
+}
+
+/// Once, if one of several sensors is not there a while after the first.
+void Subscriptions::tell_missing(const std::vector<std::string>& wanted) {
+    constexpr auto kWhile = std::chrono::seconds(3);
+    if (clouds_.empty() || clouds_.size() == wanted.size() || told_missing_) return;
+    const auto now = std::chrono::steady_clock::now();
+    if (!first_seen_) first_seen_ = now;
+    if (now - *first_seen_ < kWhile) return;
+    told_missing_ = true;
+    for (const std::string& name : wanted) {
+        if (std::find(clouds_.begin(), clouds_.end(), name) != clouds_.end()) continue;
+        notices_.push_back(fmt::format(
+            "nobody publishes scans on {}; those of the other sensors are filtered", name));
+    }
 }
 
 /// Again if a publisher came that offers less than was asked for: it would not be heard.

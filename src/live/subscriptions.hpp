@@ -41,18 +41,23 @@ public:
     /// Throws ConfigError if several topics could hold the scans.
     void update();
 
-    [[nodiscard]] const std::string& cloud() const { return cloud_; }  ///< empty: none yet
+    /// The topics of the scans that are there by now.
+    [[nodiscard]] const std::vector<std::string>& clouds() const { return clouds_; }
+    /// The first of them; empty: none yet.
+    [[nodiscard]] std::string cloud() const { return clouds_.empty() ? "" : clouds_.front(); }
     std::vector<std::string> pop_notices() { return std::exchange(notices_, {}); }
 
 private:
-    void choose_cloud(const UsableTopics& topics);
+    void choose_clouds(const UsableTopics& topics);
+    void tell_missing(const std::vector<std::string>& wanted);
     void subscribe(const SeenTopic& topic);
 
     Bus& bus_;
     const LiveConfig& config_;
     Intake& intake_;
-    std::string cloud_;
+    std::vector<std::string> clouds_;
     std::optional<std::chrono::steady_clock::time_point> first_seen_;
+    bool told_missing_ = false;
     std::map<std::string, Quality> subscribed_;  // keys: topics
     std::vector<std::string> notices_;
 };

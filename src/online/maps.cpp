@@ -54,7 +54,9 @@ Maps::Judged Maps::judge(Scan scan, Follows follows) {
         horizon_ = horizon_of(options_);
     }
     const std::size_t index = scan.index;
-    before_last_ = std::exchange(last_, StampedPose{scan.T_world_sensor, scan.stamp});
+    here_ = scan.T_world_sensor;
+    auto& [before_last, last] = followed_[scan.sensor];
+    before_last = std::exchange(last, StampedPose{scan.T_world_sensor, scan.stamp});
     if (options_.settle_after > 0 && judges_each_scan()) unsettled_.push_back(scan);
     std::visit(Either{[&](const std::unique_ptr<DynamicFilter>& filter) {
                           judged.instant.push_back(filter->judge(std::move(scan)));
@@ -76,11 +78,12 @@ Maps::Judged Maps::judge(Scan scan, Follows follows) {
 /// After a break, poses do not fit those before it, so the old evidence would be compared with the
 /// wrong places.
 std::optional<Notice> Maps::break_before(const Scan& scan, Follows follows) {
+    const auto& [before_last, last] = followed_[scan.sensor];
     const auto jump = follows == Follows::on
-                          ? pose_jump(before_last_, last_, {scan.T_world_sensor, scan.stamp})
+                          ? pose_jump(before_last, last, {scan.T_world_sensor, scan.stamp})
                           : std::nullopt;
     if (follows == Follows::on && !jump) return std::nullopt;
-    before_last_ = last_ = std::nullopt;
+    followed_.clear();
     const bool restarts = follows == Follows::restarts;
     Notice notice{restarts ? NoticeKind::restart : NoticeKind::jump, scan.index,
                   "stamps went back by more than a second; a new map begins"};
@@ -105,9 +108,8 @@ std::vector<Verdict> Maps::catch_up() {
 }
 
 void Maps::forget_far(DynamicFilter& filter) {
-    const Pose& here = last_->T_world_sensor;
-    const auto cut = horizon_.due(here.translation(), filter.size());
-    if (cut) filter.keep_within(here, cut->radius, cut->most);
+    const auto cut = horizon_.due(here_.translation(), filter.size());
+    if (cut) filter.keep_within(here_, cut->radius, cut->most);
 }
 
 /// Settles the oldest scans until so many are left.

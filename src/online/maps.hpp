@@ -89,9 +89,13 @@ private:
     const Config config_;
     const OnlineOptions options_;
     Tracker tracker_;
-    std::optional<StampedPose> before_last_, last_;
-    std::map<std::size_t, Tracked> untold_;  // by Scan::index, until the verdict comes
-    Labels learned_;                         // of the newest scan, for the tracker
+    struct Followed {
+        std::optional<StampedPose> before_last, last;
+    };
+    std::map<std::size_t, Followed> followed_;  // keys: sensors
+    Pose here_ = Pose::Identity();              // T_world_sensor of the newest scan
+    std::map<std::size_t, Tracked> untold_;     // by Scan::index, until the verdict comes
+    Labels learned_;                            // of the newest scan, for the tracker
     std::vector<Stretch> stretches_;
     std::deque<Scan> unsettled_;  // of the newest map
     Horizon horizon_;             // of the newest map

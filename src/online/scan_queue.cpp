@@ -59,14 +59,16 @@ std::optional<Notice> ScanQueue::refusal(const Scan& scan) const {
     const bool waits = std::any_of(waiting_.begin(), waiting_.end(), [&](const QueuedScan& w) {
         return repeats(w.stretch, w.scan.stamp, w.scan.T_world_sensor);
     });
-    if (waits || (taken_ && repeats(taken_->stretch, taken_->stamp, taken_->T_world_sensor))) {
+    const auto found = taken_.find(scan.sensor);
+    const Taken* const taken = found == taken_.end() ? nullptr : &found->second;
+    if (waits || (taken && repeats(taken->stretch, taken->stamp, taken->T_world_sensor))) {
         return because(NoticeKind::duplicate,
                        "the scan of " + seconds(scan.stamp) + " at this pose was pushed before");
     }
-    if (taken_ && taken_->stretch == stretch_ && scan.stamp < taken_->stamp) {
+    if (taken && taken->stretch == stretch_ && scan.stamp < taken->stamp) {
         return because(NoticeKind::late, "its stamp " + seconds(scan.stamp) +
                                              " is before that of a scan already judged, " +
-                                             seconds(taken_->stamp));
+                                             seconds(taken->stamp));
     }
     return std::nullopt;
 }
@@ -95,7 +97,7 @@ QueuedScan ScanQueue::remove_oldest() {
 
 QueuedScan ScanQueue::pop() {
     QueuedScan oldest = remove_oldest();
-    taken_ = {oldest.stretch, oldest.scan.stamp, oldest.scan.T_world_sensor};
+    taken_[oldest.scan.sensor] = {oldest.stretch, oldest.scan.stamp, oldest.scan.T_world_sensor};
     return oldest;
 }
 

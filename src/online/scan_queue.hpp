@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <deque>
 #include <future>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,7 +30,8 @@ public:
     /// The reason why the scan cannot be added; empty if it can.
     [[nodiscard]] std::optional<Notice> refusal(const Scan& scan) const;
 
-    /// Inserts a scan that is not refused. If its stamp is more than 1 s older than the newest one,
+    /// Inserts a scan that is not refused. (A scan is late if a later one of its own sensor was
+    /// judged.) If its stamp is more than 1 s older than the newest one,
     /// it begins a new stretch. If it is a little older, it goes before the waiting scans with
     /// later stamps.
     void add(QueuedScan waiting);
@@ -57,7 +59,7 @@ private:
         double stamp;
         Pose T_world_sensor;
     };
-    std::optional<Taken> taken_;  // the scan that was taken last
+    std::map<std::size_t, Taken> taken_;  // the scan that was taken last, by sensor
 };
 
 }  // namespace dynamic_filter

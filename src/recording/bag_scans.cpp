@@ -212,7 +212,9 @@ RecordingParts open_bag(const std::filesystem::path& data, const OpenOptions& op
                          }};
     if (several) {
         parts.sensors = std::move(several->sensors);
-        parts.trajectories = std::move(several->trajectories);
+        for (Trajectory& trajectory : several->trajectories) {
+            parts.rig.push_back({.trajectory = std::move(trajectory)});
+        }
     }
     return parts;
 }

@@ -115,9 +115,7 @@ Layout find_named(const Place& place) {
     if (row.turn != Turn::path) require_folder(place.data);
     if (auto layout = ask(row, place)) return *std::move(layout);
     require_folder(place.data);
-    throw InputError(place.data, "",
-                     fmt::format("is not {} (--format {}); looked for {}", row.name.what,
-                                 row.name.name, row.name.files));
+    throw not_of_layout(place.data, row);
 }
 
 }  // namespace

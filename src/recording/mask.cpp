@@ -48,12 +48,16 @@ Boxes read_mask(const std::filesystem::path& file) {
                                                          : read_boxes(file);
 }
 
-std::vector<std::uint8_t> take_out(const Boxes& boxes, Points& points) {
+std::vector<std::uint8_t> take_out(const Boxes& boxes, const Pose& T_body_sensor, Points& points) {
     Eigen::AlignedBox3f around;
     for (const Eigen::AlignedBox3f& box : boxes) around.extend(box);
+    const Eigen::Isometry3f T = T_body_sensor.cast<float>();
+    const bool is_turned = !T.matrix().isIdentity(0.0F);
     std::vector<std::uint8_t> own;
+    if (boxes.empty()) return own;
     for (std::size_t i = 0; i < points.size(); ++i) {
-        const auto holds = [&](const Eigen::AlignedBox3f& box) { return box.contains(points[i]); };
+        const Point at = is_turned ? Point(T * points[i]) : points[i];
+        const auto holds = [&](const Eigen::AlignedBox3f& box) { return box.contains(at); };
         if (!is_measured(points[i]) || !holds(around) ||
             std::none_of(boxes.begin(), boxes.end(), holds)) {
             continue;

@@ -18,8 +18,12 @@ Boxes read_boxes(const std::filesystem::path& file);
 Boxes read_mask(const std::filesystem::path& file);
 
 /// Moves the points in the boxes to the origin, where points are no measurements. Returns 1 for
-/// each of them, parallel to the points, or nothing if there are none.
-std::vector<std::uint8_t> take_out(const Boxes& boxes, Points& points);
+/// each of them, parallel to the points, or nothing if there are none. The boxes are in the frame
+/// into which `T_body_sensor` leads.
+std::vector<std::uint8_t> take_out(const Boxes& boxes, const Pose& T_body_sensor, Points& points);
+inline std::vector<std::uint8_t> take_out(const Boxes& boxes, Points& points) {
+    return take_out(boxes, Pose::Identity(), points);
+}
 
 /// Labels the points of the own body, which must not stay in a map, as dynamic. `own`: as in
 /// FullScan.

@@ -17,6 +17,8 @@
 #include "recording/matching.hpp"
 #include "recording/recording_parts.hpp"
 #include "recording/repeats.hpp"
+#include "recording/rig.hpp"
+#include "recording/rig_file.hpp"
 #include "recording/times_in_names.hpp"
 
 namespace dynamic_filter::io {
@@ -153,6 +155,19 @@ RecordingParts open_selected_bag(const std::filesystem::path& data, const OpenOp
     return parts;
 }
 
+/// A stride is that of each sensor, so that none of them is left out.
+RecordingParts open_selected_rig(const std::filesystem::path& file, const OpenOptions& options) {
+    if (!is_rig_file(file)) throw not_of_layout(file, layout_row("rig"));
+    RecordingParts parts = open_rig(file, options);
+    select(parts, options.first, options.last, 1);
+    if (options.stride == 1) return parts;
+    std::vector<std::size_t> seen(parts.rig.size()), chosen;
+    for (std::size_t i = 0; i < parts.sensors.size(); ++i) {
+        if (seen[parts.sensors[i]]++ % options.stride == 0) chosen.push_back(i);
+    }
+    return chosen_scans(Recording(std::move(parts)), chosen).parts();
+}
+
 void apply_fix(Info& info) {
     if (info.pose_fix == PoseFix::relative) {  // and no file of motions was read
         throw ConfigError(
@@ -173,6 +188,11 @@ void refuse_world_frame(const Info& info, const std::filesystem::path& data) {
                      "scan saw; give them with --poses");
 }
 
+bool is_rig(const std::filesystem::path& data, const OpenOptions& options) {
+    if (!options.layout.empty()) return layout_row(options.layout).turn == Turn::rig;
+    return is_rig_file(data);
+}
+
 bool is_bag(const std::filesystem::path& data, const OpenOptions& options) {
     if (!options.layout.empty()) return layout_row(options.layout).turn == Turn::bag;
     return Bag::recognises(data) && !has_scans(data);
@@ -182,14 +202,15 @@ bool is_bag(const std::filesystem::path& data, const OpenOptions& options) {
 
 Recording open_recording(const std::filesystem::path& data, const OpenOptions& options) {
     check_selection(options.first, options.last, options.stride);
-    RecordingParts parts =
-        is_bag(data, options) ? open_selected_bag(data, options) : open_folder(data, options);
+    RecordingParts parts = is_rig(data, options)   ? open_selected_rig(data, options)
+                           : is_bag(data, options) ? open_selected_bag(data, options)
+                                                   : open_folder(data, options);
     Info& info = parts.info;
     if (options.points_in_world) info.points_in_world = true;
     info.point_unit = options.point_unit;
     info.own_body = options.own_body;
     if (!info.has_poses) refuse_world_frame(info, data);
-    apply_fix(info);
+    if (parts.rig.empty()) apply_fix(info);
     const auto at = options.sensor_at ? options.sensor_at : std::exchange(info.sensor_at, {});
     const Recording opened(std::move(parts));
     const Recording recording = at ? with_sensor_at(opened, *at) : opened;

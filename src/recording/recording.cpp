@@ -96,8 +96,15 @@ void refuse_repeat(const Info& info, std::size_t i) {
                      "repeats the scan before it byte for byte: nothing new came from the sensor");
 }
 
+/// T_body_sensor: the boxes of the own body are in the frame of a vehicle with several sensors.
+Pose frame_of_body(const RecordingParts& parts, std::size_t i) {
+    if (parts.sensors.empty()) return Pose::Identity();
+    return parts.rig[parts.sensors[i]].T_vehicle_sensor.value_or(Pose::Identity());
+}
+
 /// Poses and points: those of the file in the sensor frame.
-void place(FullScan& scan, const Info& info, std::size_t i) {
+void place(FullScan& scan, const RecordingParts& parts, std::size_t i) {
+    const Info& info = parts.info;
     scan.has_pose = info.has_poses;
     const Eigen::Vector3d at = info.sensor_at.value_or(Eigen::Vector3d::Zero());
     if (info.has_poses && info.T_world_sensor.empty()) {
@@ -112,7 +119,7 @@ void place(FullScan& scan, const Info& info, std::size_t i) {
                       ? into_sensor(scan.cloud, info.point_unit, scan.T_world_sensor)
                       : seen_from(at, in_metres(positions(scan.cloud), info));
     scan.no_returns = drop_no_returns(scan.points);
-    scan.own = take_out(info.own_body, scan.points);
+    scan.own = take_out(info.own_body, frame_of_body(parts, i), scan.points);
     if (std::none_of(scan.points.begin(), scan.points.end(), is_measured)) {
         throw InputError(info.scan_files[i], "", "has no finite point away from the sensor");
     }
@@ -122,7 +129,7 @@ void treat_motion(FullScan& scan, const RecordingParts& parts, std::size_t i) {
     const Info& info = parts.info;
     if (info.deskewed) {
         const Trajectory& trajectory =
-            parts.sensors.empty() ? info.trajectory : parts.trajectories[parts.sensors[i]];
+            parts.sensors.empty() ? info.trajectory : parts.rig[parts.sensors[i]].trajectory;
         undo_motion(scan.points, times_of(info, scan), scan.stamp, trajectory);
     }
     if (parts.with_times) scan.times = times_of(info, scan);
@@ -224,14 +231,21 @@ FullScan Recording::read(std::size_t i) const {
     if (scan.cloud.size() == 0) throw InputError(info().scan_files[i], "", "has no points");
     check_pose(info(), i);  // a scan that cannot be read has no pose by odometry either
     scan.stamp = info().stamps[i];
-    place(scan, info(), i);
+    if (!parts_->sensors.empty()) {
+        scan.sensor = parts_->sensors[i];
+        scan.sensor_name = parts_->rig[scan.sensor].name;
+    }
+    place(scan, *parts_, i);
     treat_motion(scan, *parts_, i);
     add_truth(scan, *parts_, i);
     return scan;
 }
 
 std::string stem(const Recording& recording, std::size_t i) {
-    return recording.info().scan_files.at(i).stem().string();
+    const RecordingParts& parts = recording.parts();
+    const std::string name = recording.info().scan_files.at(i).stem().string();
+    if (parts.sensors.empty() || parts.rig[parts.sensors[i]].name.empty()) return name;
+    return parts.rig[parts.sensors[i]].name + "_" + name;
 }
 
 }  // namespace dynamic_filter::io

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "dynamic_filter/recording.hpp"
@@ -13,6 +14,15 @@ namespace dynamic_filter::io {
 
 /// Makes the ground truth of scan i for the points of its cloud. Throws InputError.
 using TruthReader = std::function<Labels(std::size_t i, const Cloud& cloud)>;
+
+/// One of several sensors that move together.
+struct RigSensor {
+    std::string name{};       ///< before the names of its scans; may be empty
+    Trajectory trajectory{};  ///< T_world_sensor; empty without poses
+    /// Where it is on the vehicle; empty: not known.
+    std::optional<Pose> T_vehicle_sensor{};
+    double clock = 0.0;  ///< [s] that was added to its stamps
+};
 
 struct RecordingParts {
     Info info;
@@ -27,11 +37,10 @@ struct RecordingParts {
     /// Of the sensor, parallel to the scans, or empty: the motion within scans that have times is
     /// undone with them.
     std::vector<Twist> velocities{};
-    /// Parallel to the scans: which of several sensors made it, 0 for the first one; or empty. Each
-    /// sensor has its own poses, and the motion within its scans is undone with those of
-    /// `trajectories`, by sensor.
+    /// Parallel to the scans: which sensor of `rig` made it; or empty. Each sensor has its own
+    /// poses, with which the motion within its scans is undone.
     std::vector<std::size_t> sensors{};
-    std::vector<Trajectory> trajectories{};
+    std::vector<RigSensor> rig{};
 };
 
 /// The scans of each sensor, as recordings of their own; the recording itself if it has one.

@@ -121,8 +121,8 @@ void for_each_scan(const io::Recording& recording, const std::vector<std::size_t
 }
 
 Scan moved_scan(io::FullScan& scan, std::size_t index) {
-    return {std::move(scan.points), scan.T_world_sensor,  scan.stamp, index,
-            scan.has_pose,          std::move(scan.times)};
+    return {std::move(scan.points), scan.T_world_sensor,   scan.stamp, index,
+            scan.has_pose,          std::move(scan.times), scan.sensor};
 }
 
 Points shifted_world(const Points& points, const Pose& T_world_sensor,

@@ -96,7 +96,11 @@ std::vector<Recording> by_sensor(const Recording& recording) {
     for (std::size_t i = 0; i < sensors.size(); ++i) scans[sensors[i]].push_back(i);
     if (scans.size() < 2) return {recording};
     std::vector<Recording> each;
-    for (const auto& [sensor, indices] : scans) each.push_back(chosen_scans(recording, indices));
+    for (const auto& [sensor, indices] : scans) {
+        RecordingParts parts = chosen_scans(recording, indices).parts();
+        parts.info.trajectory = parts.rig[sensor].trajectory;
+        each.emplace_back(std::move(parts));
+    }
     return each;
 }
 

@@ -8,6 +8,7 @@
 #include "dynamic_filter/writers.hpp"
 #include "formats/label_files.hpp"
 #include "recording/mask.hpp"
+#include "recording/recording_parts.hpp"
 #include "recording/scans.hpp"
 #include "run/map_files.hpp"
 #include "run/map_gaps.hpp"
@@ -31,7 +32,7 @@ WrittenScans write_scans(const io::Recording& recording, const std::vector<std::
     std::vector<MapFiles::Records> records(recording.size());
     std::vector<Gaps> gaps(recording.size());
     std::vector<io::ScanGist> gists(recording.size());
-    io::Continuity continuity;
+    io::Continuity continuity(recording.parts().sensors);
     std::vector<io::ScanWatch> watch(recording.size());
     std::vector<io::DynamicBeside> beside(recording.size());
     WrittenScans written;

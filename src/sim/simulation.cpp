@@ -61,6 +61,7 @@ void check(const SimulationOptions& options) {
     reject_unless_positive("pose_noise_m", options.pose_noise_m);
     reject_unless_positive("pose_noise_deg", options.pose_noise_deg);
     reject_unless_positive("km", options.km);
+    reject_unless_positive("delay", options.delay);
 }
 
 /// The scenes for which `has` holds, for a message.
@@ -163,7 +164,7 @@ Pose rotated(const Pose& pose, const Eigen::Vector3d& rotation_vector) {
     return out;
 }
 
-Pose true_pose(const Scene& scene, double t) {
+Pose vehicle_pose(const Scene& scene, double t) {
     const PathPoint p = at(scene.robot.path, travelled(scene.robot, t));
     Pose pose = Pose::Identity();
     pose.linear() << p.direction.x(), -p.direction.y(), 0.0, p.direction.y(), p.direction.x(), 0.0,
@@ -221,6 +222,8 @@ struct Simulation::World {
         return out;
     }
 
+    [[nodiscard]] Pose true_pose(double t) const { return vehicle_pose(scene, t) * options.mount; }
+
     [[nodiscard]] double sweep_duration() const { return std::min(1.0 / rate_hz, longest_sweep); }
 
     /// Simulates scan i, which is taken (or begins) at t [s].
@@ -232,7 +235,7 @@ struct Simulation::World {
         }
         const auto time = [&](double share) { return t + share * sweep_duration(); };
         return dynamic_filter::sim::sweep(
-            caster, sensor, [&](double share) { return true_pose(scene, time(share)); },
+            caster, sensor, [&](double share) { return true_pose(time(share)); },
             [&](double share) { caster.place(placements(time(share))); }, options.seed, i);
     }
 };
@@ -255,7 +258,12 @@ Simulation::Simulation(const SimulationOptions& options) {
                                   : entry.make(people, options.seed);
     const double rate = options.rate_hz > 0.0 ? options.rate_hz : entry.rate_hz;
     const std::size_t scans = scan_count(options, duration_of(scene, entry, options.rounds), rate);
-    Crowd crowd = simulated_crowd(scene, static_cast<double>(scans) / rate);
+    if (options.delay >= 1.0 / rate) {
+        throw ConfigError("delay is " + std::to_string(options.delay) +
+                          ": expected less than the time between two scans, " +
+                          std::to_string(1.0 / rate) + " s");
+    }
+    Crowd crowd = simulated_crowd(scene, static_cast<double>(scans) / rate + options.delay);
     std::vector<Mesh> copied = scene.around ? std::move(scene.prototypes) : prototypes();
     // The mesh of the static parts is large, so only the caster keeps it.
     world_.reset(new World{options, sensor, scene,
@@ -270,15 +278,16 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 std::size_t Simulation::size() const { return world_->scans; }
 
 Pose Simulation::exact_pose(double time) const {
-    return Eigen::Translation3d(0.0, 0.0, world_->scene.floor) * true_pose(world_->scene, time);
+    return Eigen::Translation3d(0.0, 0.0, world_->scene.floor) * world_->true_pose(time);
 }
 
 SimulatedScan Simulation::scan(std::size_t i) {
-    const double t = static_cast<double>(i) / world_->rate_hz;
-    const Pose pose = true_pose(world_->scene, t);
-    Returns returns = world_->returns(i, t, pose);
+    const SimulationOptions& options = world_->options;
+    const double t = options.delay + static_cast<double>(i) / world_->rate_hz;
+    const Pose vehicle = vehicle_pose(world_->scene, t);
+    Returns returns = world_->returns(i, t, vehicle * options.mount);
     std::vector<float> times;
-    if (world_->options.sweep) {
+    if (options.sweep) {
         const auto duration = static_cast<float>(world_->sweep_duration());
         for (const float share : returns.shares) times.push_back(share * duration);
     }
@@ -288,7 +297,7 @@ SimulatedScan Simulation::scan(std::size_t i) {
             .kinds = std::move(returns.kinds),
             .instances = std::move(returns.instances),
             .T_world_sensor = Eigen::Translation3d(0.0, 0.0, world_->scene.floor) *
-                              noisy_pose(pose, world_->options, i),
+                              noisy_pose(vehicle, options, i) * options.mount,
             .stamp = t,
             .times = std::move(times)};
 }

@@ -2,7 +2,7 @@
 # Runs every command of pages, as it stands there, in order: each page in an empty folder. Where a line
 # ends in `# exit N`, so must the command. What stands in ```text must be said by them, but for speeds and "...".
 # script/demo is run as the command that it ends with (installing and building have happened), and once
-# for all pages; script/test is what runs this. Containers are not built here, and packages are not
+# for all pages; files whose name is the first line of a ```toml are there; script/test is what runs this. Containers are not built here, and packages are not
 # installed: script/fresh --packages does that, and takes the lines from the README, too.
 #   pages_test.sh SOURCE COMMAND PAGE...
 set -eu
@@ -35,6 +35,7 @@ for page; do
     mkdir -p "$work/here/build/release"
     cd "$work/here"
     ln -s "$command" build/release/dynamicfilter
+    block toml | awk '/^# [a-z_]*\.toml/ { file = $2 } file { print > file }'  # "# rig.toml" begins a file
     block sh > "$work/lines"
     grep -o '`build/release/dynamicfilter [^`]*`' "$source/$page" | tr -d '`' >> "$work/lines" || true
     grep -q dynamicfilter "$work/lines" || { echo "$page: no command found"; exit 1; }

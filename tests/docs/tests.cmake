@@ -1,6 +1,6 @@
 # Every command of the pages, as it stands there; what takes long is apart.
 set(pages ${CMAKE_CURRENT_LIST_DIR}/pages_test.sh ${PROJECT_SOURCE_DIR} $<TARGET_FILE:dynamicfilter>)
-add_test(NAME docs/pages COMMAND ${pages} README.md docs/tutorial.md docs/how-it-works.md docs/paper.md docs/scores.md docs/editing.md docs/city.md docs/upkeep.md docs/arenas.md
+add_test(NAME docs/pages COMMAND ${pages} README.md docs/tutorial.md docs/how-it-works.md docs/paper.md docs/scores.md docs/editing.md docs/city.md docs/upkeep.md docs/rigs.md docs/arenas.md
          docs/online.md docs/parameters.md docs/poses.md docs/troubleshooting.md)
 add_test(NAME docs/pages_of_results COMMAND ${pages} docs/results.md)
 add_test(NAME docs/links COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/links_test.py ${PROJECT_SOURCE_DIR})

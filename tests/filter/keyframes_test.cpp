@@ -45,6 +45,24 @@ TEST(Keyframes, WhatMovedSoonAfterTheLastLooksNoFartherThanNear) {
     EXPECT_EQ(observers.kept()[2].reach, 80.0F);
 }
 
+// Two sensors take turns, and are two metres apart: neither moves.
+TEST(Keyframes, EachOfSeveralSensorsIsAsIfAlone) {
+    Config config = config_of(1.0, 0.5);
+    config.scans.max_keyframes = 2;
+    Keyframes both(config), alone(config);
+    for (std::size_t i = 0; i < 40; ++i) {
+        const double stamp = 0.1 * static_cast<double>(i);
+        Scan scan = room_scan(i, stamp, i % 2 == 0 ? 0.0 : 2.0);
+        scan.sensor = i % 2;
+        const bool added = both.add(scan);
+        if (i % 2 == 0) {
+            EXPECT_EQ(added, alone.add(scan));
+        }
+    }
+    EXPECT_EQ(both.total(), 2 * alone.total());
+    EXPECT_EQ(both.kept().size(), 2 * alone.kept().size());
+}
+
 TEST(Keyframes, KeepsTheNewestOnly) {
     Config config = config_of(0.0, 1.0);
     config.scans.max_keyframes = 3;

@@ -16,6 +16,26 @@ void expect_rotation(const Eigen::Matrix3d& r) {
     EXPECT_NEAR(r.determinant(), 1.0, 1e-9);
 }
 
+TEST(TurnedBy, TurnsAboutFixedAxesInTurn) {
+    const Eigen::Matrix3d half = turned_by({0.0, 0.0, 90.0});
+    EXPECT_TRUE((half * Eigen::Vector3d::UnitX()).isApprox(Eigen::Vector3d::UnitY(), 1e-12));
+    // Roll brings y to z, and yaw then turns about the world's z, which leaves it there.
+    const Eigen::Matrix3d both = turned_by({90.0, 0.0, 45.0});
+    EXPECT_TRUE((both * Eigen::Vector3d::UnitY()).isApprox(Eigen::Vector3d::UnitZ(), 1e-12));
+}
+
+TEST(AnglesOf, AreThoseOfTurnedBy) {
+    test::Random random(8);
+    for (int i = 0; i < 200; ++i) {
+        const Eigen::Matrix3d r = random.pose(1.0, 3.1).linear();
+        EXPECT_TRUE(turned_by(angles_of(r)).isApprox(r, 1e-9));
+    }
+    for (const double pitch : {90.0, -90.0}) {
+        const Eigen::Matrix3d r = turned_by({20.0, pitch, 50.0});
+        EXPECT_TRUE(turned_by(angles_of(r)).isApprox(r, 1e-6));
+    }
+}
+
 TEST(MeanPose, OfOnePoseIsThatPose) {
     test::Random random(1);
     for (int i = 0; i < 100; ++i) {

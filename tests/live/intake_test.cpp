@@ -77,6 +77,31 @@ TEST(Intake, PosesAreInterpolatedBetweenThoseAroundTheScan) {
     EXPECT_EQ(intake->origin(), PoseOrigin::frames);
 }
 
+TEST(Intake, ScansOfSeveralSensorsHaveTheirNumbersAndPoses) {
+    const std::vector<std::pair<std::string, std::string>> settings = {
+        {"input.cloud", "/front /rear"}, {"input.decide", "0"}};
+    IntakeOf intake(settings);
+    const auto cloud_on = [&](const std::string& name, double stamp) {
+        intake->put({"/" + name, "sensor_msgs/PointCloud2", kCdr}, false, cloud_at(stamp, name));
+    };
+    cloud_on("rear", 99.0);
+    EXPECT_FALSE(intake.pop()) << "odometry follows one sensor alone";
+    EXPECT_NE(intake->poses_text().find("several sensors need them"), std::string::npos);
+    intake->put(kTfStatic, true, link("base", "front", at(1.0), 0.0));
+    intake->put(kTfStatic, true, link("base", "rear", at(-1.0), 0.0));
+    for (const double stamp : {100.0, 101.0}) {
+        intake->put(kTf, false, link("map", "base", at(stamp), stamp));
+    }
+    cloud_on("rear", 100.5);
+    cloud_on("front", 100.4);  // it was longer on its way
+    const auto rear = intake.pop(), front = intake.pop();
+    ASSERT_TRUE(rear && front);
+    EXPECT_EQ(rear->sensor, 1U);
+    EXPECT_EQ(front->sensor, 0U);
+    EXPECT_NEAR(rear->T_world_sensor.translation().x(), 99.5, 1e-9);
+    EXPECT_NEAR(front->T_world_sensor.translation().x(), 101.4, 1e-9);
+}
+
 TEST(Intake, AScanWaitsForALatePose) {
     IntakeOf intake("input.wait", "5");
     intake->put(kTf, false, link("map", "lidar", at(0.0), 99.9));

@@ -24,6 +24,21 @@ std::string error_of(const app::ConfigOptions& options,
     return "";
 }
 
+TEST(LiveConfig, SeveralSensorsNeedPosesAndEachItsOwnTopic) {
+    LiveConfig config;
+    config.input.cloud = " /front  /rear ";
+    EXPECT_EQ(cloud_topics(config), (std::vector<std::string>{"/front", "/rear"}));
+    EXPECT_NO_THROW(validate(config));
+    config.input.pose = "none";
+    EXPECT_THROW(validate(config), ConfigError);
+    config.input.pose = "";
+    config.input.mask = "boxes.txt";
+    EXPECT_THROW(validate(config), ConfigError);
+    config.input.mask = "";
+    config.input.cloud = "/front /front";
+    EXPECT_THROW(validate(config), ConfigError);
+}
+
 TEST(LiveConfig, WhatIsPrintedIsReadBackEqual) {
     const TemporaryFolder folder;
     app::ConfigOptions options;

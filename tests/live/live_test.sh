@@ -51,6 +51,23 @@ diff -r ref/labels out/labels || fail "labels of the folder differ from those of
 cmp ref/static_map.pcd out/static_map.pcd || fail "maps differ"
 [ -s out/report.html ] || fail "no report"
 
+# Two sensors of one vehicle: each scan has the pose of its own, and the recording can be filtered again.
+for sensor in 'front 0.3,0,0,0,0,0 0' 'rear -0.3,0,0,0,0,180 0.05'; do
+    read -r name mount delay <<< "$sensor"
+    "$command" simulate crowd --sensor vlp16 --frames 30 --rate 10 "--mount=$mount" --delay "$delay" -o "$name" -q
+    rm -r "$name/labels"
+    printf '[[sensor]]\nname = "%s"\nrecording = "%s"\n' "$name" "$name" >> rig.toml
+done
+"$command" convert rig.toml rig.mcap > /dev/null 2>&1
+start rig --record both --set 'input.cloud=/front/points /rear/points'
+"$player" rig.mcap --domain $ROS_DOMAIN_ID --topic /front/points > front.json &
+"$player" rig.mcap --domain $ROS_DOMAIN_ID --topic /rear/points > rear.json || fail "labels are missing: $(cat rear.json)"
+wait $! || fail "labels are missing: $(cat front.json)"
+stop INT
+grep -q '^input    60 scans received; 60 taken' rig.log || fail "counters of two sensors: $(cat rig.log)"
+[ "$(find both/labels -name '*.label' | wc -l)" = 60 ] || fail "scans of two sensors are missing in the recording"
+grep -q '2 sensors, which take turns' both/run.log || fail "the recording of two sensors: $(cat both/run.log)"
+
 # SIGTERM ends at once, and the recording is complete.
 start term --record gone --set foxglove.serve=true --set foxglove.port=0
 for _ in $(seq 100); do grep -q '^foxglove ws://127.0.0.1:' term.err && break; sleep 0.05; done

@@ -57,6 +57,7 @@ std::vector<Played> read(const Options& o) {
     });
     std::vector<Played> list;
     for (auto& [stamp, played] : scans) {
+        if (played.cloud.empty()) continue;  // the pose of another sensor
         played.stamp_ns = stamp;
         list.push_back(std::move(played));
     }

@@ -42,6 +42,20 @@ struct Robot {
     }
 };
 
+TEST(Subscriptions, SensorsOfOneVehicleAreAllReceivedAsTheyCome) {
+    Robot robot;
+    robot.config.input.cloud = "/front /rear";
+    robot.bus.others = {clouds("/front"), clouds("/other"), kTf};
+    robot.start();
+    robot.subscriptions->update();
+    EXPECT_EQ(robot.subscriptions->clouds(), std::vector<std::string>{"/front"});
+    robot.bus.others.push_back(clouds("/rear"));
+    robot.subscriptions->update();
+    EXPECT_EQ(robot.subscriptions->clouds(), (std::vector<std::string>{"/front", "/rear"}));
+    EXPECT_TRUE(robot.bus.subscribed.contains("/rear"));
+    EXPECT_FALSE(robot.bus.subscribed.contains("/other"));
+}
+
 TEST(Subscriptions, TheOnlyTopicOfScansIsChosenWithAllThatLeadsToPoses) {
     Robot robot;
     robot.bus.others = {clouds("/points"),

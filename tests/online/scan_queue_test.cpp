@@ -38,6 +38,18 @@ TEST(ScanQueue, WhatIsOlderThanAScanInWorkIsLate) {
     EXPECT_FALSE(refused(queue, scan(0.3)));
 }
 
+// Messages of two sensors may be on their way for different times.
+TEST(ScanQueue, ALaterScanOfAnotherSensorMakesNothingLate) {
+    ScanQueue queue;
+    Scan rear = scan(0.2);
+    rear.sensor = 1;
+    add(queue, rear);
+    queue.pop();
+    EXPECT_FALSE(refused(queue, scan(0.1)));
+    rear.stamp = 0.1;
+    EXPECT_EQ(refused(queue, rear), NoticeKind::late);
+}
+
 TEST(ScanQueue, PassesAScanThatIsJudgedAtOnceOrSaysWhyNot) {
     ScanQueue queue;
     const auto first = queue.pass(scan(5.0));

@@ -45,6 +45,33 @@ TEST(Simulation, SameOptionsSameBytesWhateverTheThreadsAndTheOrder) {
     }
 }
 
+// What two sensors of a vehicle see is one scene at one time.
+TEST(Simulation, AnotherMountIsAnotherSensorInTheSameScene) {
+    SimulationOptions options = short_run("street");
+    options.sensor = "os64";
+    Simulation own(options);
+    options.mount.translation() << -1.0, 0.3, 0.5;
+    options.mount.linear() = Eigen::AngleAxisd(2.0, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    options.delay = 0.05;
+    Simulation other(options);
+    for (const std::size_t i : {0U, 2U}) {
+        const SimulatedScan a = own.scan(i), b = other.scan(i);
+        EXPECT_DOUBLE_EQ(b.stamp, a.stamp + 0.05);
+        EXPECT_TRUE(b.T_world_sensor.isApprox(own.exact_pose(b.stamp) * options.mount, 1e-9));
+        EXPECT_GT(b.points.size(), a.points.size() / 2);
+        std::set<std::uint16_t> of_a(a.instances.begin(), a.instances.end());
+        const auto common = std::count_if(b.instances.begin(), b.instances.end(),
+                                          [&](std::uint16_t k) { return of_a.contains(k); });
+        EXPECT_GT(common, std::ssize(b.instances) / 2);
+    }
+}
+
+TEST(Simulation, RefusesADelayOfAWholeScan) {
+    SimulationOptions options = short_run("crowd");
+    options.delay = 5.0;
+    EXPECT_THROW(Simulation{options}, ConfigError);
+}
+
 TEST(Simulation, SeedsDiffer) {
     for (const auto& scene : scene_names()) {
         SimulationOptions options = short_run(scene);

@@ -13,6 +13,10 @@ const std::vector<LayoutRow>& layout_rows() {
         {{"bag", "a bag of ROS 1 or ROS 2", "*.mcap, *.bag, *.db3, or a folder with such files"},
          Turn::bag,
          nullptr},
+        {{"rig", "several sensors on one vehicle",
+          "a file RIG.toml that names the recording and the place of each sensor"},
+         Turn::rig,
+         nullptr},
         {{"nuscenes", "a scene of nuScenes", "v1.0-*/sample_data.json; a scene is DATA/SCENE"},
          Turn::path,
          find_nuscenes},
@@ -75,6 +79,12 @@ const LayoutRow& layout_row(const std::string& name) {
     }
     throw ConfigError(fmt::format("unknown format '{}'; choose one of {}", name,
                                   fmt::join(layout_names(), ", ")));
+}
+
+InputError not_of_layout(const std::filesystem::path& data, const LayoutRow& row) {
+    return {data, "",
+            fmt::format("is not {} (--format {}); looked for {}", row.name.what, row.name.name,
+                        row.name.files)};
 }
 
 std::vector<LayoutName> layouts() {

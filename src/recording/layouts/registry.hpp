@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "dynamic_filter/error.hpp"
 #include "recording/layouts/layouts.hpp"
 
 namespace dynamic_filter::io {
@@ -11,6 +12,7 @@ namespace dynamic_filter::io {
 /// When a layout is asked, if the user names none.
 enum class Turn {
     bag,       ///< before all others; a bag is no folder of scans, and has no finder
+    rig,       ///< a file that names several recordings; it has no finder either
     path,      ///< first, also for a path that does not exist, because its end may name a part
     contents,  ///< by files that no other layout has
     usual,     ///< last, after a look at the folders below
@@ -33,5 +35,8 @@ std::optional<Layout> find_in_turn(Turn turn, const Place& place);
 
 /// The row with this name. Throws ConfigError with all names if there is none.
 const LayoutRow& layout_row(const std::string& name);
+
+/// What to throw if a path that is said to be of a layout is not.
+InputError not_of_layout(const std::filesystem::path& data, const LayoutRow& row);
 
 }  // namespace dynamic_filter::io
