@@ -166,6 +166,11 @@ public:
     /// window closes.
     std::optional<Verdict> ask(Scan scan);
 
+    /// The next scan that is pushed begins a new map, as after stamps that went back: nothing that
+    /// was seen before is held against it, and with a horizon it is forgotten. Own odometry begins
+    /// anew as well.
+    void begin_anew();
+
     /// Waits until all pushed scans, of any thread, are judged and integrated.
     void flush();
 

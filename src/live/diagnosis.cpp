@@ -43,6 +43,7 @@ io::DiagnosticStatus filter_row(const Figures& now, const Figures& before) {
     io::DiagnosticStatus row{kGood, "filter", "", now.cloud, {}};
     row.message =
         fmt::format("latency {:.0f} ms, p99 {:.0f} ms", now.latencies.p50, now.latencies.p99);
+    if (now.is_paused) row.message = "paused by a message; scans are left out";
     const std::uint64_t dropped =
         now.filter.dropped + now.intake.overrun - before.filter.dropped - before.intake.overrun;
     if (dropped > 0) {
@@ -59,6 +60,7 @@ io::DiagnosticStatus filter_row(const Figures& now, const Figures& before) {
         row.message = "the odometry is weak in some direction; " + row.message;
     }
     add(row.values, "judged", now.filter.processed);
+    add(row.values, "left out during pauses", now.left_out);
     add(row.values, "dropped", now.filter.dropped);
     add(row.values, "rejected", now.filter.rejected);
     add(row.values, "waiting", now.filter.queued);
@@ -117,6 +119,7 @@ std::string to_text(const Figures& f) {
                               waiting, f.lost));
     line("filter", fmt::format("{} judged, {} dropped, {} rejected, {} waiting", f.filter.processed,
                                f.filter.dropped, f.filter.rejected, f.filter.queued));
+    if (f.left_out > 0) line("pauses", fmt::format("{} left out during pauses", f.left_out));
     line("output", fmt::format("{} published, {} not; {} messages not taken by slow receivers",
                                f.published, f.unpublished, f.not_taken));
     if (f.origin == PoseOrigin::odometry) {

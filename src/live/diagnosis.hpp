@@ -22,6 +22,8 @@ struct Figures {
     std::optional<double> silence;                 ///< [s] see Intake::silence()
     std::uint64_t published = 0, unpublished = 0;  ///< scans
     std::uint64_t lost = 0, not_taken = 0;         ///< messages: on the way here; by receivers
+    std::uint64_t left_out = 0;                    ///< scans that came during a pause
+    bool is_paused = false;
 };
 
 /// Four rows: input, filter, result, output. `before`: the figures of the last time, so that a row

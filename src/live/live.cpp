@@ -12,7 +12,7 @@
 #include "live/dry_run.hpp"
 #include "live/foxglove_server.hpp"
 #include "live/map_saver.hpp"
-#include "live/save_requests.hpp"
+#include "live/requests.hpp"
 #include "live/subscriptions.hpp"
 
 namespace dynamic_filter::live {
@@ -47,7 +47,7 @@ class Chores {
 public:
     Chores(Bus& bus, LiveConfig& config, Intake& intake, Subscriptions& subscriptions,
            Session& session, Outputs& outputs, FoxgloveServer* foxglove, MapSaver* saver,
-           SaveRequests& requests, bool quiet)
+           Requests& requests, bool quiet)
         : bus_(bus),
           config_(config),
           intake_(intake),
@@ -86,6 +86,20 @@ public:
         before_ = figures;
     }
 
+    /// At once, not once a second.
+    void use_requests() {
+        if (requests_.pop_reset()) {
+            session_.begin_anew();
+            tell({"a message asked for a new map; it begins with the next scan"});
+        }
+        if (std::exchange(was_paused_, requests_.is_paused()) == requests_.is_paused()) return;
+        tell({was_paused_ ? "a message asked for a pause; scans are left out"
+                          : "the pause is over"});
+    }
+
+    /// A scan that came during a pause.
+    void leave_out() { ++left_out_; }
+
     [[nodiscard]] Figures figures_now() const {
         return {.intake = intake_.counters(),
                 .filter = session_.counters(),
@@ -99,7 +113,9 @@ public:
                 .published = session_.published(),
                 .unpublished = session_.unpublished(),
                 .lost = bus_.lost(),
-                .not_taken = outputs_.not_taken()};
+                .not_taken = outputs_.not_taken(),
+                .left_out = left_out_,
+                .is_paused = requests_.is_paused()};
     }
 
 private:
@@ -181,7 +197,9 @@ private:
     Outputs& outputs_;
     FoxgloveServer* foxglove_;  // may be null
     MapSaver* saver_;           // may be null
-    SaveRequests& requests_;
+    Requests& requests_;
+    bool was_paused_ = false;
+    std::uint64_t left_out_ = 0;  // scans
     bool quiet_;
     Figures before_;
     bool silent_ = false;
@@ -240,18 +258,24 @@ int live(Bus& bus, const LiveOptions& o, LiveConfig config) {
         saver.emplace(session, *o.map, o.overwrite);
         catch_save_requests();
     }
-    SaveRequests requests(bus, config.output.prefix, saver ? &*saver : nullptr);
+    Requests requests(bus, config.output.prefix, saver ? &*saver : nullptr);
     Subscriptions subscriptions(bus, config, intake);
     Chores chores(bus, config, intake, subscriptions, session, outputs, foxglove.get(),
                   saver ? &*saver : nullptr, requests, o.quiet);
     while (!app::interrupted()) {
         chores.run();
+        chores.use_requests();
         if (session.is_busy()) {
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
             continue;
         }
         constexpr double kMoment = 0.05;  // [s]
-        if (auto scan = intake.pop(kMoment)) session.push(std::move(*scan));
+        auto scan = intake.pop(kMoment);
+        if (scan && requests.is_paused()) {
+            chores.leave_out();
+        } else if (scan) {
+            session.push(*std::move(scan));
+        }
     }
     bus.stop();  // before what receives its messages goes
     session.stop();

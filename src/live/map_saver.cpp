@@ -65,14 +65,36 @@ MapSaver::MapSaver(Session& session, std::filesystem::path file, bool overwrite)
     app::refuse_existing(file_, overwrite);
 }
 
+void MapSaver::request(const std::string& name) {
+    const std::lock_guard hold(lock_);
+    wanted_ = name.empty() ? file_ : file_.parent_path() / name;
+}
+
+/// Others on the network may ask: they get no farther than the folder of the user's own map.
+std::string MapSaver::fault_of(const std::string& name) const {
+    const std::filesystem::path path(name);
+    if (path.has_parent_path() || name.starts_with('.') || name.size() > 200) {
+        return fmt::format("'{}' is no name of a file beside {}", name, file_.string());
+    }
+    if (!io::can_write_cloud(path)) {
+        return fmt::format("'{}': expected a file of {}", name, io::cloud_kinds_written());
+    }
+    return "";
+}
+
 void MapSaver::run() {
     constexpr auto kNow = std::chrono::seconds(0);
     if (running_.valid() && running_.wait_for(kNow) != std::future_status::ready) return;
     take_result();
-    const bool is_asked_for = is_wanted_.exchange(false);
-    if (save_is_wanted == 0 && !is_asked_for) return;
+    std::optional<std::filesystem::path> file;
+    {
+        const std::lock_guard hold(lock_);
+        file = std::exchange(wanted_, std::nullopt);
+    }
+    if (save_is_wanted == 0 && !file) return;
     save_is_wanted = 0;
-    running_ = std::async(std::launch::async, [this] { return saved(session_, file_); });
+    running_ = std::async(std::launch::async,
+                          [this, to = file.value_or(file_)] { return saved(session_, to); });
 }
 
 Saved MapSaver::save() {

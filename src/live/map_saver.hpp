@@ -2,10 +2,11 @@
 /// Saves the static map of the live filter while it goes on.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <future>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,8 +32,12 @@ public:
     /// `file`: a cloud, by its extension; each save replaces the one before, as a whole. Throws
     /// ConfigError if it cannot be written, or is there already and must not be replaced.
     MapSaver(Session& session, std::filesystem::path file, bool overwrite);
-    /// Asks for the map, as SIGUSR1 does. May be called in any thread.
-    void request() { is_wanted_ = true; }
+    /// Asks for the map, as SIGUSR1 does; with a name that has no fault, in a file of that name
+    /// beside the usual one. Of two requests before the map is written, the later one counts. May
+    /// be called in any thread.
+    void request(const std::string& name = "");
+    /// Why there can be no map of this name, in a sentence; "" if there can.
+    [[nodiscard]] std::string fault_of(const std::string& name) const;
     /// Begins to save if somebody asked; who asks while the map is written gets it afterwards.
     void run();
     /// Saves the map, and waits until it is written.
@@ -44,7 +49,8 @@ private:
 
     Session& session_;
     std::filesystem::path file_;
-    std::atomic<bool> is_wanted_ = false;
+    std::mutex lock_;                              // guards the next one
+    std::optional<std::filesystem::path> wanted_;  // the file that is asked for
     std::future<Saved> running_;
     std::vector<Saved> results_;
 };

@@ -46,6 +46,8 @@ public:
     void push(LiveScan scan);  ///< rethrows what stopped the filter
     /// True if the filter has enough to do; a scan that waits outside can still be replaced.
     [[nodiscard]] bool is_busy() const { return filter_->counters().queued > 1; }
+    /// The next scan begins a new map, and what was seen so far is forgotten.
+    void begin_anew() { filter_->begin_anew(); }
     void stop();  ///< as the destructor; the getters may be called after it
     /// How often the local map is published, and its radius [m].
     void set_map(double rate_hz, double radius);

@@ -39,7 +39,7 @@ Maps::Stretch Maps::new_stretch(std::size_t first_index) const {
 }
 
 Maps::Judged Maps::judge(Scan scan, Follows follows) {
-    if (follows == Follows::restarts) tracker_.restart();
+    if (follows == Follows::restarts || follows == Follows::anew) tracker_.restart();
     const std::optional<Tracked> tracked = tracker_.place(scan);
     if (tracked) untold_[scan.index] = *tracked;
     if (tracked && tracked->begins_anew && follows == Follows::on) follows = Follows::lost;
@@ -84,9 +84,10 @@ std::optional<Notice> Maps::break_before(const Scan& scan, Follows follows) {
                           : std::nullopt;
     if (follows == Follows::on && !jump) return std::nullopt;
     followed_.clear();
-    const bool restarts = follows == Follows::restarts;
+    const bool restarts = follows == Follows::restarts || follows == Follows::anew;
     Notice notice{restarts ? NoticeKind::restart : NoticeKind::jump, scan.index,
                   "stamps went back by more than a second; a new map begins"};
+    if (follows == Follows::anew) notice.text = "a new map begins, as was asked for";
     if (follows == Follows::lost) {
         notice.text = "the odometry has been lost for some scans; a new map begins";
     }

@@ -38,6 +38,7 @@ public:
     enum class Follows {
         on,        ///< as usual
         restarts,  ///< the stamps went back, so that nothing before fits
+        anew,      ///< somebody wants a new map
         lost       ///< its pose relative to those before is not known
     };
     /// Finds the pose of a scan, begins a new map where the trajectory breaks, and judges the scan.

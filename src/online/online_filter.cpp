@@ -44,6 +44,7 @@ OnlineFilter::~OnlineFilter() = default;
 
 void OnlineFilter::push(Scan scan) { engine_->worker.push(std::move(scan)); }
 std::optional<Verdict> OnlineFilter::ask(Scan scan) { return engine_->worker.ask(std::move(scan)); }
+void OnlineFilter::begin_anew() { engine_->worker.begin_anew(); }
 void OnlineFilter::flush() { engine_->worker.flush(); }
 void OnlineFilter::finish() { engine_->worker.finish(); }
 Counters OnlineFilter::counters() const { return engine_->worker.counters(); }

@@ -76,7 +76,8 @@ std::optional<Notice> ScanQueue::refusal(const Scan& scan) const {
 void ScanQueue::add(QueuedScan waiting) {
     const double stamp = waiting.scan.stamp;
     with_poses_ = waiting.scan.has_pose;
-    if (restarts(stamp)) {
+    waiting.was_wanted = std::exchange(begins_anew_, false);
+    if (waiting.was_wanted || restarts(stamp)) {
         ++stretch_;
         newest_.reset();
     }

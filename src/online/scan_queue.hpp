@@ -21,6 +21,7 @@ struct QueuedScan {
     Scan scan;
     /// Number of the stretch: within it stamps increase, and a restart begins the next one.
     std::uint64_t stretch = 0;
+    bool was_wanted = false;  ///< true: begin_anew() began the stretch with this scan
     std::chrono::steady_clock::time_point since = std::chrono::steady_clock::now();
     std::shared_ptr<std::promise<std::optional<Verdict>>> reply;  ///< may be null
 };
@@ -35,6 +36,9 @@ public:
     /// it begins a new stretch. If it is a little older, it goes before the waiting scans with
     /// later stamps.
     void add(QueuedScan waiting);
+
+    /// The next scan that is added begins a new stretch.
+    void begin_anew() { begins_anew_ = true; }
 
     /// Returns the scan with the oldest stamp.
     /// To judge it: scans with older stamps are late from now on.
@@ -52,6 +56,7 @@ private:
 
     std::deque<QueuedScan> waiting_;
     std::uint64_t stretch_ = 0;
+    bool begins_anew_ = false;
     std::optional<bool> with_poses_;
     std::optional<double> newest_;  // largest stamp within the stretch
     struct Taken {

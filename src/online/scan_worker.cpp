@@ -92,6 +92,11 @@ void ScanWorker::work() {
     }
 }
 
+void ScanWorker::begin_anew() {
+    const std::lock_guard hold(lock_);
+    queue_.begin_anew();
+}
+
 /// The scan with the oldest stamp; empty: the filter stops.
 std::optional<QueuedScan> ScanWorker::next() {
     std::unique_lock hold(lock_);
@@ -109,8 +114,9 @@ void ScanWorker::judge(QueuedScan& next) {
         {
             const std::lock_guard hold(map_lock_);
             const bool restarts = std::exchange(stretch_, next.stretch) != next.stretch;
-            judged = maps_.judge(std::move(next.scan),
-                                 restarts ? Maps::Follows::restarts : Maps::Follows::on);
+            judged = maps_.judge(std::move(next.scan), !restarts         ? Maps::Follows::on
+                                                       : next.was_wanted ? Maps::Follows::anew
+                                                                         : Maps::Follows::restarts);
         }
         latency_.add(seconds_since(next.since));
         deliver(std::move(judged), &next, index);

@@ -33,6 +33,7 @@ public:
     // See OnlineFilter.
     void push(Scan scan) { push(QueuedScan{.scan = std::move(scan), .reply = nullptr}); }
     std::optional<Verdict> ask(Scan scan);
+    void begin_anew();
     void flush();
     void finish();
     [[nodiscard]] Counters counters() const;

@@ -91,7 +91,8 @@ play
 timeout 60 /usr/bin/python3 - > answer.json 2> answer.err << 'END' || fail "no answer: $(cat answer.err)"
 import time
 import rospy
-from std_msgs.msg import Empty, String
+import json
+from std_msgs.msg import Bool, Empty, String
 rospy.init_node("asker", disable_signals=True)
 answers = []
 rospy.Subscriber("/dynamicfilter/saved_map", String, lambda message: answers.append(message.data))
@@ -102,6 +103,20 @@ asks.publish(Empty())
 while not answers:
     time.sleep(0.05)
 print(answers[0])
+states = []
+rospy.Subscriber("/dynamicfilter/state", String, lambda message: states.append(json.loads(message.data)))
+pause, reset = rospy.Publisher("/dynamicfilter/pause", Bool, queue_size=1), rospy.Publisher("/dynamicfilter/reset", Empty, queue_size=1)
+def until(state):
+    while not states or states[-1] != state:
+        time.sleep(0.05)
+until({"paused": False, "resets": 0})
+while not (pause.get_num_connections() and reset.get_num_connections()):
+    time.sleep(0.05)
+pause.publish(Bool(True))
+until({"paused": True, "resets": 0})
+pause.publish(Bool(False))
+reset.publish(Empty())
+until({"paused": False, "resets": 1})
 END
 grep -q "^{\"saved\":true,\"file\":\"$PWD/asked.pcd\",\"points\":[0-9]*,\"bytes\":[0-9]*}$" answer.json || fail "the answer: $(cat answer.json)"
 stop INT

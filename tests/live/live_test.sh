@@ -92,6 +92,30 @@ start refused
 stop TERM
 grep -q '"saved":false,"why":"the filter was started without --map FILE"' player.json || fail "the refusal: $(cat player.json)"
 
+# A file of another name beside that of --map; a name that leads elsewhere is refused.
+start named --map asked.pcd --overwrite
+"$player" drive.mcap --domain $ROS_DOMAIN_ID --save --save-as hall.ply > player.json || fail "labels are missing"
+grep -q "\"file\":\"$PWD/hall.ply\"" player.json || fail "the answer: $(cat player.json)"
+"$player" drive.mcap --domain $ROS_DOMAIN_ID --save --save-as ../hall.ply > player.json || true
+grep -q 'is no name of a file beside' player.json || fail "the refusal: $(cat player.json)"
+stop TERM
+head -1 hall.ply | grep -q ply && [ ! -e ../hall.ply ] || fail "the map of another name"
+
+# Asked for a new map, the filter begins one; in a pause it leaves scans out, and goes on after it.
+start anew --map anew.pcd
+"$player" drive.mcap --domain $ROS_DOMAIN_ID --reset > player.json || fail "labels are missing: $(cat player.json)"
+stop TERM
+grep -q 'a message asked for a new map' anew.err || fail "no new map: $(cat anew.err)"
+start paused
+"$player" drive.mcap --domain $ROS_DOMAIN_ID --pause > player.json && fail "scans were judged during a pause"
+stop TERM
+python3 - player.json paused.log << 'END' || fail "the pause: $(cat player.json paused.log)"
+import json, re, sys
+labels = json.load(open(sys.argv[1]))["labels"]
+assert 25 <= labels <= 35, labels  # of 40, ten come during the pause
+assert int(re.search(r"(\d+) left out during pauses", open(sys.argv[2]).read())[1]) == 40 - labels
+END
+
 # The map at SIGUSR1, while scans come and after them, and at the end; none before the first scan.
 start saved --map map.pcd
 kill -USR1 "$live"

@@ -13,6 +13,7 @@
 #include "dynamic_filter/bag.hpp"
 #include "dynamic_filter/filter.hpp"
 #include "dynamic_filter/recording.hpp"
+#include "formats/messages/message_writer.hpp"
 #include "formats/messages/messages.hpp"
 
 namespace dynamic_filter::live {
@@ -169,7 +170,10 @@ int play(Bus& bus, const Options& o) {
         bus.subscribe({"/diagnostics", "diagnostic_msgs/DiagnosticArray", encoding}, reliable,
                       count);
     }
+    if (o.pause) bus.advertise({o.prefix + "/pause", "std_msgs/Bool", encoding}, reliable);
+    if (o.reset) bus.advertise({o.prefix + "/reset", "std_msgs/Empty", encoding}, reliable);
     if (o.save) {
+        bus.advertise({o.prefix + "/save_map_as", "std_msgs/String", encoding}, reliable);
         bus.advertise({o.prefix + "/save_map", "std_msgs/Empty", encoding}, reliable);
         bus.subscribe({o.prefix + "/saved_map", "std_msgs/String", encoding}, reliable,
                       [&](const io::Topic&, const Bytes& message) {
@@ -214,12 +218,26 @@ int play(Bus& bus, const Options& o) {
                 const std::lock_guard hold(heard.lock);
                 heard.sent[stamp_ns] = Clock::now();
             }
-            if (o.save && pass == 0 && k == scans.size() / 2) {
-                // In CDR a message without fields has a byte that means nothing.
-                const std::size_t size = encoding == io::MessageEncoding::cdr ? 5 : 0;
-                std::vector<std::byte> empty(size);
-                if (size > 1) empty[1] = std::byte{1};
-                bus.publish(o.prefix + "/save_map", 0.0, share(empty));
+            const auto ask = [&](const char* what, const auto& fill) {
+                io::MessageWriter out(encoding);
+                fill(out);
+                auto message = out.moved_bytes();
+                bus.publish(o.prefix + what, 0.0, share(message));
+            };
+            // In CDR a message without fields has a byte that means nothing.
+            const auto nothing = [](io::MessageWriter& out) {
+                if (out.is_cdr()) out.number(std::uint8_t{0});
+            };
+            const bool is_half = pass == 0 && k == scans.size() / 2;
+            if (o.save && is_half && o.save_as.empty()) ask("/save_map", nothing);
+            if (o.save && is_half && !o.save_as.empty()) {
+                ask("/save_map_as", [&](io::MessageWriter& out) { out.text(o.save_as); });
+            }
+            if (o.reset && is_half) ask("/reset", nothing);
+            if (o.pause && pass == 0 && (is_half || k == scans.size() * 3 / 4)) {
+                ask("/pause", [&](io::MessageWriter& out) {
+                    out.number(static_cast<std::uint8_t>(is_half ? 1 : 0));
+                });
             }
             bus.publish("/tf", 0.0, poses);
             refused += bus.publish(o.topic, 0.0, points) ? 0U : 1U;
@@ -266,6 +284,9 @@ void add_player_options(CLI::App& app, PlayerOptions& o) {
     app.add_option("--jump", o.jump);
     app.add_flag("--all", o.all);
     app.add_flag("--save", o.save);
+    app.add_option("--save-as", o.save_as);
+    app.add_flag("--reset", o.reset);
+    app.add_flag("--pause", o.pause);
     app.add_flag("--check", o.check);
 }
 

@@ -368,6 +368,37 @@ TEST(OnlineFilter, ARecordingThatLoopsBeginsANewMap) {
     EXPECT_EQ(maps, 2U);
 }
 
+TEST(OnlineFilter, ANewMapBeginsWhereItIsWanted) {
+    const auto scans = drive(8, false);
+    OnlineFilter filter(every_scan(), nothing_lost());
+    for (std::size_t i = 0; i < 8; ++i) {
+        if (i == 5) filter.begin_anew();
+        filter.push(scans[i].scan);
+    }
+    filter.finish();
+    EXPECT_EQ(filter.maps(), 2U);
+    std::vector<Verdict> final;
+    for (const RoomScan& s : scans) final.push_back(filter.verdict(s.scan));
+    auto expected = test::run({scans.begin(), scans.begin() + 5}, every_scan()).final;
+    for (Verdict& v : test::run({scans.begin() + 5, scans.end()}, every_scan()).final) {
+        expected.push_back(std::move(v));
+    }
+    expect_same(final, expected);
+}
+
+// Whatever the distance: it is that of the sensors, not that of a way.
+TEST(OnlineFilter, SensorsThatAreFarApartAreNoJumps) {
+    auto scans = drive(12, false);
+    for (std::size_t i = 1; i < 12; i += 2) {
+        scans[i].scan.sensor = 1;
+        scans[i].scan.T_world_sensor.translation().x() -= 1e3;
+    }
+    std::size_t maps = 0;
+    EXPECT_EQ(notices_of(scans, maps), Told{});
+    for (RoomScan& s : scans) s.scan.sensor = 0;
+    EXPECT_FALSE(notices_of(scans, maps).empty());
+}
+
 TEST(OnlineFilter, AGapInTimeIsNoBreak) {
     auto scans = drive(8, false);
     for (std::size_t i = 4; i < 8; ++i) scans[i].scan.stamp += 60.0;

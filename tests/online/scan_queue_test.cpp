@@ -50,6 +50,20 @@ TEST(ScanQueue, ALaterScanOfAnotherSensorMakesNothingLate) {
     EXPECT_EQ(refused(queue, rear), NoticeKind::late);
 }
 
+TEST(ScanQueue, ANewStretchBeginsWhereItIsWanted) {
+    ScanQueue queue;
+    add(queue, scan(0.1));
+    queue.begin_anew();
+    add(queue, scan(0.2));
+    add(queue, scan(0.3));
+    const QueuedScan before = queue.pop(), first = queue.pop(), second = queue.pop();
+    EXPECT_FALSE(before.was_wanted);
+    EXPECT_TRUE(first.was_wanted);
+    EXPECT_NE(first.stretch, before.stretch);
+    EXPECT_FALSE(second.was_wanted);
+    EXPECT_EQ(second.stretch, first.stretch);
+}
+
 TEST(ScanQueue, PassesAScanThatIsJudgedAtOnceOrSaysWhyNot) {
     ScanQueue queue;
     const auto first = queue.pass(scan(5.0));
