@@ -189,39 +189,66 @@ void use_found_poses(io::Recording& recording, const Config& config, const Motio
 /// Poses that were found for the scans of the first sensor place all sensors of a rig.
 void place_rig(io::Recording& recording, const io::Recording& first, ChosenMotion& chosen) {
     chosen.tracked = io::tracked_for_all(recording, chosen.tracked);
-    if (first.parts().with_times && has_times(io::with_times(recording))) {
-        recording = io::with_times(recording, first.info().sweep);
-    }
+    if (first.parts().with_times) recording = io::with_times(recording, first.info().sweep);
     use_track(recording, chosen.tracked);
+}
+
+/// Whether the motion during scans is undone, by the first of several sensors whose points have
+/// times; guesses of these times, by the order of points or their azimuths, would be those of one
+/// sensor only.
+void undo_motion_of_several(io::Recording& recording, const std::vector<io::Recording>& sensors,
+                            const Config& config, const std::string& deskew, ChosenMotion& chosen) {
+    if (deskew == "off" || recording.info().deskewed) return;
+    const auto timed =
+        std::find_if(sensors.begin(), sensors.end(),
+                     [](const io::Recording& sensor) { return has_times(io::with_times(sensor)); });
+    if (timed == sensors.end()) {
+        if (deskew == "on") add_not_undone(recording);
+        return;
+    }
+    io::MotionLook look(*timed, config.odometry, deskew);
+    const io::TimesChoice& times = look.times();
+    if (!times.sweep) return;
+    recording = io::deskewed(io::as_measured(recording), times.sweep);
+    chosen.notes.push_back(
+        fmt::format("scans blur by {} as they are and by {} with the motion during each scan "
+                    "undone by the times "
+                    "of their points, so it is undone; --deskew off leaves it",
+                    centimetres(times.blur.as_measured), centimetres(times.blur.undone)));
 }
 
 /// Of several sensors, the first one shows what holds for all. Poses are found and refined for it,
 /// if it is known where the others are beside it. No own body is looked for, because each sensor
 /// sees it elsewhere.
-ChosenMotion choose_for_several(io::Recording& recording, io::Recording first, Config& config,
-                                MotionChoice choice) {
+ChosenMotion choose_for_several(io::Recording& recording, const std::vector<io::Recording>& sensors,
+                                Config& config, MotionChoice choice) {
     const bool moves_together = io::knows_places(recording.parts()) && !choice.online;
-    const std::string refine = choice.refine;
+    const std::string refine = choice.refine, deskew = choice.deskew;
     if (!moves_together) choice.refine = "off";
     if (!moves_together && !recording.info().has_poses) {
         throw InputError(recording.info().root, "",
                          "has no poses; online, odometry follows one sensor alone. Give poses, or "
                          "leave --online out");
     }
+    io::Recording first = sensors.front();
+    if (!has_times(io::with_times(first))) choice.deskew = "off";
     choice.finds_body = false;
     io::MotionLook look(first, config.odometry, choice.deskew);
     choice.look = &look;
     const std::string doubt = moves_together || refine == "off" ? "" : io::doubt_about_poses(look);
     ChosenMotion chosen = choose_motion(first, config, choice);
-    if (!chosen.tracked.empty()) place_rig(recording, first, chosen);
-    if (first.info().deskewed) {
+    if (!chosen.tracked.empty()) {
+        place_rig(recording, first, chosen);
+    } else if (first.info().deskewed) {
         recording = io::deskewed(io::as_measured(recording), first.info().sweep);
+    } else if (choice.deskew != deskew) {
+        undo_motion_of_several(recording, sensors, config, deskew, chosen);
     }
     if (!doubt.empty()) {
         recording = io::with_losses(
             recording, {doubt + "; the poses of several sensors are not refined here: choose the "
                                 "clouds of one with --topic TOPIC@FRAME, or say where each sensor "
-                                "is in a rig file (docs/upkeep.md)"});
+                                "is in a rig file (docs/rigs.md)"});
     }
     return chosen;
 }
@@ -230,7 +257,7 @@ ChosenMotion choose_for_several(io::Recording& recording, io::Recording first, C
 
 ChosenMotion choose_motion(io::Recording& recording, Config& config, const MotionChoice& choice) {
     const std::vector<io::Recording> sensors = io::by_sensor(recording);
-    if (sensors.size() > 1) return choose_for_several(recording, sensors.front(), config, choice);
+    if (sensors.size() > 1) return choose_for_several(recording, sensors, config, choice);
     ChosenMotion chosen;
     add(chosen.notes, choose_sensor_place(recording));
     for (std::string& note : notes_on_points(recording)) add(chosen.notes, std::move(note));

@@ -48,7 +48,9 @@ Twist velocity_at(const Recording& recording, std::size_t i) {
     const std::size_t from = i == 0 ? 0 : i - 1, to = std::min(i + 1, recording.size() - 1);
     const double passed = info.stamps[to] - info.stamps[from];
     if (!(passed > 0.0)) return Twist::Zero();
-    return log(info.T_world_sensor[from].inverse() * info.T_world_sensor[to]) / passed;
+    const Pose way = info.T_world_sensor[from].inverse() * info.T_world_sensor[to];
+    if (!way.matrix().allFinite()) return Twist::Zero();  // one of them was lost
+    return log(way) / passed;
 }
 
 std::vector<Pose> given_poses(const Piece& piece) {

@@ -573,7 +573,7 @@ Preflight check_recording(const Recording& recording, Depth depth, MotionLook& l
     const std::vector<Recording> sensors = by_sensor(recording);
     if (sensors.size() == 1) return check_sensor(recording, depth, look);
     // A sensor that is elsewhere on the vehicle makes all of its poses look wrong.
-    std::vector<Finding> misplaced = misplaced_sensors(recording, look.config());
+    auto [misplaced, notes] = misplaced_sensors(recording, look.config());
     Preflight result;
     for (const Recording& sensor : sensors) {
         MotionLook own_look(sensor, look.config(), look.deskew());
@@ -583,6 +583,7 @@ Preflight check_recording(const Recording& recording, Depth depth, MotionLook& l
         merge(result, std::move(of_sensor));
     }
     std::move(misplaced.begin(), misplaced.end(), std::back_inserter(result.findings));
+    std::move(notes.begin(), notes.end(), std::back_inserter(result.notes));
     return result;
 }
 

@@ -8,6 +8,7 @@
 #include "base/numbers.hpp"
 #include "check/overlay.hpp"
 #include "dynamic_filter/poses.hpp"
+#include "recording/recording_parts.hpp"
 
 namespace dynamic_filter::io {
 namespace {
@@ -54,8 +55,9 @@ std::vector<Finding> mistakes_in_replaced(const Recording& given, const Recordin
     for (const Finding& finding : check_recording(given, Depth::quick).findings) {
         const Reading* const reading = reading_of(finding);
         if (reading == nullptr || given.info().T_world_sensor.size() != used.size()) continue;
-        const double as_given = disagreement(given.info(), used.info(), readings().front());
-        const double as_read = disagreement(given.info(), used.info(), *reading);
+        const Recording before = by_sensor(given).front(), after = by_sensor(used).front();
+        const double as_given = disagreement(before.info(), after.info(), readings().front());
+        const double as_read = disagreement(before.info(), after.info(), *reading);
         if (as_given > kGross && as_read < kMuchBetter * as_given) mistakes.push_back(finding);
     }
     return mistakes;

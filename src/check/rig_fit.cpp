@@ -61,6 +61,14 @@ SurfaceMap surfaces_around(const Recording& first, double stamp, const Pose& T_w
     return map;
 }
 
+/// T_world_vehicle by the poses of the first sensor's scans.
+std::optional<Pose> vehicle_near(const Recording& first, double stamp) {
+    const RigSensor& sensor = first.parts().rig[first.parts().sensors.front()];
+    const Pose at = poses_near({first.info().stamps, first.info().T_world_sensor}, {stamp}).front();
+    if (!at.matrix().allFinite()) return std::nullopt;
+    return at * sensor.T_vehicle_sensor->inverse();
+}
+
 /// Turns of the sensor about its own axes from which registration cannot come back by itself.
 std::vector<Pose> other_mountings() {
     std::vector<Pose> turns;
@@ -78,8 +86,10 @@ std::optional<PlaceFit> fit_at(const Recording& first, const Recording& other, s
                                const Pose& given, const Pose& start, const OdometryConfig& config) {
     constexpr double kMappedShare = 0.25, kLyingShare = 0.6, kClearlyLess = 0.8;
     const auto scan = read_scan(other, i);
-    if (!scan || !scan->T_world_sensor.matrix().allFinite()) return std::nullopt;
-    const Pose T_world_vehicle = scan->T_world_sensor * given.inverse();
+    // The poses of the sensor's own recording say nothing of its place on the vehicle.
+    const std::optional<Pose> vehicle = scan ? vehicle_near(first, scan->stamp) : std::nullopt;
+    if (!vehicle || !scan->T_world_sensor.matrix().allFinite()) return std::nullopt;
+    const Pose& T_world_vehicle = *vehicle;
     const SurfaceMap map = surfaces_around(first, scan->stamp, T_world_vehicle, config);
     if (map.empty()) return std::nullopt;
     const Twist velocity = velocity_at(other, i);
@@ -264,21 +274,32 @@ std::vector<std::optional<SensorFit>> fit_sensors(const Recording& rig,
     return fits;
 }
 
-std::vector<Finding> misplaced_sensors(const Recording& rig, const OdometryConfig& config) {
+RigFindings misplaced_sensors(const Recording& rig, const OdometryConfig& config) {
     if (!knows_places(rig.parts()) || !rig.info().has_poses) return {};
     const auto fits = fit_sensors(rig, config);
+    // Motion during scans that is not undone displaces them as well.
+    const auto fits_in_time = rig.info().deskewed ? fits : fit_sensors(with_times(rig), config);
     const std::vector<Recording> sensors = by_sensor(rig);
     const auto sensor_of = [&](std::size_t s) -> const RigSensor& {
         return rig.parts().rig[sensors[s].parts().sensors.front()];
     };
-    std::vector<Finding> findings;
+    RigFindings found;
     for (std::size_t s = 1; s < sensors.size(); ++s) {
-        if (!fits[s - 1]) continue;
-        if (auto finding = finding_of(*fits[s - 1], sensor_of(s), sensor_of(0).name)) {
-            findings.push_back(*std::move(finding));
+        if (!fits[s - 1]) {
+            found.notes.push_back(
+                fmt::format("sensor '{}' sees too little of what '{}' sees at the same time to "
+                            "tell whether it is where the rig file says",
+                            sensor_of(s).name, sensor_of(0).name));
+            continue;
         }
+        const auto finding = finding_of(*fits[s - 1], sensor_of(s), sensor_of(0).name);
+        if (!finding || !fits_in_time[s - 1]) continue;
+        const auto in_time = finding_of(*fits_in_time[s - 1], sensor_of(s), sensor_of(0).name);
+        if (!in_time) continue;
+        const bool is_nearer = fits_in_time[s - 1]->shift < fits[s - 1]->shift;
+        found.findings.push_back(is_nearer ? *in_time : *finding);
     }
-    return findings;
+    return found;
 }
 
 }  // namespace dynamic_filter::io

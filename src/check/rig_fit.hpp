@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "dynamic_filter/check.hpp"
@@ -33,8 +34,13 @@ struct SensorFit {
 std::vector<std::optional<SensorFit>> fit_sensors(const Recording& rig,
                                                   const OdometryConfig& config);
 
+struct RigFindings {
+    std::vector<Finding> findings;
+    std::vector<std::string> notes;  ///< sensors that could not be compared
+};
+
 /// Names the sensors that are not where the rig file says, or whose clock is another one, with what
 /// to write in the rig file.
-std::vector<Finding> misplaced_sensors(const Recording& rig, const OdometryConfig& config);
+RigFindings misplaced_sensors(const Recording& rig, const OdometryConfig& config);
 
 }  // namespace dynamic_filter::io

@@ -14,6 +14,7 @@
 #include "export/outputs.hpp"
 #include "export/part.hpp"
 #include "formats/label_files.hpp"
+#include "recording/recording_parts.hpp"
 #include "recording/scans.hpp"
 #include "run/drives_of_result.hpp"
 #include "run/open_for_result.hpp"
@@ -125,6 +126,16 @@ void append_all(Sink& sink, const ConvertOptions& o, const io::Recording& record
     });
 }
 
+/// A folder of KITTI has the scans of one sensor.
+void refuse_mixture(const ConvertOptions& o, const Output* kind, const io::Recording& recording) {
+    const bool is_kitti = (kind == nullptr && o.output.extension().empty()) || o.to == "kitti";
+    if (!is_kitti || recording.info().layout != "rig") return;
+    throw ConfigError(
+        o.output.string() +
+        ": a folder of KITTI has the scans of one sensor, but a rig has several; a bag "
+        "(.mcap, .bag, .db3) keeps them apart, --to benchmark has a pose in each scan");
+}
+
 /// Puts the output in place unless the user interrupted. Returns the exit code.
 int commit(Sink& sink, const ConvertOptions& o, const Tally& tally) {
     for (const std::string& line : tally.rejected) fmt::print(stderr, "rejected {}\n", line);
@@ -157,6 +168,8 @@ int convert_recording(const ConvertOptions& o) {
     }
     ConvertOptions of_sink = o;
     const io::Recording recording = opened(of_sink, kind != nullptr && kind->from_sensor);
+    refuse_mixture(o, kind, recording);
+    for (const auto& folder : io::folders_of(recording)) refuse_same_folder(folder, o.output);
     catch_interrupts();
     if (io::BagWriter::recognises(o.output) || !o.only.empty()) {  // only these ask for it
         of_sink.keep_unknown = settings_of(o).map.keep_unknown;

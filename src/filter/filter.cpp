@@ -53,7 +53,8 @@ struct DynamicFilter::Impl {
     Scan place(Scan scan);
     Verdict judge(const Scan& scan);
     [[nodiscard]] LocatedScan locate(const Scan& scan) const {
-        const Eigen::Index axis = scan.sensor < sensors.size() ? sensors[scan.sensor].axis : 2;
+        const bool is_known = scan.sensor < sensors.size() && sensors[scan.sensor];
+        const Eigen::Index axis = is_known ? sensors[scan.sensor]->axis : 2;
         return axis == 2 ? frame.locate(scan, map.grid().voxels())
                          : frame.locate(turned_to_z(scan, axis), map.grid().voxels());
     }
@@ -71,7 +72,7 @@ struct DynamicFilter::Impl {
 
     Config config;
     MapFrame frame;
-    std::vector<Sensor> sensors;  // by Scan::sensor
+    std::vector<std::optional<Sensor>> sensors;  // by Scan::sensor
     EvidenceMap map;
     InstantLabels instant;
     bool finished = false;
@@ -107,7 +108,7 @@ Verdict DynamicFilter::judge(Scan scan) { return impl_->judge(impl_->place(std::
 Verdict DynamicFilter::Impl::judge(const Scan& scan) {
     return timed(times, "judge", [&] {
         const PointVoxels voxels = map.insert(scan, times);
-        Objects& objects = sensors[scan.sensor].objects;
+        Objects& objects = sensors[scan.sensor]->objects;
         Verdict verdict;
         std::optional<Clusters> clusters;
         timed(times, "instant_verdict", [&] {  // clusters need no labels
@@ -144,16 +145,16 @@ Scan DynamicFilter::Impl::place(Scan scan) {
 }
 
 DynamicFilter::Impl::Sensor& DynamicFilter::Impl::sensor_of(const Scan& scan) {
-    while (sensors.size() <= scan.sensor) {
-        sensors.push_back({beam_axis(scan.points), Objects(config.scans.instances)});
-    }
-    return sensors[scan.sensor];
+    if (scan.sensor >= sensors.size()) sensors.resize(scan.sensor + 1);
+    auto& sensor = sensors[scan.sensor];
+    if (!sensor) sensor = Sensor{beam_axis(scan.points), Objects(config.scans.instances)};
+    return *sensor;
 }
 
 void DynamicFilter::begin_drive() {
     impl_->map.begin_drive();
-    for (Impl::Sensor& sensor : impl_->sensors) {
-        sensor.objects = Objects(impl_->config.scans.instances);
+    for (auto& sensor : impl_->sensors) {
+        if (sensor) sensor->objects = Objects(impl_->config.scans.instances);
     }
 }
 
@@ -280,7 +281,9 @@ void DynamicFilter::keep_within(const Pose& T_world_center, double radius, std::
     const std::vector<std::uint32_t> kept =
         impl_->map.keep_within(center.cast<float>(), static_cast<float>(radius), most);
     impl_->instant.keep(kept);
-    for (Impl::Sensor& sensor : impl_->sensors) sensor.objects.keep(kept);
+    for (auto& sensor : impl_->sensors) {
+        if (sensor) sensor->objects.keep(kept);
+    }
 }
 
 std::size_t DynamicFilter::size() const { return impl_->map.grid().size(); }

@@ -61,10 +61,12 @@ void add_truth(FullScan& scan, const RecordingParts& parts, std::size_t i) {
     }
 }
 
-/// Times of the points: from the scan if it has them, otherwise computed from the azimuths.
-std::vector<float> times_of(const Info& info, const FullScan& scan) {
+/// Times of the points: from the scan if it has them, otherwise computed from the azimuths, but not
+/// if sensors take turns.
+std::vector<float> times_of(const Info& info, const FullScan& scan, bool takes_turns) {
     std::vector<float> times = point_times(scan.cloud, scan.stamp);
     if (!info.sweep) return times;
+    if (times.empty() && takes_turns) return {};  // a guess would be that of another sensor
     if (times.empty()) return sweep_times(scan.points, *info.sweep);
     for (float& time : times) time += static_cast<float>(info.sweep->shift);
     return times;
@@ -127,12 +129,13 @@ void place(FullScan& scan, const RecordingParts& parts, std::size_t i) {
 
 void treat_motion(FullScan& scan, const RecordingParts& parts, std::size_t i) {
     const Info& info = parts.info;
+    const bool takes_turns = !parts.rig.empty();
     if (info.deskewed) {
         const Trajectory& trajectory =
             parts.sensors.empty() ? info.trajectory : parts.rig[parts.sensors[i]].trajectory;
-        undo_motion(scan.points, times_of(info, scan), scan.stamp, trajectory);
+        undo_motion(scan.points, times_of(info, scan, takes_turns), scan.stamp, trajectory);
     }
-    if (parts.with_times) scan.times = times_of(info, scan);
+    if (parts.with_times) scan.times = times_of(info, scan, takes_turns);
     if (parts.velocities.empty() || scan.times.empty()) return;
     scan.points = dynamic_filter::undo_motion(scan.points, scan.times, parts.velocities[i]);
     scan.times.clear();

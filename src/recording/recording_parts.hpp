@@ -21,7 +21,8 @@ struct RigSensor {
     Trajectory trajectory{};  ///< T_world_sensor; empty without poses
     /// Where it is on the vehicle; empty: not known.
     std::optional<Pose> T_vehicle_sensor{};
-    double clock = 0.0;  ///< [s] that was added to its stamps
+    double clock = 0.0;                 ///< [s] that was added to its stamps
+    std::filesystem::path recording{};  ///< of a rig file
 };
 
 struct RecordingParts {
@@ -45,6 +46,9 @@ struct RecordingParts {
 
 /// The scans of each sensor, as recordings of their own; the recording itself if it has one.
 std::vector<Recording> by_sensor(const Recording& recording);
+
+/// The folder or file that was opened, those of the scans, and of a rig those of its sensors.
+std::vector<std::filesystem::path> folders_of(const Recording& recording);
 
 /// Throws ConfigError if the selection can have no scan, whatever the recording.
 void check_selection(std::size_t first, std::optional<std::size_t> last, std::size_t stride);

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <numeric>
+#include <set>
 #include <utility>
 
 #include "dynamic_filter/error.hpp"
@@ -76,8 +77,11 @@ Recording open_sensor(const RigEntry& entry, const OpenOptions& options, bool wi
         refuse_unusable(entry, recording);
         return recording;
     } catch (const ConfigError& error) {
-        throw InputError(entry.recording, "",
-                         fmt::format("sensor '{}': {}", entry.name, error.what()));
+        std::string why = error.what();
+        for (auto at = why.find("--topic"); at != why.npos; at = why.find("--topic")) {
+            why.replace(at, 7, "topic = in the rig file");
+        }
+        throw InputError(entry.recording, "", fmt::format("sensor '{}': {}", entry.name, why));
     }
 }
 
@@ -126,6 +130,12 @@ void require_places(const RigFile& rig, const std::filesystem::path& file) {
     }
 }
 
+/// From the frame whose poses the recording has to that of the vehicle: the clouds of several
+/// sensors are merged in the frame of the vehicle.
+Pose T_posed_vehicle(const RigEntry& entry) {
+    return entry.field.empty() ? entry.T_vehicle_sensor->inverse() : Pose::Identity();
+}
+
 /// Sets the poses of all scans, if there are any.
 void assign_poses(RecordingParts& parts, const Rig& rig,
                   const std::vector<std::vector<double>>& stamps,
@@ -138,8 +148,7 @@ void assign_poses(RecordingParts& parts, const Rig& rig,
         const auto s = static_cast<std::size_t>(first - rig.recordings.begin());
         const RigEntry& entry = rig.file.sensors[s];
         require_places(rig.file, info.root);
-        vehicle =
-            moved_by(known_poses(first->info(), entry.clock), entry.T_vehicle_sensor->inverse());
+        vehicle = moved_by(known_poses(first->info(), entry.clock), T_posed_vehicle(entry));
         info.pose_source = first->info().pose_source;
         info.notes.push_back(fmt::format(
             "the poses are those of sensor '{}'; the other sensors have none, and are where the "
@@ -154,9 +163,16 @@ void assign_poses(RecordingParts& parts, const Rig& rig,
         const Info& own = rig.recordings[s].info();
         const RigEntry& entry = rig.file.sensors[s];
         Trajectory& trajectory = parts.rig[s].trajectory;
-        trajectory =
-            vehicle ? moved_by(*vehicle, *entry.T_vehicle_sensor) : known_poses(own, entry.clock);
-        poses.push_back(vehicle ? poses_near(trajectory, stamps[s]) : own.T_world_sensor);
+        if (vehicle) {
+            trajectory = moved_by(*vehicle, *entry.T_vehicle_sensor);
+            poses.push_back(poses_near(trajectory, stamps[s]));
+            continue;
+        }
+        // Of clouds that were merged, the poses are those of the vehicle.
+        const Pose T = entry.field.empty() ? Pose::Identity() : *entry.T_vehicle_sensor;
+        trajectory = moved_by(known_poses(own, entry.clock), T);
+        std::vector<Pose>& of_scans = poses.emplace_back(own.T_world_sensor);
+        for (Pose& pose : of_scans) pose = pose * T;
     }
     for (const auto& [sensor, scan] : rig.scans) {
         info.T_world_sensor.push_back(poses[sensor][scan]);
@@ -276,6 +292,20 @@ Cloud some_cloud(const Recording& recording, double& stamp) {
     return {};
 }
 
+/// Labels are named by the scans.
+void refuse_equal_names(const RecordingParts& parts) {
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < parts.sensors.size(); ++i) {
+        const std::string& sensor = parts.rig[parts.sensors[i]].name;
+        const std::string name = sensor + "_" + parts.info.scan_files[i].stem().string();
+        if (names.insert(name).second) continue;
+        throw InputError(parts.info.root, "",
+                         fmt::format("two scans would have the name {}; choose other names for the "
+                                     "sensors",
+                                     name));
+    }
+}
+
 CommonFields fields_of(const Rig& rig, Info& info) {
     std::vector<Cloud> clouds;
     bool timed = false;
@@ -311,8 +341,10 @@ RecordingParts open_rig(const std::filesystem::path& file, const OpenOptions& op
     for (const RigEntry& entry : rig->file.sensors) {
         rig->recordings.push_back(open_sensor(entry, options, with_own_poses));
         stamps.push_back(stamps_of(entry, rig->recordings.back()));
-        parts.rig.push_back(
-            {.name = entry.name, .T_vehicle_sensor = entry.T_vehicle_sensor, .clock = entry.clock});
+        parts.rig.push_back({.name = entry.name,
+                             .T_vehicle_sensor = entry.T_vehicle_sensor,
+                             .clock = entry.clock,
+                             .recording = entry.recording});
     }
     refuse_apart(rig->file.sensors, stamps);
     rig->scans = in_order(stamps);
@@ -327,11 +359,13 @@ RecordingParts open_rig(const std::filesystem::path& file, const OpenOptions& op
         info.pose_source = *pose_file;
     }
     assign_poses(parts, *rig, stamps, std::move(vehicle));
-    std::map<std::filesystem::path, OneOf> at;
+    std::map<std::filesystem::path, std::size_t> at;  // which sensor made the file
     for (std::size_t i = 0; i < rig->scans.size(); ++i) {
         parts.sensors.push_back(rig->scans[i].sensor);
-        at.emplace(info.scan_files[i], rig->scans[i]);
+        at.emplace(info.scan_files[i], rig->scans[i].sensor);
     }
+    refuse_equal_names(parts);
+    if (!options.own_body.empty()) require_places(rig->file, file);
     parts.read_cloud = [rig, unit = options.point_unit](std::size_t i) {
         return read_of(*rig, rig->scans.at(i), unit);
     };
@@ -339,8 +373,10 @@ RecordingParts open_rig(const std::filesystem::path& file, const OpenOptions& op
         return truth_of(*rig, rig->scans.at(i), cloud);
     };
     parts.refuse_bad_size = [rig, at = std::move(at)](const std::filesystem::path& scan) {
-        const OneOf one = at.at(scan);
-        rig->recordings[one.sensor].check(one.scan);
+        const Recording& recording = rig->recordings[at.at(scan)];
+        const bool is_file =
+            recording.info().layout != "bag" && !std::filesystem::is_directory(scan);
+        if (is_file && recording.parts().refuse_bad_size) recording.parts().refuse_bad_size(scan);
     };
     return parts;
 }

@@ -119,6 +119,10 @@ RigEntry entry_of(const Table& table, const fs::path& folder) {
     if (!fs::exists(entry.recording)) {
         table.fail(*table.find("recording"), entry.recording.string() + " does not exist");
     }
+    if (is_rig_file(entry.recording)) {
+        table.fail(*table.find("recording"),
+                   entry.recording.string() + " is a rig file itself; list its sensors here");
+    }
     entry.name = table.text("name");
     if (entry.name.empty()) table.fail("has no name = \"...\", such as \"front\"");
     const bool is_plain = std::all_of(entry.name.begin(), entry.name.end(), [](char c) {
@@ -201,6 +205,8 @@ RigFile read_rig_file(const fs::path& file) {
     if (rig.sensors.size() < 2) {
         throw InputError(file, "", "has one sensor; give its recording itself");
     }
+    constexpr std::size_t kMostSensors = 100;  // their numbers are bytes
+    if (rig.sensors.size() > kMostSensors) throw InputError(file, "", "has more than 100 sensors");
     refuse_twice(rig, file);
     if (const std::string poses = top.text("poses"); !poses.empty()) {
         rig.poses = (folder / poses).lexically_normal();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/recording.hpp"
@@ -58,7 +59,15 @@ std::string obstacle_to_deskew(const RecordingParts& parts) {
         return "no poses over time: the sensor's motion during each scan is not undone; give poses "
                "with stamps";
     }
-    if (info.sweep || !point_times(parts.read_cloud(0), info.stamps.front()).empty()) return "";
+    // Of several sensors, some may have times: one scan of each tells.
+    std::set<std::size_t> asked;
+    for (std::size_t i = 0; i < info.stamps.size(); ++i) {
+        const bool is_first = asked.insert(parts.sensors.empty() ? 0 : parts.sensors[i]).second;
+        if (!is_first) continue;
+        if (!point_times(parts.read_cloud(i), info.stamps[i]).empty()) return "";
+        if (parts.sensors.empty()) break;
+    }
+    if (info.sweep && parts.rig.empty()) return "";
     return "the points have no times of their own (no field t, time, timestamp or offset_time "
            "that varies), which would tell how the sensor moved during each scan";
 }
@@ -88,6 +97,15 @@ Recording chosen_scans(const Recording& recording, const std::vector<std::size_t
     RecordingParts parts = recording.parts();
     keep_scans(parts, indices);
     return Recording(std::move(parts));
+}
+
+std::vector<std::filesystem::path> folders_of(const Recording& recording) {
+    std::set<std::filesystem::path> folders = {recording.info().root};
+    for (const auto& file : recording.info().scan_files) folders.insert(file.parent_path());
+    for (const RigSensor& sensor : recording.parts().rig) {
+        if (!sensor.recording.empty()) folders.insert(sensor.recording);
+    }
+    return {folders.begin(), folders.end()};
 }
 
 std::vector<Recording> by_sensor(const Recording& recording) {
@@ -145,6 +163,7 @@ Recording with_poses(const Recording& recording,
     Info& info = parts.info;
     info.has_poses = info.tracked = true;
     info.sparse_poses = false;
+    for (RigSensor& sensor : parts.rig) sensor.trajectory = {};
     info.T_world_sensor.assign(recording.size(), lost_pose());
     parts.velocities.assign(recording.size(), Twist::Zero());
     for (std::size_t i = 0; i < recording.size(); ++i) {
@@ -177,6 +196,7 @@ Recording without_poses(const Recording& recording) {
     info.trajectory = {};
     info.has_poses = info.tracked = info.points_in_world = info.deskewed = false;
     info.sparse_poses = false;
+    for (RigSensor& sensor : parts.rig) sensor.trajectory = {};
     parts.velocities.clear();
     return Recording(std::move(parts));
 }

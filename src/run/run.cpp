@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "run/run.hpp"
+#include "recording/recording_parts.hpp"
 
 #include <fmt/format.h>
 
@@ -32,8 +33,9 @@ constexpr const char* kPlan = "plan";
 fs::path choose_folder(const Job& job, const RunOptions& o) {
     if (!o.output) return default_output();
     for (const Drive& drive : job.drives) {
-        refuse_same_folder(drive.recording.info().root, *o.output);
-        refuse_same_folder(drive.recording.info().scan_files.front().parent_path(), *o.output);
+        for (const fs::path& folder : io::folders_of(drive.recording)) {
+            refuse_same_folder(folder, *o.output);
+        }
     }
     if (o.overwrite) refuse_foreign_labels(*o.output);
     return *o.output;

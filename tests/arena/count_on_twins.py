@@ -2,7 +2,8 @@
 """A second count of the arenas whose data are more than scans in files: DOALS, nuScenes mini and KITTI's raw drives.
 
 The command writes a simulated recording in the layout of the data set. This program reads its truth from the files of the layout,
-makes ten random results of it, and compares the moving IoU of each with that of the command. Usage: count_on_twins.py COMMAND
+makes some random results of it (4), and compares the moving IoU of each with that of the command.
+Usage: count_on_twins.py COMMAND [CASES]
 """
 import json
 import subprocess
@@ -14,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 COMMAND = sys.argv[1]
-CASES = 10
+CASES = int(sys.argv[2]) if len(sys.argv) > 2 else 4
 EARTH = 6378137.0
 
 

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """A second, independent count of the scores that `dynamicfilter bench` gives to the results of others.
 
-    independent_count.py COMMAND
+    independent_count.py COMMAND [CASES]
 
-For each arena ten small random data sets are written in their authors' layout, with a result that is the truth with some of its labels
+For each arena some small random data sets (4) are written in their authors' layout, with a result that is the truth with some of its labels
 turned round. The command scores the result (bench ARENA DATA -o OUT --no-run --peer twin=LABELS --only ENTRY), and every score in
 OUT/table.json must be the one that is counted here, with numpy alone. The rules are those of the authors' papers and public scripts:
 
@@ -28,7 +28,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-CASES = 10
+CASES = int(sys.argv[2]) if len(sys.argv) > 2 else 4
 METHOD = "twin"
 ALLOWED = 1e-6
 ALLOWED_POINTS = 2  # of the total, in ERASOR's rule only: its thinning takes means in float32
@@ -693,7 +693,7 @@ def try_arena(command, arena):
 
 def main(command):
     if not command:
-        return "usage: independent_count.py COMMAND"
+        return "usage: independent_count.py COMMAND [CASES]"
     for check in check_nearest, check_erasor, check_others:
         check()
     differing = [arena for arena in ARENAS if not try_arena(command, arena)]
@@ -701,4 +701,4 @@ def main(command):
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(main(sys.argv[1:2]))

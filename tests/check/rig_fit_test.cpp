@@ -82,14 +82,14 @@ TEST(RigFit, ARightPlaceIsNoFinding) {
     EXPECT_GE(fits[0]->fitting, 8U);
     EXPECT_LT(fits[0]->shift, 0.02);
     EXPECT_LT(fits[0]->turn, 0.2 * std::numbers::pi / 180.0);
-    EXPECT_TRUE(misplaced_sensors(recording, {}).empty());
+    EXPECT_TRUE(misplaced_sensors(recording, {}).findings.empty());
 }
 
 TEST(RigFit, AWrongPlaceIsNamedWithTheRightOne) {
     for (const Pose& wrong :
          {off({0.0, 0.1, 0.0}, {0, 0, 0}), off({0, 0, 0}, {0, 0, 2}), off({0, 0, 0}, {0, 2, 0}),
           off({0, 0, 0}, {0, 0, 180}), off({0.05, 0, 0.1}, {1, 0, 90})}) {
-        const auto findings = misplaced_sensors(rig_with(wrong), {});
+        const auto findings = misplaced_sensors(rig_with(wrong), {}).findings;
         ASSERT_EQ(findings.size(), 1U);
         EXPECT_HAS(findings[0].what, "sensor 'rear' is not where the rig file says");
         EXPECT_HAS(findings[0].advice, "write at = [-1.");
@@ -106,15 +106,33 @@ TEST(RigFit, AClockThatIsLateIsNamed) {
     const auto fit = fit_sensors(recording, {})[0];
     ASSERT_TRUE(fit);
     EXPECT_NEAR(fit->delay, -0.05, 0.01);
-    const auto findings = misplaced_sensors(recording, {});
+    const auto findings = misplaced_sensors(recording, {}).findings;
     ASSERT_EQ(findings.size(), 1U);
     EXPECT_HAS(findings[0].advice, "clock = -0.05");
+}
+
+TEST(RigFit, AWrongPlaceIsFoundAlsoIfEachSensorHasPosesOfItsOwn) {
+    RecordingParts parts = rig_with(off({0, 0.3, 0}, {0, 0, 0})).parts();
+    for (std::size_t i = 0; i < parts.sensors.size(); ++i) {
+        if (parts.sensors[i] == 1) parts.info.T_world_sensor[i] = drive_of(true).truth[i / 2];
+    }
+    const auto findings = misplaced_sensors(Recording(std::move(parts)), {}).findings;
+    ASSERT_EQ(findings.size(), 1U);
+    EXPECT_HAS(findings[0].advice, "write at = [-1.20");
+}
+
+TEST(RigFit, ASensorThatCannotBeComparedIsNamed) {
+    const Recording recording = chosen_scans(rig_with(rear_mount()), {0, 1, 2, 3});
+    const RigFindings found = misplaced_sensors(recording, {});
+    EXPECT_TRUE(found.findings.empty());
+    ASSERT_EQ(found.notes.size(), 1U);
+    EXPECT_HAS(found.notes[0], "sensor 'rear' sees too little");
 }
 
 TEST(RigFit, SensorsWithoutPlacesAreNotLookedAt) {
     RecordingParts parts = rig_with(off({0, 1, 0}, {0, 0, 0})).parts();
     parts.rig[1].T_vehicle_sensor.reset();
-    EXPECT_TRUE(misplaced_sensors(Recording(std::move(parts)), {}).empty());
+    EXPECT_TRUE(misplaced_sensors(Recording(std::move(parts)), {}).findings.empty());
 }
 
 }  // namespace rig_fit_test

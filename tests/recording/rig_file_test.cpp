@@ -73,6 +73,8 @@ TEST_F(RigFiles, MistakesAreNamedWithTheirLine) {
     EXPECT_HAS(fault_of(front + sensor("rear", "field = \"id\"\nvalue = 2")),
                "its place is needed");
     EXPECT_HAS(fault_of(front + sensor("side")), "side does not exist");
+    EXPECT_HAS(fault_of(front + "[[sensor]]\nname = \"self\"\nrecording = \"rig.toml\"\n"),
+               "is a rig file itself");
     EXPECT_HAS(fault_of(front + "[[sensor]]\nname = \"a/b\"\nrecording = \"rear\"\n"), "letters");
     EXPECT_HAS(fault_of(front + "[[sensor]]\nname = \"other\"\nrecording = \"front\"\n"),
                "those of another sensor");

@@ -132,6 +132,31 @@ TEST_F(Rigs, CloudsThatWereMergedAreTakenApart) {
     EXPECT_EQ(stem(recording, 1), "b_000000");
 }
 
+// The poses that come with merged clouds are those of their frame, which is the vehicle's.
+TEST_F(Rigs, PosesOfMergedCloudsAreThoseOfTheVehicle) {
+    for (std::size_t i = 0; i < 10; ++i) {
+        data.put("merged/velodyne/" + number(i) + ".bin", floats({9, 9, 9, 1, 1, 0, 5, 2}));
+    }
+    data.put("merged/times.txt", test::slurp(data / "front/times.txt"));
+    data.put("merged/poses.txt", kitti_rows(10));
+    const std::string entries =
+        "[[sensor]]\nname = \"a\"\nrecording = \"merged\"\nat = [0, 0, 2]\nfield = "
+        "\"intensity\"\nvalue = 1\n[[sensor]]\nname = \"b\"\nrecording = \"merged\"\nat = [1, "
+        "0, 3]\nfield = \"intensity\"\nvalue = 2\n";
+    data.put("rig.toml", entries);
+    const Recording both = rig();
+    EXPECT_EQ(both.info().T_world_sensor[2].translation(), Eigen::Vector3d(1, 0, 2));
+    EXPECT_EQ(both.info().T_world_sensor[3].translation(), Eigen::Vector3d(2, 0, 3));
+    // One of them beside a sensor that has no poses.
+    data.put("rig.toml",
+             entries.substr(0, entries.find("[[sensor]]", 5)) +
+                 "[[sensor]]\nname = \"rear\"\nrecording = \"rear\"\nat = [-1, 0, 0]\n");
+    const Recording one = rig();
+    EXPECT_NEAR(one.info().T_world_sensor[0].translation().z(), 2.0, 1e-9);
+    EXPECT_NEAR(one.info().T_world_sensor[1].translation().x(), 0.5 - 1.0, 1e-9);
+    EXPECT_NEAR(one.info().T_world_sensor[1].translation().z(), 0.0, 1e-9);
+}
+
 TEST_F(Rigs, BoxesOfTheOwnBodyAreInTheFrameOfTheVehicle) {
     put_rig();
     OpenOptions options;
@@ -141,6 +166,18 @@ TEST_F(Rigs, BoxesOfTheOwnBodyAreInTheFrameOfTheVehicle) {
     EXPECT_EQ(recording.read(1).own, (std::vector<std::uint8_t>{1, 0}));
 }
 
+TEST_F(Rigs, NamesOfScansThatWouldBeTheSameAreRefused) {
+    data.put("a/b_000000.bin", floats({1, 2, 3, 0.5F}));
+    data.put("a/b_000001.bin", floats({1, 2, 3, 0.5F}));
+    data.put("b/000000.bin", floats({1, 2, 3, 0.5F}));
+    data.put("b/000001.bin", floats({1, 2, 3, 0.5F}));
+    for (const char* name : {"a", "b"}) data.put(std::string(name) + "/times.txt", "0\n0.2\n");
+    data.put("rig.toml",
+             "[[sensor]]\nname = \"a\"\nrecording = \"a\"\nat = [0, 0, 0]\n"
+             "[[sensor]]\nname = \"a_b\"\nrecording = \"b\"\nat = [0, 0, 0]\n");
+    EXPECT_HAS(fault(), "two scans would have the name a_b_000000");
+}
+
 TEST_F(Rigs, FaultsAreNamed) {
     put_rig("");
     EXPECT_FALSE(rig().info().has_poses);
@@ -148,6 +185,9 @@ TEST_F(Rigs, FaultsAreNamed) {
     options.topic = "/points";
     EXPECT_HAS(error_of<ConfigError>([&] { (void)rig(options); }),
                "--topic is for the recording of one sensor");
+    options.topic.clear();
+    options.own_body = {Eigen::AlignedBox3f(Point(0, 0, 0), Point(1, 1, 1))};
+    EXPECT_TRUE(rig(options).read(0).own.empty());
     put_rig("poses = \"missing.tum\"\n");
     EXPECT_HAS(fault(), "missing.tum");
     data.put("rows.txt", kitti_rows(10));
@@ -163,7 +203,6 @@ TEST_F(Rigs, FaultsAreNamed) {
     EXPECT_HAS(fault(), "sensor 'rear': its scans have no stamps");
     std::filesystem::remove_all(data / "rear/velodyne");
     EXPECT_HAS(fault(), "rear");
-    options.topic.clear();
     options.layout = "rig";
     EXPECT_HAS(error_of([&] { (void)open_recording(data / "front", options); }), "front");
 }
