@@ -40,8 +40,9 @@ std::optional<double> stamp_from(const py::object& given) {
 }
 
 py::array push(KeptFilter& filter, const py::object& points, const py::object& pose,
-               const py::object& stamp, const py::object& times) {
+               const py::object& stamp, const py::object& times, std::uint8_t sensor) {
     Pushed pushed;
+    pushed.sensor = sensor;
     pushed.stamp = stamp_from(stamp);
     if (!pose.is_none()) pushed.T_world_sensor = pose_from(pose);
     pushed.points = points_from(points);
@@ -176,7 +177,7 @@ released during calls. Raises ConfigError, TypeError and ValueError.)")
              py::arg("threads") = 0, py::arg("keep") = true, py::arg("horizon") = 0.0,
              py::arg("max_bytes") = 0)
         .def("push", &push, py::arg("points"), py::arg("pose") = py::none(),
-             py::arg("stamp") = py::none(), py::arg("times") = py::none(),
+             py::arg("stamp") = py::none(), py::arg("times") = py::none(), py::arg("sensor") = 0,
              R"(Takes a scan; returns its instant verdict.
 
 points: N x 3 or more columns, float32 or float64, with any strides: x y z [m] in the sensor frame;
@@ -193,6 +194,8 @@ have a stamp, or none.
 times: N float32 or float64, the time of each point [s] relative to the stamp. If the filter
 estimates or refines the pose, it uses them for motion compensation; otherwise they have no effect.
 None: all points were measured at once, or motion compensation was already done.
+sensor: 0 to 255, which of several sensors on one vehicle made the scan (Frame.sensor); each scan then
+needs the pose of its own sensor.
 Returns labels: N uint8: 0 unknown, 9 static, 251 dynamic. With the preset "paper" all are 0;
 corrections() returns the labels when a window of scans is full.
 Raises TypeError, ValueError, and Error after finish(), or if the scan is late or a duplicate, or if

@@ -81,7 +81,8 @@ Scan KeptFilter::numbered(Pushed pushed) const {
             pushed.stamp.value_or(kPeriod * static_cast<double>(size_)),
             size_,
             pushed.T_world_sensor.has_value(),
-            std::move(pushed.times)};
+            std::move(pushed.times),
+            pushed.sensor};
 }
 
 Labels KeptFilter::push(Pushed pushed) {

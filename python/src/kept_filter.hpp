@@ -20,6 +20,7 @@ struct Pushed {
     std::optional<Pose> T_world_sensor;  ///< empty: the filter estimates it
     std::optional<double> stamp;         ///< [s]; empty: ten scans per second are assumed
     std::vector<float> times;            ///< see Scan::times
+    std::size_t sensor = 0;              ///< see Scan::sensor
 };
 
 /// The pose of a scan.

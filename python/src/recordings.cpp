@@ -116,6 +116,9 @@ read.)")
                 return labels_array(f.truth, self);
             }),
             "ground truth, N uint8: 0 unknown, 9 static, 251 dynamic; None: there is none")
+        .def_property_readonly(
+            "sensor", [](const io::FullScan& f) { return f.sensor; },
+            "Which of several sensors made the scan: its number in the rig file, from 0.")
         .def_property_readonly("fields", view([](const io::FullScan& f, const py::object& self) {
                                    return fields_array(f.cloud, self);
                                }),

@@ -35,6 +35,26 @@ class AsTheCommand(unittest.TestCase):
                      "--preset", "paper", "--set", "submap.keyframes=5")
 
 
+    def test_several_sensors(self):
+        """Scans of two sensors of a vehicle, of which each is told to be that of its sensor."""
+        rig = scratch("rig.toml")
+        with open(rig, "w", encoding="utf-8") as file:
+            for name, mount, delay in ("front", (0.5, 0, 0, 0, 0, 0), 0.0), ("rear", (-0.5, 0, 0, 0, 0, 180), 0.25):
+                df.simulate("crowd", scratch(name), frames=8, mount=mount, delay=delay)
+                file.write(f'[[sensor]]\nname = "{name}"\nrecording = "{name}"\n')
+        filter, scans = df.DynamicFilter(), list(df.open_recording(rig))
+        self.assertEqual([scan.sensor for scan in scans], [0, 1] * 8)
+        for scan in scans:
+            filter.push(scan.points, scan.pose, scan.stamp, sensor=scan.sensor)
+        filter.finish()
+        folder = scratch("of_rig")
+        subprocess.run([COMMAND, "run", rig, "-o", folder, "--refine", "off", "--deskew", "off"], check=True, capture_output=True)
+        for i in range(16):
+            name = f"{('front', 'rear')[i % 2]}_{i // 2:06}.label"
+            labels = np.fromfile(os.path.join(folder, "labels", name), np.uint32)
+            self.assertEqual(filter.labels(i).astype(np.uint32).tobytes(), labels.tobytes())
+
+
 class Corrections(unittest.TestCase):
     def follow(self, config):
         """Corrections lead from the instant labels to those that labels() tells."""
