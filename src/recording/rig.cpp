@@ -6,29 +6,16 @@
 #include <algorithm>
 #include <map>
 #include <memory>
-#include <numeric>
 #include <set>
 #include <utility>
 
 #include "dynamic_filter/error.hpp"
-#include "recording/common_fields.hpp"
 #include "recording/rig_file.hpp"
 #include "recording/rig_poses.hpp"
+#include "recording/rig_scans.hpp"
 
 namespace dynamic_filter::io {
 namespace {
-
-/// A scan of the rig: which sensor made it, and its number among the scans of that sensor.
-struct OneOf {
-    std::size_t sensor, scan;
-};
-
-struct Rig {
-    RigFile file;
-    std::vector<Recording> recordings;  // by sensor
-    std::vector<OneOf> scans;           // in the order of their stamps
-    CommonFields fields;
-};
 
 void refuse_other_options(const std::filesystem::path& file, const OpenOptions& o) {
     const char* const given = !o.topic.empty() || !o.pose_topic.empty() ? "--topic"
@@ -217,81 +204,6 @@ void gather(Info& info, const Rig& rig, const std::vector<std::vector<double>>& 
     info.measured_stamps = true;
 }
 
-/// From the frame of the points of the files into that of the sensor, in the unit of the points.
-Eigen::Isometry3d into_sensor_frame(const RigEntry& entry, const Info& info, double unit) {
-    Pose T_sensor_points = Pose::Identity();
-    if (!entry.field.empty()) {
-        T_sensor_points = entry.T_vehicle_sensor->inverse();
-    } else if (info.sensor_at) {
-        T_sensor_points = Pose(Eigen::Translation3d(-*info.sensor_at));
-    }
-    T_sensor_points.translation() /= unit;
-    return T_sensor_points;
-}
-
-/// Which points of a merged cloud are those of the sensor; all of another one.
-std::vector<std::size_t> points_of(const RigEntry& entry, const Cloud& cloud,
-                                   const std::filesystem::path& file) {
-    std::vector<std::size_t> points(cloud.size());
-    std::iota(points.begin(), points.end(), std::size_t{0});
-    if (entry.field.empty()) return points;
-    const Field* const field = cloud.find(entry.field);
-    if (field == nullptr) {
-        throw InputError(file, "",
-                         fmt::format("has no field '{}', which tells the points of sensor '{}'",
-                                     entry.field, entry.name));
-    }
-    const std::vector<double> of = values(cloud, *field);
-    std::erase_if(points, [&](std::size_t i) { return of[i] != entry.value; });
-    return points;
-}
-
-Cloud read_of(const Rig& rig, OneOf one, double unit) {
-    const RigEntry& entry = rig.file.sensors[one.sensor];
-    const Recording& recording = rig.recordings[one.sensor];
-    const Info& info = recording.info();
-    const Cloud cloud = recording.parts().read_cloud(one.scan);
-    return in_common_fields(cloud, points_of(entry, cloud, info.scan_files[one.scan]), rig.fields,
-                            into_sensor_frame(entry, info, unit), info.stamps[one.scan],
-                            one.sensor);
-}
-
-Labels truth_of(const Rig& rig, OneOf one, const Cloud& cloud) {
-    const Recording& recording = rig.recordings[one.sensor];
-    const RigEntry& entry = rig.file.sensors[one.sensor];
-    const Info& info = recording.info();
-    const auto& read = recording.parts().read_truth;
-    if (entry.field.empty()) {
-        return read ? read(one.scan, cloud) : read_labels(info.label_files[one.scan]);
-    }
-    const Cloud merged = recording.parts().read_cloud(one.scan);
-    const Labels all = read ? read(one.scan, merged) : read_labels(info.label_files[one.scan]);
-    if (all.size() != merged.size()) {
-        throw InputError(info.label_files[one.scan], "",
-                         fmt::format("{} labels but {} points", all.size(), merged.size()));
-    }
-    Labels labels;
-    for (const std::size_t i : points_of(entry, merged, info.scan_files[one.scan])) {
-        labels.push_back(all[i]);
-    }
-    return labels;
-}
-
-/// The first cloud of the sensor that can be read; empty if none of the first few can.
-Cloud some_cloud(const Recording& recording, double& stamp) {
-    constexpr std::size_t kTries = 10;
-    for (std::size_t i = 0; i < std::min(kTries, recording.size()); ++i) {
-        try {
-            Cloud cloud = recording.parts().read_cloud(i);
-            stamp = recording.info().stamps[i];
-            if (cloud.size() > 0) return cloud;
-        } catch (const InputError&) {
-            continue;  // it is rejected later, with the reason
-        }
-    }
-    return {};
-}
-
 /// Labels are named by the scans.
 void refuse_equal_names(const RecordingParts& parts) {
     std::set<std::string> names;
@@ -304,28 +216,6 @@ void refuse_equal_names(const RecordingParts& parts) {
                                      "sensors",
                                      name));
     }
-}
-
-CommonFields fields_of(const Rig& rig, Info& info) {
-    std::vector<Cloud> clouds;
-    bool timed = false;
-    for (std::size_t s = 0; s < rig.recordings.size(); ++s) {
-        double stamp = 0.0;
-        Cloud cloud = some_cloud(rig.recordings[s], stamp);
-        if (cloud.size() == 0) {
-            throw InputError(rig.file.sensors[s].recording, "",
-                             fmt::format("sensor '{}': none of its first scans can be read",
-                                         rig.file.sensors[s].name));
-        }
-        timed |= !point_times(cloud, stamp).empty();
-        clouds.push_back(std::move(cloud));
-    }
-    CommonFields fields = common_fields(clouds, timed);
-    if (!fields.left_out.empty()) {
-        info.notes.push_back("not all sensors have these fields, so they are left out: " +
-                             fields.left_out);
-    }
-    return fields;
 }
 
 }  // namespace
@@ -352,7 +242,7 @@ RecordingParts open_rig(const std::filesystem::path& file, const OpenOptions& op
     info.layout = "rig";
     info.root = file;
     gather(info, *rig, stamps);
-    rig->fields = fields_of(*rig, info);
+    rig->fields = fields_of(*rig, info.notes);
     std::optional<Trajectory> vehicle;
     if (pose_file && !options.without_poses) {
         vehicle = read_vehicle_poses(*pose_file, options.pose_fix, info.stamps, info.notes);
@@ -367,10 +257,10 @@ RecordingParts open_rig(const std::filesystem::path& file, const OpenOptions& op
     refuse_equal_names(parts);
     if (!options.own_body.empty()) require_places(rig->file, file);
     parts.read_cloud = [rig, unit = options.point_unit](std::size_t i) {
-        return read_of(*rig, rig->scans.at(i), unit);
+        return read_cloud_of(*rig, rig->scans.at(i), unit);
     };
     parts.read_truth = [rig](std::size_t i, const Cloud& cloud) {
-        return truth_of(*rig, rig->scans.at(i), cloud);
+        return read_truth_of(*rig, rig->scans.at(i), cloud);
     };
     parts.refuse_bad_size = [rig, at = std::move(at)](const std::filesystem::path& scan) {
         const Recording& recording = rig->recordings[at.at(scan)];

@@ -33,6 +33,7 @@ COVERED = {  # test -> the units that it covers
     "recording/layout_test.cpp": "recording/layouts/beside recording/layouts/kitti",
     "recording/benchmark_test.cpp": "recording/layouts/benchmark",
     "recording/layouts/nuscenes_test.cpp": "recording/layouts/nuscenes_tables",
+    "recording/rig_test.cpp": "recording/rig_scans",
     "run/city_test.sh": "commands/merge commands/plan run/filter_tile run/filter_tiles run/job run/merge "
         "run/write_tiles",
     "run/edits_test.cpp": "run/apply_edits run/edit_lookup run/map_gaps run/run_edits",
