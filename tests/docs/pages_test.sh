@@ -29,10 +29,21 @@ run() {  # LINE
     sh -c "$line" < /dev/null > "$work/out" 2>&1 || status=$?
     tee -a "$work/said" < "$work/out"
     [ "$status" -eq "${expected:-0}" ] || { echo "$page: exit $status, not ${expected:-0}: $line"; exit 1; }
-    case $line in dynamicfilter\ simulate\ *)
+    case $line in
+    'dynamicfilter demo')
+        cp -al demo "$work/demo" && cp "$work/said" "$work/demo_said"
+        [ "$page" != README.md ] || shorten ;;
+    dynamicfilter\ simulate\ *)
         made=$(printf '%s' "$line" | sed -n 's/.* -o \([^ ]*\).*/\1/p')
         mkdir -p "$kept" && cp -al "$made" "$kept/" ;;
     esac
+}
+
+# The README shows nothing of what its commands print, so a quarter of the demo's recording does for them.
+shorten() {
+    dynamicfilter convert demo/recording demo/short --last 79 -q > /dev/null 2>&1
+    rm -r demo/recording
+    mv demo/short demo/recording
 }
 
 block() { "$source/script/lib/code_of" "$1" "$source/$page"; }
@@ -53,7 +64,6 @@ for page; do
     while IFS= read -r line; do
         grep -qxF -- "$line" "$work/said" || { echo "$page: not said any more: $line"; exit 1; }
     done < "$work/lines"
-    if [ ! -d "$work/demo" ] && [ -d demo ]; then mv demo "$work/demo"; cp "$work/said" "$work/demo_said"; fi
     cd "$work"
     rm -rf here
 done
