@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 from os import PathLike
-from typing import Any, Iterator, Literal, Mapping, Optional, Tuple, TypedDict, Union, overload
+from typing import Any, Iterator, Literal, Mapping, Optional, TypedDict, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -126,5 +126,5 @@ def check(data: _Path, **options: Unpack[_Reading]) -> dict[str, Any]: ...
 def simulate(scene: str, output: _Path, *, sensor: str = ..., pedestrians: int = -1, seed: int = 1,
              frames: Optional[int] = None, rate: float = 0.0, pose_noise: float = 0.0,
              pose_noise_deg: float = 0.0, sweep: bool = False, rounds: int = 0, km: float = 0.0,
-             drives: int = 0, mount: Optional[Tuple[float, float, float, float, float, float]] = None,
+             drives: int = 0, mount: Optional[tuple[float, float, float, float, float, float]] = None,
              delay: float = 0.0, knowable: bool = False, overwrite: bool = False, quiet: bool = True) -> int: ...

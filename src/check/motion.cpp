@@ -186,6 +186,17 @@ void use_found_poses(io::Recording& recording, const Config& config, const Motio
     chosen.tracked = std::move(found.tracked);
 }
 
+/// With times that make scans overlay better; a note says so.
+void undo_motion(io::Recording& recording, const io::TimesChoice& times, bool timed,
+                 ChosenMotion& chosen) {
+    recording = io::deskewed(io::as_measured(recording), times.sweep);
+    chosen.notes.push_back(fmt::format(
+        "scans blur by {} as they are and by {} with the motion during each scan undone by "
+        "{}{}, so it is undone; --deskew off leaves it",
+        centimetres(times.blur.as_measured), centimetres(times.blur.undone),
+        source_of(*times.sweep, timed), stamp_text(*times.sweep, timed)));
+}
+
 /// Poses that were found for the scans of the first sensor place all sensors of a rig.
 void place_rig(io::Recording& recording, const io::Recording& first, ChosenMotion& chosen) {
     chosen.tracked = io::tracked_for_all(recording, chosen.tracked);
@@ -209,12 +220,7 @@ void undo_motion_of_several(io::Recording& recording, const std::vector<io::Reco
     io::MotionLook look(*timed, config.odometry, deskew);
     const io::TimesChoice& times = look.times();
     if (!times.sweep) return;
-    recording = io::deskewed(io::as_measured(recording), times.sweep);
-    chosen.notes.push_back(
-        fmt::format("scans blur by {} as they are and by {} with the motion during each scan "
-                    "undone by the times "
-                    "of their points, so it is undone; --deskew off leaves it",
-                    centimetres(times.blur.as_measured), centimetres(times.blur.undone)));
+    undo_motion(recording, times, true, chosen);
 }
 
 /// Of several sensors, the first one shows what holds for all. Poses are found and refined for it,
@@ -287,12 +293,7 @@ ChosenMotion choose_motion(io::Recording& recording, Config& config, const Motio
         return chosen;
     }
     if (times.sweep) {
-        recording = io::deskewed(io::as_measured(recording), times.sweep);
-        chosen.notes.push_back(fmt::format(
-            "scans blur by {} as they are and by {} with the motion during each scan undone by "
-            "{}{}, so it is undone; --deskew off leaves it",
-            centimetres(times.blur.as_measured), centimetres(times.blur.undone),
-            source_of(*times.sweep, timed), stamp_text(*times.sweep, timed)));
+        undo_motion(recording, times, timed, chosen);
     } else if (choice.deskew == "on" && !recording.info().deskewed) {
         add_not_undone(recording);
     }

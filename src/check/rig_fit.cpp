@@ -4,10 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "base/degree.hpp"
 #include "base/numbers.hpp"
@@ -277,8 +275,7 @@ std::vector<std::optional<SensorFit>> fit_sensors(const Recording& rig,
 RigFindings misplaced_sensors(const Recording& rig, const OdometryConfig& config) {
     if (!knows_places(rig.parts()) || !rig.info().has_poses) return {};
     const auto fits = fit_sensors(rig, config);
-    // Motion during scans that is not undone displaces them as well.
-    const auto fits_in_time = rig.info().deskewed ? fits : fit_sensors(with_times(rig), config);
+    std::optional<std::vector<std::optional<SensorFit>>> fits_in_time;
     const std::vector<Recording> sensors = by_sensor(rig);
     const auto sensor_of = [&](std::size_t s) -> const RigSensor& {
         return rig.parts().rig[sensors[s].parts().sensors.front()];
@@ -292,12 +289,18 @@ RigFindings misplaced_sensors(const Recording& rig, const OdometryConfig& config
                             sensor_of(s).name, sensor_of(0).name));
             continue;
         }
-        const auto finding = finding_of(*fits[s - 1], sensor_of(s), sensor_of(0).name);
-        if (!finding || !fits_in_time[s - 1]) continue;
-        const auto in_time = finding_of(*fits_in_time[s - 1], sensor_of(s), sensor_of(0).name);
+        const SensorFit& fit = *fits[s - 1];
+        const auto finding = finding_of(fit, sensor_of(s), sensor_of(0).name);
+        if (!finding) continue;
+        // Motion during scans that is not undone displaces them as well.
+        if (!fits_in_time) {
+            fits_in_time = rig.info().deskewed ? fits : fit_sensors(with_times(rig), config);
+        }
+        const std::optional<SensorFit>& fit_in_time = (*fits_in_time)[s - 1];
+        if (!fit_in_time) continue;
+        const auto in_time = finding_of(*fit_in_time, sensor_of(s), sensor_of(0).name);
         if (!in_time) continue;
-        const bool is_nearer = fits_in_time[s - 1]->shift < fits[s - 1]->shift;
-        found.findings.push_back(is_nearer ? *in_time : *finding);
+        found.findings.push_back(fit_in_time->shift < fit.shift ? *in_time : *finding);
     }
     return found;
 }

@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-
 #include "base/edit_distance.hpp"
 #include "base/exit_code.hpp"
 #include "base/progress.hpp"
@@ -57,12 +55,7 @@ Seen listen_to(Bus& bus, const LiveConfig& config, double look) {
     }
     seen.topics = usable(bus.seen());
     seen.cloud = subscriptions.cloud();
-    for (const std::string& topic : cloud_topics(config)) {
-        const auto& there = subscriptions.clouds();
-        if (std::find(there.begin(), there.end(), topic) == there.end()) {
-            seen.missing.push_back(topic);
-        }
-    }
+    seen.missing = subscriptions.missing();
     seen.counters = intake.counters();
     seen.origin = intake.origin();
     seen.poses = intake.poses_text();

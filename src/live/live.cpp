@@ -92,9 +92,9 @@ public:
             session_.begin_anew();
             tell({"a message asked for a new map; it begins with the next scan"});
         }
-        if (std::exchange(was_paused_, requests_.is_paused()) == requests_.is_paused()) return;
-        tell({was_paused_ ? "a message asked for a pause; scans are left out"
-                          : "the pause is over"});
+        const bool is_paused = requests_.is_paused();
+        if (std::exchange(was_paused_, is_paused) == is_paused) return;
+        tell({is_paused ? "a message asked for a pause; scans are left out" : "the pause is over"});
     }
 
     /// A scan that came during a pause.

@@ -70,9 +70,7 @@ void Subscriptions::update() {
     const UsableTopics topics = usable(bus_.seen());
     choose_clouds(topics);
     for (const SeenTopic& topic : topics.clouds) {
-        if (std::find(clouds_.begin(), clouds_.end(), topic.name) != clouds_.end()) {
-            subscribe(topic);
-        }
+        if (is_chosen(topic.name)) subscribe(topic);
     }
     for (const SeenTopic& topic : topics.transforms) subscribe(topic);
     const bool undecided = intake_.origin() == PoseOrigin::undecided;
@@ -83,13 +81,11 @@ void Subscriptions::update() {
 }
 
 void Subscriptions::choose_clouds(const UsableTopics& topics) {
-    const std::vector<std::string> wanted = cloud_topics(config_);
-    for (const std::string& name : wanted) {
-        const bool is_new = std::find(clouds_.begin(), clouds_.end(), name) == clouds_.end();
-        if (is_new && is_listed(topics.clouds, name)) clouds_.push_back(name);
+    for (const std::string& name : missing()) {
+        if (is_listed(topics.clouds, name)) clouds_.push_back(name);
     }
-    tell_missing(wanted);
-    if (!wanted.empty() || !clouds_.empty() || topics.clouds.empty()) return;
+    tell_missing();
+    if (!config_.input.cloud.empty() || !clouds_.empty() || topics.clouds.empty()) return;
     // Others may be found a moment later.
     constexpr auto kMoment = std::chrono::milliseconds(1000);
     const auto now = std::chrono::steady_clock::now();
@@ -105,16 +101,26 @@ void Subscriptions::choose_clouds(const UsableTopics& topics) {
     clouds_.push_back(topics.clouds.front().name);
 }
 
+bool Subscriptions::is_chosen(const std::string& topic) const {
+    return std::find(clouds_.begin(), clouds_.end(), topic) != clouds_.end();
+}
+
+std::vector<std::string> Subscriptions::missing() const {
+    std::vector<std::string> topics = cloud_topics(config_);
+    std::erase_if(topics, [&](const std::string& topic) { return is_chosen(topic); });
+    return topics;
+}
+
 /// Once, if one of several sensors is not there a while after the first.
-void Subscriptions::tell_missing(const std::vector<std::string>& wanted) {
+void Subscriptions::tell_missing() {
     constexpr auto kWhile = std::chrono::seconds(3);
-    if (clouds_.empty() || clouds_.size() == wanted.size() || told_missing_) return;
+    const std::vector<std::string> topics = missing();
+    if (clouds_.empty() || topics.empty() || told_missing_) return;
     const auto now = std::chrono::steady_clock::now();
     if (!first_seen_) first_seen_ = now;
     if (now - *first_seen_ < kWhile) return;
     told_missing_ = true;
-    for (const std::string& name : wanted) {
-        if (std::find(clouds_.begin(), clouds_.end(), name) != clouds_.end()) continue;
+    for (const std::string& name : topics) {
         notices_.push_back(fmt::format(
             "nobody publishes scans on {}; those of the other sensors are filtered", name));
     }

@@ -45,11 +45,14 @@ public:
     [[nodiscard]] const std::vector<std::string>& clouds() const { return clouds_; }
     /// The first of them; empty: none yet.
     [[nodiscard]] std::string cloud() const { return clouds_.empty() ? "" : clouds_.front(); }
+    /// The topics of input.cloud that nobody publishes by now.
+    [[nodiscard]] std::vector<std::string> missing() const;
     std::vector<std::string> pop_notices() { return std::exchange(notices_, {}); }
 
 private:
     void choose_clouds(const UsableTopics& topics);
-    void tell_missing(const std::vector<std::string>& wanted);
+    void tell_missing();
+    [[nodiscard]] bool is_chosen(const std::string& topic) const;
     void subscribe(const SeenTopic& topic);
 
     Bus& bus_;

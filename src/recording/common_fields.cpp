@@ -21,21 +21,21 @@ struct Copy {
     std::size_t from, to, bytes;
 };
 
+/// The field of the cloud with the name, type and count of this one; nullptr if it has none.
+const Field* same_in(const Cloud& cloud, const Field& field) {
+    const Field* const own = cloud.find(field.name);
+    const bool is_same = own != nullptr && own->type == field.type && own->count == field.count;
+    return is_same ? own : nullptr;
+}
+
 std::vector<Copy> copies_from(const Cloud& cloud, const std::vector<Field>& fields) {
     std::vector<Copy> copies;
     for (const Field& field : fields) {
-        const Field* const own = cloud.find(field.name);
-        const bool is_same = own != nullptr && own->type == field.type && own->count == field.count;
-        if (!is_same || is_coordinate(field.name)) continue;
+        const Field* const own = same_in(cloud, field);
+        if (own == nullptr || is_coordinate(field.name)) continue;
         copies.push_back({own->offset, field.offset, size_of(field.type) * field.count});
     }
     return copies;
-}
-
-void put(std::byte* record, const CommonFields& common, const char* name, const void* value) {
-    const auto field = std::find_if(common.fields.begin(), common.fields.end(),
-                                    [&](const Field& f) { return f.name == name; });
-    std::memcpy(record + field->offset, value, size_of(field->type));
 }
 
 }  // namespace
@@ -58,8 +58,7 @@ CommonFields common_fields(const std::vector<Cloud>& clouds, bool timed) {
                                   std::count(left_out.begin(), left_out.end(), field.name) > 0;
             if (is_known || is_time(field.name)) continue;
             const bool all = std::all_of(clouds.begin(), clouds.end(), [&](const Cloud& other) {
-                const Field* const same = other.find(field.name);
-                return same != nullptr && same->type == field.type && same->count == field.count;
+                return same_in(other, field) != nullptr;
             });
             if (all) {
                 add_field(layout, field.name, field.type, field.count);
@@ -90,6 +89,9 @@ Cloud in_common_fields(const Cloud& cloud, const std::vector<std::size_t>& point
                                                    values(cloud, *cloud.find("y")),
                                                    values(cloud, *cloud.find("z"))};
     const bool moves = !T.matrix().isIdentity(0.0);
+    const Field *const time_at = fields.with_times ? out.find(kTimes) : nullptr,
+                       *const sensor_at = fields.with_sensor ? out.find(kSensor) : nullptr;
+    const auto number = static_cast<std::uint8_t>(sensor);
     for (std::size_t k = 0; k < points.size(); ++k) {
         const std::size_t i = points[k];
         std::byte* const record = out.data.data() + k * out.point_bytes;
@@ -99,12 +101,10 @@ Cloud in_common_fields(const Cloud& cloud, const std::vector<std::size_t>& point
         if (moves && !p.isZero(0.0)) p = T * p;
         const Eigen::Vector3f xyz = p.cast<float>();
         std::memcpy(record, xyz.data(), sizeof(float) * 3);
-        if (fields.with_times) {
-            const float time = times.empty() ? 0.0F : times[i];
-            put(record, fields, kTimes, &time);
+        if (time_at != nullptr && !times.empty()) {  // otherwise zero
+            std::memcpy(record + time_at->offset, &times[i], sizeof(float));
         }
-        const auto number = static_cast<std::uint8_t>(sensor);
-        if (fields.with_sensor) put(record, fields, kSensor, &number);
+        if (sensor_at != nullptr) std::memcpy(record + sensor_at->offset, &number, sizeof number);
     }
     return out;
 }

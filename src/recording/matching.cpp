@@ -43,18 +43,6 @@ bool are_of_one_clock(const std::vector<double>& poses, const std::vector<double
     return overlap(poses, scans) && (begin_together || !one_begins_at_zero);
 }
 
-/// The poses that are known, which rows of lost tracking are not.
-Trajectory trajectory_of(const PoseFile& file) {
-    Trajectory trajectory;
-    for (std::size_t i = 0; i < file.poses.size(); ++i) {
-        if (!file.poses[i].matrix().allFinite()) continue;
-        trajectory.stamps.push_back(file.stamps[i]);
-        trajectory.poses.push_back(file.poses[i]);
-    }
-    put_in_order(trajectory);
-    return trajectory;
-}
-
 /// True if each row is that of its scan: the numbers agree, and no two stamps are apart.
 bool are_parallel(const std::vector<double>& poses, const std::vector<double>& scans) {
     const double most = limits_for(scans).nearest;
@@ -119,7 +107,7 @@ void refuse_rounded_stamps(const Layout& layout, const PoseFile& file) {
 Match match_by_time(const Layout& layout, const PoseFile& file, const std::vector<double>& times,
                     const char* source) {
     Match match{.poses = {}, .stamps = times, .note = {}};
-    match.trajectory = trajectory_of(file);
+    match.trajectory = without_lost(file.stamps, file.poses);
     if (are_parallel(file.stamps, times)) {
         match.poses = file.poses;
     } else {
@@ -215,6 +203,17 @@ PoseFile in_seconds(PoseFile file, const std::vector<double>& scans, std::option
 }
 
 }  // namespace
+
+Trajectory without_lost(const std::vector<double>& stamps, const std::vector<Pose>& poses) {
+    Trajectory known;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        if (!poses[i].matrix().allFinite()) continue;
+        known.stamps.push_back(stamps[i]);
+        known.poses.push_back(poses[i]);
+    }
+    put_in_order(known);
+    return known;
+}
 
 double unit_between(const std::vector<double>& poses, const std::vector<double>& scans) {
     if (poses.empty() || scans.empty() || !(span_of(scans) > 0.0)) return 1.0;

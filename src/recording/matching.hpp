@@ -14,6 +14,9 @@ namespace dynamic_filter::io {
 /// read_poses(). Motions are joined to poses here, because that needs all rows; `fix` is none then.
 PoseFile read_pose_file(const std::filesystem::path& file, PoseFix& fix);
 
+/// The poses that are known, which rows of lost tracking are not, in the order of their stamps.
+Trajectory without_lost(const std::vector<double>& stamps, const std::vector<Pose>& poses);
+
 /// A pose for each scan.
 struct Match {
     std::vector<Pose> poses;

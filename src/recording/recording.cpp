@@ -244,11 +244,14 @@ FullScan Recording::read(std::size_t i) const {
     return scan;
 }
 
-std::string stem(const Recording& recording, std::size_t i) {
-    const RecordingParts& parts = recording.parts();
-    const std::string name = recording.info().scan_files.at(i).stem().string();
+std::string name_of_scan(const RecordingParts& parts, std::size_t i) {
+    const std::string name = parts.info.scan_files.at(i).stem().string();
     if (parts.sensors.empty() || parts.rig[parts.sensors[i]].name.empty()) return name;
     return parts.rig[parts.sensors[i]].name + "_" + name;
+}
+
+std::string stem(const Recording& recording, std::size_t i) {
+    return name_of_scan(recording.parts(), i);
 }
 
 }  // namespace dynamic_filter::io

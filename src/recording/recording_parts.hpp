@@ -44,6 +44,9 @@ struct RecordingParts {
     std::vector<RigSensor> rig{};
 };
 
+/// See stem().
+std::string name_of_scan(const RecordingParts& parts, std::size_t i);
+
 /// The scans of each sensor, as recordings of their own; the recording itself if it has one.
 std::vector<Recording> by_sensor(const Recording& recording);
 

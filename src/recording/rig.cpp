@@ -117,10 +117,10 @@ void require_places(const RigFile& rig, const std::filesystem::path& file) {
     }
 }
 
-/// From the frame whose poses the recording has to that of the vehicle: the clouds of several
-/// sensors are merged in the frame of the vehicle.
-Pose T_posed_vehicle(const RigEntry& entry) {
-    return entry.field.empty() ? entry.T_vehicle_sensor->inverse() : Pose::Identity();
+/// From the frame whose poses the recording has to that of the sensor: clouds of several sensors
+/// are merged in the frame of the vehicle.
+Pose T_posed_sensor(const RigEntry& entry) {
+    return entry.field.empty() ? Pose::Identity() : *entry.T_vehicle_sensor;
 }
 
 /// Sets the poses of all scans, if there are any.
@@ -135,7 +135,8 @@ void assign_poses(RecordingParts& parts, const Rig& rig,
         const auto s = static_cast<std::size_t>(first - rig.recordings.begin());
         const RigEntry& entry = rig.file.sensors[s];
         require_places(rig.file, info.root);
-        vehicle = moved_by(known_poses(first->info(), entry.clock), T_posed_vehicle(entry));
+        vehicle = moved_by(known_poses(first->info(), entry.clock),
+                           T_posed_sensor(entry) * entry.T_vehicle_sensor->inverse());
         info.pose_source = first->info().pose_source;
         info.notes.push_back(fmt::format(
             "the poses are those of sensor '{}'; the other sensors have none, and are where the "
@@ -155,8 +156,7 @@ void assign_poses(RecordingParts& parts, const Rig& rig,
             poses.push_back(poses_near(trajectory, stamps[s]));
             continue;
         }
-        // Of clouds that were merged, the poses are those of the vehicle.
-        const Pose T = entry.field.empty() ? Pose::Identity() : *entry.T_vehicle_sensor;
+        const Pose T = T_posed_sensor(entry);
         trajectory = moved_by(known_poses(own, entry.clock), T);
         std::vector<Pose>& of_scans = poses.emplace_back(own.T_world_sensor);
         for (Pose& pose : of_scans) pose = pose * T;
@@ -208,8 +208,7 @@ void gather(Info& info, const Rig& rig, const std::vector<std::vector<double>>& 
 void refuse_equal_names(const RecordingParts& parts) {
     std::set<std::string> names;
     for (std::size_t i = 0; i < parts.sensors.size(); ++i) {
-        const std::string& sensor = parts.rig[parts.sensors[i]].name;
-        const std::string name = sensor + "_" + parts.info.scan_files[i].stem().string();
+        const std::string name = name_of_scan(parts, i);
         if (names.insert(name).second) continue;
         throw InputError(parts.info.root, "",
                          fmt::format("two scans would have the name {}; choose other names for the "

@@ -32,28 +32,18 @@ Trajectory read_vehicle_poses(const std::filesystem::path& file, PoseFix fix,
                          "rows of t x y z qx qy qz qw)");
     }
     const double unit = unit_between(read.stamps, stamps);
-    Trajectory vehicle;
-    for (std::size_t i = 0; i < read.poses.size(); ++i) {
-        if (!read.poses[i].matrix().allFinite()) continue;
-        vehicle.stamps.push_back(read.stamps[i] * unit);
-        vehicle.poses.push_back(fixed(fix, read.poses[i]));
-    }
-    put_in_order(vehicle);
+    Trajectory vehicle = without_lost(read.stamps, read.poses);
+    for (double& stamp : vehicle.stamps) stamp *= unit;
+    for (Pose& pose : vehicle.poses) pose = fixed(fix, pose);
     notes.insert(notes.end(), read.notes.begin(), read.notes.end());
     return vehicle;
 }
 
 Trajectory known_poses(const Info& info, double clock) {
-    Trajectory trajectory = info.trajectory;
-    if (trajectory.stamps.empty()) trajectory = {info.stamps, info.T_world_sensor};
-    for (double& stamp : trajectory.stamps) stamp += clock;
-    Trajectory known;
-    for (std::size_t i = 0; i < trajectory.stamps.size(); ++i) {
-        if (!trajectory.poses[i].matrix().allFinite()) continue;
-        known.stamps.push_back(trajectory.stamps[i]);
-        known.poses.push_back(trajectory.poses[i]);
-    }
-    put_in_order(known);
+    Trajectory known = info.trajectory.stamps.empty()
+                           ? without_lost(info.stamps, info.T_world_sensor)
+                           : without_lost(info.trajectory.stamps, info.trajectory.poses);
+    for (double& stamp : known.stamps) stamp += clock;
     return known;
 }
 

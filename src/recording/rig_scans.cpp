@@ -95,12 +95,12 @@ Labels read_truth_of(const Rig& rig, OneOf one, const Cloud& cloud) {
     const Recording& recording = rig.recordings[one.sensor];
     const RigEntry& entry = rig.file.sensors[one.sensor];
     const Info& info = recording.info();
-    const auto& read = recording.parts().read_truth;
-    if (entry.field.empty()) {
-        return read ? read(one.scan, cloud) : read_labels(info.label_files[one.scan]);
-    }
+    const auto truth_of = [&, &read = recording.parts().read_truth](const Cloud& of) {
+        return read ? read(one.scan, of) : read_labels(info.label_files[one.scan]);
+    };
+    if (entry.field.empty()) return truth_of(cloud);
     const Cloud merged = recording.parts().read_cloud(one.scan);
-    const Labels all = read ? read(one.scan, merged) : read_labels(info.label_files[one.scan]);
+    const Labels all = truth_of(merged);
     if (all.size() != merged.size()) {
         throw InputError(info.label_files[one.scan], "",
                          fmt::format("{} labels but {} points", all.size(), merged.size()));

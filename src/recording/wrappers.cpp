@@ -59,6 +59,7 @@ std::string obstacle_to_deskew(const RecordingParts& parts) {
         return "no poses over time: the sensor's motion during each scan is not undone; give poses "
                "with stamps";
     }
+    if (info.sweep && parts.rig.empty()) return "";
     // Of several sensors, some may have times: one scan of each tells.
     std::set<std::size_t> asked;
     for (std::size_t i = 0; i < info.stamps.size(); ++i) {
@@ -67,7 +68,6 @@ std::string obstacle_to_deskew(const RecordingParts& parts) {
         if (!point_times(parts.read_cloud(i), info.stamps[i]).empty()) return "";
         if (parts.sensors.empty()) break;
     }
-    if (info.sweep && parts.rig.empty()) return "";
     return "the points have no times of their own (no field t, time, timestamp or offset_time "
            "that varies), which would tell how the sensor moved during each scan";
 }

@@ -12,12 +12,7 @@ namespace rig_fit_test {
 
 constexpr double kPeriod = 0.2;  // [s]
 
-Pose rear_mount() {
-    Pose mount = Pose::Identity();
-    mount.translation() << -1.2, 0.0, 0.1;
-    mount.linear() = turned_by({0.0, 0.0, 180.0});
-    return mount;
-}
+Pose rear_mount() { return placed({-1.2, 0.0, 0.1}, {0.0, 0.0, 180.0}); }
 
 const test::Drive& drive_of(bool rear) {
     static std::array<std::optional<test::Drive>, 2> drives;

@@ -56,6 +56,12 @@ std::vector<std::optional<Tracked>> tracked(std::size_t count) {
     return all;
 }
 
+// The first scan may be damaged: a known sweep tells the times without it.
+TEST_F(Wrappers, AKnownSweepNeedsNoLookAtTheScans) {
+    data.put("scans/000000.pcd", "damaged");
+    EXPECT_TRUE(deskewed(open(), Sweep{}).info().deskewed);
+}
+
 TEST_F(Wrappers, ARecordingIsAValue) {
     const Recording recording = open(), copy = recording;
     EXPECT_EQ(&copy.info(), &recording.info());  // shared
