@@ -179,8 +179,10 @@ struct DriveOffset {
 /// Measures the offsets between pairs of drives, in the order (0,1), (0,2), (1,2), (0,3), and so
 /// on: 8 scans at each of at most 8 places of a pair. A drive is compared with the three drives
 /// before it that it meets at most places; its other pairs are `not_known` or `apart`. Drives
-/// without poses are left out.
-std::vector<DriveOffset> measure_drive_offsets(std::span<const Recording* const> drives);
+/// without poses are left out. The first `known` drives are taken to fit each other, and are not
+/// compared.
+std::vector<DriveOffset> measure_drive_offsets(std::span<const Recording* const> drives,
+                                               std::size_t known = 0);
 
 /// Sentences with advice about offsets between drives; empty if nothing is suspicious or if there
 /// are fewer than two drives. Of two drives that differ by a constant offset, the one with which

@@ -142,6 +142,18 @@ public:
     /// that what came is dynamic, too. Call it after the last push() and before finish(), for the
     /// scans of each drive but the last in their order.
     void look_again(std::size_t drive, Scan scan);
+    /// Which of the scans of an earlier drive, in their order, look_again() uses: the others need
+    /// not be read. Of these scans, poses, stamps and sensors matter.
+    [[nodiscard]] std::vector<bool> are_to_look_again(std::span<const Scan> scans) const;
+
+    /// What is known of the world after the drives so far, as some 75 bytes a voxel. Another filter
+    /// with the same settings and region that takes them goes on with begin_drive() as if it had
+    /// seen these drives itself: all results are the same. Call it after the last push(), and
+    /// before look_again() and finish(). Only a library of the same version can read the bytes.
+    [[nodiscard]] std::vector<std::byte> evidence() const;
+    /// Takes the evidence of another filter, before the first push(). Throws Error if it is
+    /// damaged.
+    void go_on_from(std::span<const std::byte> evidence);
 
     /// Takes a scan with points in the sensor frame, and returns the instant verdict on it. Stamps
     /// must not decrease within a drive.

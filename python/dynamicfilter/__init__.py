@@ -89,6 +89,8 @@ def run(data, output=None, **options):
     and stdout, like the command), refine (poses), and the options of open_recording(). With
     poses="none", the poses are estimated from the scans. refine and deskew are True, False or "auto"
     (the default), which does it if scans overlay better afterwards.
+    With update (output folder of an earlier run of the same place), the result is the map of its drives and of this
+    recording; keep_evidence=True keeps what an update needs to go on (docs/upkeep.md).
     Returns {"output": folder, "metrics": as in metrics.json, "timing": as in timing.json [s, ms]}.
     The labels are in the folder `labels` of the output, N uint32 per scan. Rejected or dropped scans
     raise nothing; they are in metrics["rejected"], ["dropped"] and ["lost"].

@@ -93,6 +93,8 @@ class _Running(_Reading, total=False):
     overwrite: bool
     resume: bool
     online: Optional[float]
+    update: Optional[_Path]
+    keep_evidence: bool
     quiet: bool
 
 class _Converting(_Reading, total=False):

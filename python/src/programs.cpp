@@ -76,6 +76,9 @@ app::RunOptions run_options(const fs::path& data, const std::optional<fs::path>&
     if (!(online.value_or(0.0) >= 0.0)) {
         throw py::value_error("online: expected a multiple of the sensor's rate, 0 or more");
     }
+    o.recordings = {data};
+    pop_option(options, "update", o.update);
+    pop_option(options, "keep_evidence", o.keeps_evidence);
     o.online = online.has_value();
     o.speed = online.value_or(0.0);
     o.data = data_options(data, options);

@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
@@ -39,6 +40,21 @@ void remove_files(const fs::path& folder, const std::function<bool(const fs::pat
     for (const fs::path& file : doomed) fs::remove(file);
 }
 
+/// Folders of folders, each with what a run leaves.
+constexpr std::array kOfResults{"drives", "history"};
+
+std::vector<fs::path> inner_results(const fs::path& path, const FolderFiles& written) {
+    std::vector<fs::path> inner;
+    if (!written.is_result) return inner;
+    for (const char* name : kOfResults) {
+        if (!fs::is_directory(path / name)) continue;
+        for (const auto& entry : fs::directory_iterator(path / name)) {
+            if (entry.is_directory()) inner.push_back(entry.path());
+        }
+    }
+    return inner;
+}
+
 void remove_earlier_output(const fs::path& path, const FolderFiles& written) {
     for (const char* name : written.files) fs::remove(path / name);
     for (const auto& [name, suffix] : written.folders) {
@@ -47,14 +63,14 @@ void remove_earlier_output(const fs::path& path, const FolderFiles& written) {
                      [&, s = suffix](const fs::path& file) { return file.extension() == s; });
         if (fs::is_empty(path / name)) fs::remove(path / name);
     }
-    const fs::path drives = path / "drives";  // each with what a run leaves
-    if (!written.is_result || !fs::is_directory(drives)) return;
-    for (const auto& drive : fs::directory_iterator(drives)) {
-        if (!drive.is_directory()) continue;
-        remove_earlier_output(drive.path(), written);
-        if (fs::is_empty(drive.path())) fs::remove(drive.path());
+    for (const fs::path& inner : inner_results(path, written)) {
+        remove_earlier_output(inner, written);
+        if (fs::is_empty(inner)) fs::remove(inner);
     }
-    if (fs::is_empty(drives)) fs::remove(drives);
+    if (!written.is_result) return;
+    for (const char* name : kOfResults) {
+        if (fs::is_directory(path / name) && fs::is_empty(path / name)) fs::remove(path / name);
+    }
 }
 
 /// Folders at the new place may hold files of the user, which stay.
@@ -75,11 +91,7 @@ void remove_stale(const fs::path& path, const FolderFiles& written) {
     for (const auto& [name, suffix] : written.folders) {
         if (fs::is_directory(path / name)) remove_files(path / name, is_stale);
     }
-    const fs::path drives = path / "drives";
-    if (!written.is_result || !fs::is_directory(drives)) return;
-    for (const auto& drive : fs::directory_iterator(drives)) {
-        if (drive.is_directory()) remove_stale(drive.path(), written);
-    }
+    for (const fs::path& inner : inner_results(path, written)) remove_stale(inner, written);
 }
 
 /// Whether the descriptor is still the file of that name: another process may have removed it.
@@ -196,6 +208,17 @@ void refuse_same_folder(const fs::path& input, const fs::path& output, const std
     std::error_code ignored;
     if (fs::equivalent(input, output, ignored)) {
         throw ConfigError(output.string() + ": " + what + "; choose another -o");
+    }
+}
+
+void link_or_copy(const fs::path& from, const fs::path& to) {
+    try {
+        fs::remove(to);
+        std::error_code cannot_link;
+        fs::create_hard_link(from, to, cannot_link);
+        if (cannot_link) fs::copy_file(from, to);
+    } catch (const fs::filesystem_error& error) {
+        throw OutputError(to, error.code().message());
     }
 }
 

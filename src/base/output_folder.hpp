@@ -17,8 +17,8 @@ struct FolderFiles {
     /// True: what is there is of use before all is there. Half a recording or map would mislead
     /// whoever reads it.
     bool is_of_use_in_part = false;
-    /// True: a run leaves these files, also in each folder of `drives`. No other command replaces
-    /// them, because some of them would stay and mislead.
+    /// True: a run leaves these files, also in each folder of `drives` and `history`. No other
+    /// command replaces them, because some of them would stay and mislead.
     bool is_result = false;
 };
 
@@ -79,6 +79,10 @@ private:
 /// Throws ConfigError if the output folder is the input folder; `what` the message says of it.
 void refuse_same_folder(const std::filesystem::path& input, const std::filesystem::path& output,
                         const std::string& what = "holds the recording itself");
+
+/// Replaces `to` by `from`. A link takes no space and lives on without `from`; where the file
+/// system has none, the file is copied.
+void link_or_copy(const std::filesystem::path& from, const std::filesystem::path& to);
 
 /// `results/<UTC stamp>`, not yet existing; `results/latest` will point to it after link_latest().
 std::filesystem::path default_output();

@@ -97,6 +97,15 @@ DrivePair pair_of(const Drive& a, const Drive& b) {
     return pair;
 }
 
+/// Two drives that fit each other.
+DrivePair known_pair(const Drive& a, const Drive& b) {
+    DrivePair pair;
+    pair.offset.a = a.index;
+    pair.offset.b = b.index;
+    pair.offset.match = FrameMatch::equal;
+    return pair;
+}
+
 void measure(DrivePair& pair, const Drive& a, const Drive& b) {
     DriveOffset& offset = pair.offset;
     offset.places = pair.meeting.places.size();
@@ -132,16 +141,20 @@ std::vector<std::size_t> most_met(const std::vector<DrivePair>& pairs) {
 
 }  // namespace
 
-std::vector<DriveOffset> measure_drive_offsets(std::span<const Recording* const> drives) {
-    std::vector<Drive> known;
+std::vector<DriveOffset> measure_drive_offsets(std::span<const Recording* const> drives,
+                                               std::size_t known) {
+    std::vector<Drive> posed;
     for (std::size_t i = 0; i < drives.size(); ++i) {
-        if (drives[i]->info().has_poses) known.push_back({i, drives[i], positions_of(*drives[i])});
+        if (drives[i]->info().has_poses) posed.push_back({i, drives[i], positions_of(*drives[i])});
     }
     std::vector<DriveOffset> offsets;
-    for (std::size_t b = 1; b < known.size(); ++b) {
+    for (std::size_t b = 1; b < posed.size(); ++b) {
         std::vector<DrivePair> pairs;
-        for (std::size_t a = 0; a < b; ++a) pairs.push_back(pair_of(known[a], known[b]));
-        for (const std::size_t a : most_met(pairs)) measure(pairs[a], known[a], known[b]);
+        for (std::size_t a = 0; a < b; ++a) {
+            pairs.push_back(posed[b].index < known ? known_pair(posed[a], posed[b])
+                                                   : pair_of(posed[a], posed[b]));
+        }
+        for (const std::size_t a : most_met(pairs)) measure(pairs[a], posed[a], posed[b]);
         for (const DrivePair& pair : pairs) offsets.push_back(pair.offset);
     }
     return offsets;

@@ -192,6 +192,12 @@ int convert_drives(const ConvertOptions& o) {
     if (o.data.poses) {
         throw ConfigError("--poses is for one recording; the drives of a map have their own");
     }
+    if (is_of_update(o.data.data)) {
+        throw ConfigError(o.data.data.string() +
+                          " is the output of an update, which labels the new drives alone; --to "
+                          "las, 3dtiles and autoware write the voxels of its map, and a `run` of "
+                          "all recordings labels all points");
+    }
     const std::vector<DriveOfResult> drives = drives_of_result(o.data.data);
     catch_interrupts();
     const std::unique_ptr<Sink> sink = make_sink(o);

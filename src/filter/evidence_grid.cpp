@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <type_traits>
+
 #include <utility>
 
 namespace dynamic_filter {
@@ -123,6 +125,22 @@ bool EvidenceGrid::record(std::uint32_t voxel, Sight sight, unsigned weight, boo
 void EvidenceGrid::update_score(std::uint32_t voxel) {
     State& state = states_[voxel];
     state.score = is_unknown(state.evidence) ? 0.0F : score_(state.evidence);
+}
+
+void EvidenceGrid::archive(Archive& archive) {
+    constexpr std::size_t kUsed = sizeof(Point) + sizeof(float) + sizeof(Evidence);
+    static_assert(std::has_unique_object_representations_v<Evidence>);
+    std::vector<VoxelKey> keys;
+    for (std::uint32_t v = 0; v < voxels_.size(); ++v) keys.push_back(voxels_.key(v));
+    archive.values(keys);
+    archive.values(states_, kUsed);
+    archive.values(sure_);
+    archive.value(scans_);
+    if (!archive.reads()) return;
+    // In their order, voxels and blocks get the numbers that they had.
+    for (const VoxelKey key : keys) voxels_.insert(key);
+    touched_.assign(voxels_.blocks(), 0);
+    neighbors_.update(voxels_);
 }
 
 std::vector<std::uint32_t> EvidenceGrid::blocks_touched(bool touched) const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dynamic_filter/types.hpp"
+#include "filter/archive.hpp"
 #include "filter/evidence.hpp"
 #include "geometry/map_points.hpp"
 #include "geometry/voxel_index.hpp"
@@ -87,6 +88,9 @@ public:
     [[nodiscard]] Point middle_of(std::uint32_t block) const {
         return (voxels_.corner(block).cast<float>().array() + 2.0F) * voxel_size_;
     }
+
+    /// Writes the voxels, or reads them into a grid without any.
+    void archive(Archive& archive);
 
     [[nodiscard]] float voxel_size() const { return voxel_size_; }  ///< [m]
     [[nodiscard]] const VoxelIndex& voxels() const { return voxels_; }

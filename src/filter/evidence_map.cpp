@@ -43,6 +43,7 @@ EvidenceMap::EvidenceMap(const Config& config, const std::optional<CellBounds>& 
       alignment_gain_(static_cast<float>(config.scans.sight.alignment_gain)),
       grid_(static_cast<float>(config.map.voxel_size), config.scans.evidence, bounds),
       keyframes_(config),
+      keyframe_(config.keyframe),
       again_{.drive = {}, .keyframes = Keyframes(with_one_keyframe(config)), .blocks = {}} {
     if (!bounds) return;
     area_.emplace(config.map.voxel_size * bounds->low.cast<double>(),
@@ -71,6 +72,22 @@ void EvidenceMap::look_again(std::size_t drive, const Scan& scan) {
     }
     if (!may_observe(scan) || !again_.keyframes.add(scan)) return;
     observe(again_.keyframes, again_.blocks, false, [&](std::uint32_t v) { return v >= known; });
+}
+
+std::vector<bool> EvidenceMap::are_to_look_again(std::span<const Scan> scans) const {
+    KeyframeChoice choice(keyframe_);
+    std::vector<bool> are;
+    for (const Scan& scan : scans) are.push_back(may_observe(scan) && choice.take(scan));
+    return are;
+}
+
+void EvidenceMap::archive(Archive& archive) {
+    grid_.archive(archive);
+    keyframes_.archive(archive);
+    archive.values(known_after_);
+    archive.value(disagreement_);
+    archive.values(indices_);
+    archive.values(sensors_);
 }
 
 PointVoxels EvidenceMap::insert(const Scan& scan, StageTimes& times) {

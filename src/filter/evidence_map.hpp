@@ -36,6 +36,14 @@ public:
     /// decided as it was before.
     void look_again(std::size_t drive, const Scan& scan);
 
+    /// Which of the scans of an earlier drive, in their order, look_again() would use. Their points
+    /// are not needed.
+    [[nodiscard]] std::vector<bool> are_to_look_again(std::span<const Scan> scans) const;
+
+    /// Writes what a filter needs to go on with another drive, or reads it into a map without
+    /// scans. The newest scan must have observed all that it observes.
+    void archive(Archive& archive);
+
     /// Adds a scan whose `T_world_sensor` is relative to the map. Only the voxels around its own
     /// points are observed here. Returns the voxel of each point. Cost: the points, plus new voxels
     /// times keyframes that observe them.
@@ -114,6 +122,7 @@ private:
     std::optional<Eigen::AlignedBox2d> area_;  // [m] of the bounds, in the map
     EvidenceGrid grid_;
     Keyframes keyframes_;
+    KeyframeConfig keyframe_;
     std::vector<std::uint32_t> known_after_;  // by drive that has ended: number of voxels
     /// The drive that looks again.
     struct Again {

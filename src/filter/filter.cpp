@@ -51,6 +51,8 @@ struct DynamicFilter::Impl {
           instant(config) {}
 
     Scan place(Scan scan);
+    void archive(Archive& archive);
+
     Verdict judge(const Scan& scan);
     [[nodiscard]] LocatedScan locate(const Scan& scan) const {
         const bool is_known = scan.sensor < sensors.size() && sensors[scan.sensor];
@@ -164,6 +166,48 @@ void DynamicFilter::look_again(std::size_t drive, Scan scan) {
     const Eigen::Index axis = impl_->sensor_of(scan).axis;
     scan = turned_to_z(std::move(scan), axis);
     timed(impl_->times, "look_again", [&] { impl_->map.look_again(drive, scan); });
+}
+
+std::vector<bool> DynamicFilter::are_to_look_again(std::span<const Scan> scans) const {
+    if (!impl_->frame.origin) return std::vector<bool>(scans.size(), false);
+    std::vector<Scan> in_map(scans.size());
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+        in_map[i] = {{}, impl_->frame.to_map(scans[i].T_world_sensor), scans[i].stamp, i};
+        in_map[i].sensor = scans[i].sensor;
+    }
+    return impl_->map.are_to_look_again(in_map);
+}
+
+/// In the order of the members.
+void DynamicFilter::Impl::archive(Archive& archive) {
+    Eigen::Vector3d origin = frame.origin.value_or(Eigen::Vector3d::Zero());
+    bool has_origin = frame.origin.has_value();
+    archive.value(has_origin);
+    archive.value(origin);
+    if (has_origin) frame.origin = origin;
+    std::vector<Eigen::Index> axes;  // -1: no scan of the sensor
+    for (const auto& sensor : sensors) axes.push_back(sensor ? sensor->axis : -1);
+    archive.values(axes);
+    map.archive(archive);
+    instant.archive(archive);
+    if (!archive.reads()) return;
+    sensors.resize(axes.size());
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        if (axes[i] >= 0) sensors[i] = Sensor{axes[i], Objects(config.scans.instances)};
+    }
+}
+
+std::vector<std::byte> DynamicFilter::evidence() const {
+    Archive archive;
+    impl_->archive(archive);
+    return archive.take();
+}
+
+void DynamicFilter::go_on_from(std::span<const std::byte> evidence) {
+    if (size() > 0 || impl_->finished) throw Error("a filter goes on before its first scan");
+    Archive archive(evidence);
+    impl_->archive(archive);
+    if (!archive.is_at_end()) throw Error("there are more bytes than those of the evidence");
 }
 
 void DynamicFilter::finish() {

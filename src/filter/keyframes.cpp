@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <bit>
 
-#include "filter/keyframe.hpp"
 #include "geometry/thinning.hpp"
 
 namespace dynamic_filter {
@@ -24,15 +23,15 @@ bool Keyframes::is_reliable(const BeamPattern& beams, const Scan& scan) const {
 bool Keyframes::add(const Scan& scan, std::uint32_t owner) {
     if (scan.sensor >= sensors_.size()) sensors_.resize(scan.sensor + 1);
     Sensor& sensor = sensors_[scan.sensor];
-    if (sensor.last_keyframe && !is_keyframe(*sensor.last_keyframe, scan, keyframe_)) return false;
+    if (!choice_.take(scan)) return false;
     const BeamPattern beams = sensor.beams ? *sensor.beams : estimate_beam_pattern({&scan, 1});
     if (!sensor.beams && is_reliable(beams, scan)) {
         sensor.beams = beams;
         sensor.thinned = thinning_of(scan.points);
     }
-    sensor.last_keyframe = Scan{{}, scan.T_world_sensor, scan.stamp, scan.index};
+
     const bool looks_far =
-        !sensor.last_far_look || scan.stamp - *sensor.last_far_look >= keyframe_.interval;
+        !sensor.last_far_look || scan.stamp - *sensor.last_far_look >= choice_.config().interval;
     if (looks_far) sensor.last_far_look = scan.stamp;
     const float reach =
         looks_far ? farthest_ : std::min(static_cast<float>(config_.near_reach), farthest_);
@@ -47,6 +46,7 @@ bool Keyframes::add(const Scan& scan, std::uint32_t owner) {
 void Keyframes::begin_drive() {
     kept_.clear();
     sensors_.clear();
+    choice_ = KeyframeChoice(choice_.config());
 }
 
 std::vector<Keyframes::Asked> Keyframes::asked_by_new() const {

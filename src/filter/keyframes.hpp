@@ -10,6 +10,8 @@
 #include "dynamic_filter/range_image.hpp"
 #include "dynamic_filter/settings.hpp"
 #include "dynamic_filter/types.hpp"
+#include "filter/archive.hpp"
+#include "filter/keyframe.hpp"
 #include "geometry/beam_image.hpp"
 
 namespace dynamic_filter {
@@ -29,7 +31,7 @@ struct Keyframe {
 class Keyframes {
 public:
     explicit Keyframes(const Config& config)
-        : keyframe_(config.keyframe),
+        : choice_(config.keyframe),
           config_(config.scans.observers),
           farthest_(static_cast<float>(config.scans.sight.farthest)),
           most_(static_cast<std::size_t>(config.scans.max_keyframes)) {}
@@ -55,6 +57,8 @@ public:
     [[nodiscard]] std::size_t total() const {
         return total_;
     }  ///< including those that are no longer kept
+    /// What is left of them after begin_drive().
+    void archive(Archive& archive) { archive.value(total_); }
     /// Of the first sensor: measured on its first scan that has enough points; empty before it.
     [[nodiscard]] std::optional<BeamPattern> beams() const {
         return sensors_.empty() ? std::nullopt : sensors_.front().beams;
@@ -63,14 +67,14 @@ public:
 private:
     [[nodiscard]] bool is_reliable(const BeamPattern& beams, const Scan& scan) const;
 
-    KeyframeConfig keyframe_;
+    KeyframeChoice choice_;
     ScansConfig::Observers config_;
     float farthest_;  // [m]
     std::size_t most_;
     struct Sensor {
         std::optional<BeamPattern> beams;
-        float thinned = 0.0F;                 // [m] measured with `beams`
-        std::optional<Scan> last_keyframe;    // only its pose and stamp
+        float thinned = 0.0F;  // [m] measured with `beams`
+
         std::optional<double> last_far_look;  // [s]
     };
     std::vector<Sensor> sensors_;  // by Scan::sensor

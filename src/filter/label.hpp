@@ -7,7 +7,9 @@
 /// - final labels: from the whole recording.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+
 #include <optional>
 #include <span>
 #include <vector>
@@ -16,6 +18,7 @@
 
 #include "dynamic_filter/filter.hpp"
 #include "dynamic_filter/settings.hpp"
+#include "filter/archive.hpp"
 #include "filter/contact.hpp"
 #include "filter/evidence_grid.hpp"
 #include "geometry/map_frame.hpp"
@@ -51,6 +54,9 @@ public:
 
     /// Renumbers the voxels: only those with the old numbers `kept` remain, in that order.
     void keep(std::span<const std::uint32_t> kept);
+
+    /// Writes the labels, or reads them.
+    void archive(Archive& archive) { archive.values(said_, offsetof(Said, role)); }
 
 private:
     /// In the newest scan: the voxel holds dynamic points, or touches one that does.

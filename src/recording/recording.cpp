@@ -250,6 +250,11 @@ std::string name_of_scan(const RecordingParts& parts, std::size_t i) {
     return parts.rig[parts.sensors[i]].name + "_" + name;
 }
 
+std::size_t sensor_of(const Recording& recording, std::size_t i) {
+    const std::vector<std::size_t>& sensors = recording.parts().sensors;
+    return sensors.empty() ? 0 : sensors[i];
+}
+
 std::string stem(const Recording& recording, std::size_t i) {
     return name_of_scan(recording.parts(), i);
 }

@@ -47,6 +47,9 @@ struct RecordingParts {
 /// See stem().
 std::string name_of_scan(const RecordingParts& parts, std::size_t i);
 
+/// FullScan::sensor of scan i, without reading it.
+std::size_t sensor_of(const Recording& recording, std::size_t i);
+
 /// The scans of each sensor, as recordings of their own; the recording itself if it has one.
 std::vector<Recording> by_sensor(const Recording& recording);
 

@@ -16,19 +16,35 @@ namespace fs = std::filesystem;
 
 namespace dynamic_filter::app {
 
+namespace {
+
+/// The output folder of a run, given that or its map.
+fs::path output_of(const fs::path& result) {
+    return is_tiled_map(result) ? io::whole_path(map_folder_of(result)).parent_path()
+                                : io::whole_path(result);
+}
+
+}  // namespace
+
+bool is_of_update(const fs::path& result) {
+    const fs::path folder = output_of(result);
+    return fs::exists(folder / kRunState) && updated_drives(folder) > 0;
+}
+
 std::vector<DriveOfResult> drives_of_result(const fs::path& result) {
     const bool is_tiled = is_tiled_map(result);
-    const fs::path map = io::whole_path(is_tiled ? map_folder_of(result) : result);
-    const fs::path folder = is_tiled ? map.parent_path() : map;
+    const fs::path folder = output_of(result);
     const std::vector<fs::path> recordings = recordings_of_run(folder);
     std::vector<DriveOfResult> drives;
     if (!is_tiled && recordings.size() == 1) {
         drives.push_back({folder.filename().string(), recordings.front(), folder});
     } else if (is_tiled) {
-        for (const MapDrive& drive : read_map_index(map).drives) {
+        for (const MapDrive& drive : read_map_index(folder / kMapFolder).drives) {
             const std::size_t i = drives.size();
             if (i >= recordings.size()) break;
-            drives.push_back({drive.name, recordings[i], folder / "drives" / drive.name});
+            const bool is_only = recordings.size() == 1;
+            drives.push_back(
+                {drive.name, recordings[i], is_only ? folder : folder / "drives" / drive.name});
         }
     }
     if (drives.empty() || drives.size() != recordings.size()) {
@@ -39,6 +55,8 @@ std::vector<DriveOfResult> drives_of_result(const fs::path& result) {
     if (!is_whole_run(folder)) {
         throw InputError(folder, "", "the run is not complete; run --resume goes on with it");
     }
+    drives.erase(drives.begin(),
+                 drives.begin() + static_cast<std::ptrdiff_t>(updated_drives(folder)));
     for (const DriveOfResult& drive : drives) {
         if (is_there(drive.recording)) continue;
         throw InputError(drive.recording, "",

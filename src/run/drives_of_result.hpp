@@ -17,9 +17,13 @@ struct DriveOfResult {
     std::filesystem::path folder;     ///< of its labels, maps and recording.json
 };
 
-/// `result`: the output folder of a run over one recording or several, or the map in it. Throws
+/// `result`: the output folder of a run over one recording or several, or the map in it. An update
+/// has those drives alone that it added. Throws
 /// InputError if it is none or not complete, or if a recording is not there any more.
 std::vector<DriveOfResult> drives_of_result(const std::filesystem::path& result);
+
+/// True for the output of `run --update`, whose map has more drives than it labels.
+bool is_of_update(const std::filesystem::path& result);
 
 /// config.toml of the run whose labels are in the folder: of one recording, or of a drive, which is
 /// OUT/drives/NAME. Empty if no run left it.

@@ -27,6 +27,8 @@ constexpr double kGigabyte = 1e9, kMegabyte = 1e6;
 // [bytes] Measured, see docs/city.md: of the image of a keyframe per point of a scan, and of the
 // program and the scans that are read ahead.
 constexpr std::size_t kBytesPerPoint = 9, kBytesOfProgram = 150'000'000;
+// [bytes] Of a voxel, in the evidence that a run keeps.
+constexpr std::size_t kEvidenceBytes = 100;
 
 std::size_t halo_of(const TileWork& work) {
     if (work.tile.is_whole) return 0;
@@ -82,7 +84,9 @@ std::size_t tiles_at_a_time(const Job& job, const std::vector<std::size_t>& tile
                             const Effort& effort) {
     std::size_t largest = 1;
     for (const std::size_t t : tiles) {
-        largest = std::max(largest, memory_of(job.plan.tiles[t], job.plan, job.config));
+        const TileWork& tile = job.plan.tiles[t];
+        const std::size_t kept = job.keeps_evidence ? kEvidenceBytes * tile.voxels : 0;
+        largest = std::max(largest, memory_of(tile, job.plan, job.config) + kept);
     }
     const auto threads =
         static_cast<std::size_t>(effort.threads > 0 ? effort.threads : available_threads());

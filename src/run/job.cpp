@@ -27,7 +27,9 @@ namespace {
 
 void refuse_what_tiles_cannot(const RunOptions& o, const Config& config) {
     const auto refuse = [](const std::string& what, const std::string& instead) {
-        throw ConfigError(what + " does not go with several recordings, --part, --memory or --mpi" +
+        throw ConfigError(what +
+                          " does not go with several recordings, --part, --memory, --mpi, "
+                          "--keep-evidence or --update" +
                           instead);
     };
     if (o.online) refuse("--online", "");
@@ -63,13 +65,14 @@ std::uint32_t crc_of_poses(const io::Recording& recording) {
     return crc_of(std::as_bytes(std::span(numbers)));
 }
 
+std::string poses_text(const io::Recording& recording) {
+    return fmt::format("poses {:08x}\n", crc_of_poses(recording));
+}
+
 /// How the recordings are read, for the mark: with other poses, or in other units, it is another
 /// run. How the layout is called, and where poses and mask lie, does not matter.
-std::string reading_text(const Job& job, const DataOptions& how) {
+std::string reading_text(const DataOptions& how) {
     std::string text;
-    for (const Drive& drive : job.drives) {
-        text += fmt::format("poses {:08x}\n", crc_of_poses(drive.recording));
-    }
     DataOptions options = how;
     options.poses.reset();
     if (options.mask && *options.mask != kNoMask) {
@@ -84,10 +87,17 @@ std::string reading_text(const Job& job, const DataOptions& how) {
 
 }  // namespace
 
+std::string Begun::mark(std::size_t drives) const {
+    std::string mark = tiles;
+    for (std::size_t d = 0; d < drives; ++d) mark += states[d];
+    for (std::size_t d = 0; d < drives; ++d) mark += poses[d];
+    return mark + reading;
+}
+
 bool is_tiled(const RunOptions& o) {
     const bool is_list = o.recordings.size() == 1 && o.recordings.front().extension() == ".txt";
     return o.recordings.size() > 1 || is_list || !o.part.empty() || o.mpi || !o.memory.empty() ||
-           o.plan.has_value();
+           o.plan.has_value() || o.keeps_evidence || o.update;
 }
 
 Job open_tiled_job(const RunOptions& o, std::vector<DriveSource> sources) {
@@ -105,12 +115,17 @@ Job open_tiled_job(const RunOptions& o, std::vector<DriveSource> sources) {
     if (!o.part.empty()) job.part = part_number_of(o.part);
     refuse_what_tiles_cannot(o, job.config);
     job.drives = open_drives(job.sources, o.data);
-    job.mark = version_text() + fmt::format("tiles of {} voxels\n", o.tile_voxels);
+    job.keeps_evidence = o.keeps_evidence;
+    job.begun = {.tiles = version_text() + fmt::format("tiles of {} voxels\n", o.tile_voxels),
+                 .states = {},
+                 .poses = {},
+                 .reading = reading_text(o.data) + to_toml(job.config)};
     for (const Drive& drive : job.drives) {
-        job.mark += state_of(drive.recording);
+        job.begun.states.push_back(state_of(drive.recording));
+        job.begun.poses.push_back(poses_text(drive.recording));
         job.fingerprints.push_back(fingerprint_of(drive.recording));
     }
-    job.mark += reading_text(job, o.data) + to_toml(job.config);
+    job.mark = job.begun.mark(job.drives.size());
     return job;
 }
 
@@ -159,13 +174,15 @@ void choose_job_motion(Job& job, const RunOptions& o) {
             job.remarks.push_back({kind, warning_of(found, o.data)});
         }
     });
-    job.mark =
-        version_text() + state_of(recording) + reading_text(job, o.data) + to_toml(job.config);
+    job.mark = version_text() + state_of(recording) + poses_text(recording) + reading_text(o.data) +
+               to_toml(job.config);
 }
 
 std::string mark_of_output(const Job& job, const RunOptions& o) {
     return job.mark + (o.refine == "auto" ? "" : "refine " + o.refine + "\n") +
            (o.maps ? "" : "no maps\n") + (o.report ? "" : "no report\n") +
+           (o.keeps_evidence ? "evidence\n" : "") +
+           (job.earlier ? fmt::format("{}{}\n", kUpdateLine, job.earlier->drives) : "") +
            (o.part.empty() ? "" : "part " + o.part + "\n");
 }
 
@@ -177,7 +194,7 @@ std::filesystem::path folder_of(const Job& job, std::size_t drive,
 void tell_remarks(const Job& job, bool quiet) {
     tell(job.remarks, "", quiet);
     tell(job.plan.remarks, "", quiet);
-    for (std::size_t d = 0; d < job.plan.drives.size(); ++d) {
+    for (std::size_t d = job.first_new(); d < job.plan.drives.size(); ++d) {
         tell(job.plan.drives[d].remarks, job.drives[d].name + ": ", quiet);
     }
 }

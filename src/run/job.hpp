@@ -16,6 +16,22 @@
 
 namespace dynamic_filter::app {
 
+/// What a run over tiles is begun with.
+struct Begun {
+    std::string tiles;                       ///< the version, and the size of the tiles
+    std::vector<std::string> states, poses;  ///< by drive
+    std::string reading;                     ///< how the recordings are read, and the settings
+
+    /// As if there were only the first `drives` drives.
+    [[nodiscard]] std::string mark(std::size_t drives) const;
+};
+
+/// The run with which an update goes on.
+struct EarlierRun {
+    std::filesystem::path folder;  ///< its output
+    std::size_t drives = 0;        ///< so many of the drives are its own
+};
+
 struct Job {
     Config config;
     std::vector<DriveSource> sources;  ///< the recordings as they were given
@@ -32,6 +48,14 @@ struct Job {
     /// What the run was begun with: the mark of the files of its tiles. For one recording in
     /// memory it is known after choose_job_motion().
     std::string mark;
+    Begun begun{};  ///< of a tiled job
+    bool keeps_evidence = false;
+    std::optional<EarlierRun> earlier{};  ///< of an update
+
+    /// The first drive that the run labels: those of an earlier run have their labels there.
+    [[nodiscard]] std::uint32_t first_new() const {
+        return earlier ? static_cast<std::uint32_t>(earlier->drives) : 0;
+    }
 };
 
 /// True if the options ask for several recordings, a part or a limit of memory.

@@ -181,6 +181,9 @@ private:
 /// The voxels that were sampled so far.
 class VoxelSample {
 public:
+    explicit VoxelSample(const Plan& earlier)
+        : seen_(earlier.sampled.begin(), earlier.sampled.end()), counts_(earlier.voxels) {}
+
     void add(const std::vector<PlaneCell>& cells,
              const std::vector<std::pair<PlaneCell, std::uint64_t>>& sampled) {
         for (const auto& [cell, hash] : sampled) {
@@ -189,6 +192,11 @@ public:
         for (const PlaneCell& cell : cells) counts_.try_emplace(cell, 0);
     }
     [[nodiscard]] const std::map<PlaneCell, std::size_t>& counts() const { return counts_; }
+    [[nodiscard]] std::vector<std::uint64_t> hashes() const {
+        std::vector<std::uint64_t> hashes(seen_.begin(), seen_.end());
+        std::sort(hashes.begin(), hashes.end());
+        return hashes;
+    }
 
 private:
     tsl::robin_set<std::uint64_t> seen_;
@@ -333,23 +341,28 @@ void cut_into_tiles(Plan& plan, const Config& config) {
 }
 
 Plan make_plan(std::vector<Drive>& drives, const Config& config, const DataOptions& how,
-               std::size_t most_voxels, bool quiet) {
+               std::size_t most_voxels, bool quiet, const Plan& earlier) {
     Plan plan{.cell = cell_edge(config.map.voxel_size),
-              .drives = std::vector<PlannedDrive>(drives.size()),
+              .drives = earlier.drives,
               .remarks = {},
               .voxels = {},
+              .sampled = {},
               .most_voxels = most_voxels,
               .tiles = {}};
+    const std::size_t known = earlier.drives.size();
+    plan.drives.resize(drives.size());
     std::size_t scans = 0;
-    for (const Drive& drive : drives) scans += drive.recording.size();
-    plan.remarks = offsets_of(drives);
-    VoxelSample sample;
+    for (std::size_t d = known; d < drives.size(); ++d) scans += drives[d].recording.size();
+    if (known == 0) plan.remarks = offsets_of(drives);
+    VoxelSample sample(earlier);
     Progress progress("plan", scans, quiet);
-    for (std::size_t d = 0; d < drives.size() && !interrupted(); ++d) {
+    for (std::size_t d = known; d < drives.size() && !interrupted(); ++d) {
         look_at(drives[d], config, how, plan.drives[d]);
         scan_drive(drives[d], config.map.voxel_size, plan.drives[d], sample, progress);
     }
+    if (known > 0) prepare(drives, plan);
     plan.voxels = sample.counts();
+    plan.sampled = sample.hashes();
     cut_into_tiles(plan, config);
     return plan;
 }

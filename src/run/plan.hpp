@@ -60,13 +60,18 @@ struct Plan {
     std::vector<PlannedDrive> drives;
     Remarks remarks;                          ///< on how the drives fit each other
     std::map<PlaneCell, std::size_t> voxels;  ///< estimated, by cell
-    std::size_t most_voxels = 0;              ///< in a tile
+    std::vector<std::uint64_t> sampled;       ///< hashes of the voxels that were counted, ascending
+
+    std::size_t most_voxels = 0;  ///< in a tile
     std::vector<TileWork> tiles;
 };
 
+inline constexpr const char* kPlanFile = "plan";  ///< beside the tiles, and beside the evidence
+
 /// Reads every scan once, in parallel. Decides how motion is undone where `how.deskew` is "auto".
+/// `earlier`: the plan of the first drives, whose scans are not read again; empty: none.
 Plan make_plan(std::vector<Drive>& drives, const Config& config, const DataOptions& how,
-               std::size_t most_voxels, bool quiet);
+               std::size_t most_voxels, bool quiet, const Plan& earlier = {});
 
 /// Gives the recordings what the plan decided about them. make_plan() has done so.
 void prepare(std::vector<Drive>& drives, const Plan& plan);

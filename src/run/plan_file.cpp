@@ -11,7 +11,7 @@ namespace dynamic_filter::app {
 namespace {
 
 using PlanJson = nlohmann::json;
-constexpr const char* kPlanMagic = "dynamicfilter-plan-1";
+constexpr const char* kPlanMagic = "dynamicfilter-plan-2";
 
 /// Numbers as they are in memory, which is far smaller than an array of numbers.
 template <class T>
@@ -135,6 +135,7 @@ void write_plan(const std::filesystem::path& file, const Plan& plan, const std::
     }
     json["cells"] = blob(cells);
     json["voxels"] = blob(counts);
+    json["sampled"] = blob(plan.sampled);
     const std::vector<std::uint8_t> bytes = PlanJson::to_cbor(json);
     write_checked(file, kPlanMagic, fingerprint(run), std::as_bytes(std::span(bytes)));
 }
@@ -147,6 +148,7 @@ Plan read_plan(const std::filesystem::path& file, const std::string& run, const 
               .drives = {},
               .remarks = remarks_of(json.at("remarks")),
               .voxels = {},
+              .sampled = from_blob<std::uint64_t>(json.at("sampled")),
               .most_voxels = json.at("most_voxels"),
               .tiles = {}};
     for (const PlanJson& drive : json.at("drives")) plan.drives.push_back(drive_of(drive));

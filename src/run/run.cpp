@@ -17,6 +17,7 @@
 #include "run/job.hpp"
 #include "run/run_edits.hpp"
 #include "run/run_state.hpp"
+#include "run/update.hpp"
 #include "run/workers.hpp"
 #include "run/write_tiles.hpp"
 #include "settings/config_file.hpp"
@@ -27,8 +28,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kPlan = "plan";
-
 /// The folder of the result. Throws ConfigError if it holds what must stay.
 fs::path choose_folder(const Job& job, const RunOptions& o) {
     if (!o.output) return default_output();
@@ -37,6 +36,7 @@ fs::path choose_folder(const Job& job, const RunOptions& o) {
             refuse_same_folder(folder, *o.output);
         }
     }
+    if (job.earlier) refuse_same_folder(job.earlier->folder, *o.output, "is the map to update");
     if (o.overwrite) refuse_foreign_labels(*o.output);
     return *o.output;
 }
@@ -140,7 +140,8 @@ void find_plan(Job& job, const RunOptions& o, const fs::path& file) {
         return;
     }
     with_threads(o.threads, [&] {
-        job.plan = make_plan(job.drives, job.config, o.data, o.tile_voxels, o.quiet);
+        job.plan =
+            make_plan(job.drives, job.config, o.data, o.tile_voxels, o.quiet, earlier_plan(job));
     });
     if (!interrupted()) write_plan(file, job.plan, job.mark);
 }
@@ -210,11 +211,11 @@ RunResult run_tiles(Job& job, const RunOptions& o, StageClock& clock) {
         if (o.resume) refuse_other_run(*output, mark);
         write_state(*output, mark);
         fs::create_directories(tiles_folder);
-        find_plan(job, o, tiles_folder / kPlan);
+        find_plan(job, o, tiles_folder / kPlanFile);
         tell_remarks(job, o.quiet);
     }
     if (!workers->all_done(!interrupted())) return stop(output.get());
-    if (!leads && !o.plan) use_plan(job, tiles_folder / kPlan);
+    if (!leads && !o.plan) use_plan(job, tiles_folder / kPlanFile);
     clock.finish("plan");
 
     const std::vector<std::size_t> tiles =
@@ -238,6 +239,10 @@ RunResult run_tiles(Job& job, const RunOptions& o, StageClock& clock) {
 RunResult run(const RunOptions& o) {
     StageClock clock;
     if (!o.after.empty()) clock.finish(o.after);
+    if (o.update) {
+        Update update = open_update(o);
+        return run_tiles(update.job, update.options, clock);
+    }
     Job job = open_job(o);
     return job.is_tiled ? run_tiles(job, o, clock) : run_whole(job, o, clock);
 }

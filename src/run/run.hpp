@@ -36,9 +36,13 @@ struct RunOptions {
     std::optional<std::filesystem::path> plan;  ///< left by `plan -o`
     std::size_t tile_voxels = 1'500'000;        ///< most in a tile
     bool mpi = false;                           ///< shares the tiles with other processes
-    bool quiet = false;                         ///< says only what is wrong
-    bool catches = true;                        ///< interrupts; otherwise the caller does
-    std::string after;  ///< stage of timing.json for what the process did before; may be empty
+    // A map that is kept up to date; see docs/upkeep.md.
+    std::optional<std::filesystem::path> update;  ///< output of an earlier run: goes on with it
+    bool keeps_evidence = false;                  ///< in the output, for the next update
+
+    bool quiet = false;   ///< says only what is wrong
+    bool catches = true;  ///< interrupts; otherwise the caller does
+    std::string after;    ///< stage of timing.json for what the process did before; may be empty
 };
 
 struct MergeOptions {

@@ -32,8 +32,15 @@ const FolderFiles& result_files() {
                     {"map", ".pcd"},
                     {"map", ".html"},
                     {"map", ".json"},
+
                     {"tiles", ".pcd"},
                     {"tiles", ".tile"},
+                    {"tiles", ".evidence"},
+                    {"evidence", ".evidence"},
+                    {"evidence", ".json"},
+                    {"evidence", ".txt"},
+                    {"evidence", ""},
+
                     {"tiles", ""},
                     {"report", ".html"},
                     {"report", ".js"},
@@ -63,6 +70,14 @@ std::string state_of(const io::Recording& recording) {
     return fmt::format("{}{}\n{}{}\n", kInputLine,
                        fs::absolute(recording.info().root).lexically_normal().string(), sensor,
                        scans_text(recording));
+}
+
+std::size_t updated_drives(const fs::path& folder) {
+    std::istringstream lines(io::read_file(folder / kRunState));
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with(kUpdateLine)) return std::stoul(line.substr(kUpdateLine.size()));
+    }
+    return 0;
 }
 
 std::vector<fs::path> recordings_of_run(const fs::path& folder) {

@@ -12,13 +12,20 @@
 
 namespace dynamic_filter::app {
 
+/// Begins the line that says how many of the recordings are those of the run that was updated.
+inline constexpr std::string_view kUpdateLine = "update of ";
+
 /// What a run leaves.
+
 const FolderFiles& result_files();
 
 /// How many scans the recording has, the first and the last one, and their size.
 std::string scans_text(const io::Recording& recording);
 /// The recording: where it is, its scans and their size.
 std::string state_of(const io::Recording& recording);
+
+/// How many of the recordings have their labels in the run that was updated.
+std::size_t updated_drives(const std::filesystem::path& folder);
 
 /// Where the recordings of the run in the folder are, in its order; empty if it does not tell.
 std::vector<std::filesystem::path> recordings_of_run(const std::filesystem::path& folder);

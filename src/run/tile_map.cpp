@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "run/tile_map.hpp"
 
+#include <algorithm>
+#include <span>
+#include <utility>
+
 #include "base/little_endian.hpp"
 #include "geometry/voxel.hpp"
 
@@ -26,6 +30,24 @@ void Sightings::add(const ScanOfDrive& scan, const std::vector<std::uint32_t>& v
     }
 }
 
+void Sightings::widen(std::size_t drives) {
+    const std::size_t words = drive_words(drives);
+    std::vector<std::uint32_t> wide(counts_.size() * words);
+    for (std::size_t v = 0; v < counts_.size(); ++v) {
+        std::copy_n(&drives_[v * words_], words_, &wide[v * words]);
+    }
+    drives_ = std::move(wide);
+    words_ = words;
+}
+
+void Sightings::archive(Archive& archive) {
+    archive.value(words_);
+    archive.value(seen_);
+    archive.values(counts_);
+    archive.values(drives_);
+    last_.resize(counts_.size());
+}
+
 std::uint32_t Sightings::scans(std::uint32_t voxel) const {
     return voxel < counts_.size() ? counts_[voxel] : 0;
 }
@@ -49,6 +71,15 @@ void append(io::Cloud& map, const StaticVoxel& voxel, const Sightings& sightings
     put(map.data, sightings.scans(voxel.voxel));
     for (std::size_t word = 0; word < sightings.words(); ++word) {
         put(map.data, sightings.drives(voxel.voxel, word));
+    }
+}
+
+void append(io::Cloud& map, const io::Cloud& from, std::size_t first, std::size_t last) {
+    // A record ends with the drives, whose words are zero for those that came later.
+    for (std::size_t i = first; i < last; ++i) {
+        const auto record = std::span(from.data).subspan(i * from.point_bytes, from.point_bytes);
+        map.data.insert(map.data.end(), record.begin(), record.end());
+        map.data.resize(map.data.size() + map.point_bytes - from.point_bytes);
     }
 }
 

@@ -8,6 +8,7 @@
 
 #include "dynamic_filter/cloud.hpp"
 #include "dynamic_filter/filter.hpp"
+#include "filter/archive.hpp"
 #include "formats/voxel_map/tile_points.hpp"
 #include "run/plan.hpp"
 
@@ -18,6 +19,10 @@ class Sightings {
 public:
     explicit Sightings(std::size_t drives) : words_(drive_words(drives)) {}
     void add(const ScanOfDrive& scan, const std::vector<std::uint32_t>& voxels);
+    /// Makes room for more drives.
+    void widen(std::size_t drives);
+    /// Writes what later drives add to, or reads it.
+    void archive(Archive& archive);
 
     [[nodiscard]] std::size_t voxels() const { return seen_; }  ///< number of voxels with points
     [[nodiscard]] std::size_t words() const { return words_; }  ///< of the drives of a voxel
@@ -38,5 +43,8 @@ io::Cloud empty_tile_map(std::size_t words);
 
 /// Appends a voxel.
 void append(io::Cloud& map, const StaticVoxel& voxel, const Sightings& sightings);
+
+/// Appends the voxels [first, last) of a map of the same drives, or of fewer.
+void append(io::Cloud& map, const io::Cloud& from, std::size_t first, std::size_t last);
 
 }  // namespace dynamic_filter::app

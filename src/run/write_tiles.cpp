@@ -17,6 +17,7 @@
 #include "page/map_page.hpp"
 #include "page/page.hpp"
 #include "recording/scans.hpp"
+#include "run/keep.hpp"
 #include "run/placed.hpp"
 #include "run/run.hpp"
 #include "run/run_state.hpp"
@@ -135,12 +136,13 @@ RunSummary write_drive(const Job& job, const Tiles& tiles, std::uint32_t number,
     return summary;
 }
 
-/// Tiles stay whole until the run is complete. A link takes no space beside them.
+/// Tiles stay whole until the run is complete; those of parts stay for another merge.
 void bring(const fs::path& from, const fs::path& to, bool links) {
-    fs::remove(to);
-    std::error_code cannot_link;
-    if (links) fs::create_hard_link(from, to, cannot_link);
-    if (!links || cannot_link) fs::copy_file(from, to);
+    if (links) {
+        link_or_copy(from, to);
+    } else {
+        fs::copy_file(from, to, fs::copy_options::overwrite_existing);
+    }
 }
 
 void write_map(const Job& job, const Tiles& tiles, const TileFolders& folders, bool owns,
@@ -207,10 +209,12 @@ Totals totals_of(const Job& job, const Tiles& tiles, const std::vector<RunSummar
 std::vector<RunSummary> write_drives(const Job& job, const Tiles& tiles, const RunOptions& o,
                                      const fs::path& out) {
     std::size_t scans = 0;
-    for (const Drive& drive : job.drives) scans += drive.recording.size();
+    for (std::size_t d = job.first_new(); d < job.drives.size(); ++d) {
+        scans += job.drives[d].recording.size();
+    }
     Progress progress("write", scans, o.quiet);
     std::vector<RunSummary> summaries;
-    for (std::uint32_t d = 0; d < job.drives.size(); ++d) {
+    for (std::uint32_t d = job.first_new(); d < job.drives.size(); ++d) {
         const fs::path folder = folder_of(job, d, out);
         fs::create_directories(folder);
         summaries.push_back(write_drive(job, tiles, d, o, folder, progress));
@@ -221,8 +225,8 @@ std::vector<RunSummary> write_drives(const Job& job, const Tiles& tiles, const R
 /// Metrics of the only drive, or of each of several drives.
 Json metrics_of_all(const Job& job, const std::vector<RunSummary>& summaries) {
     Json drives = Json::object();
-    for (std::size_t d = 0; d < job.drives.size(); ++d) {
-        drives[job.drives[d].name] = metrics_of(summaries[d]);
+    for (std::size_t d = 0; d < summaries.size(); ++d) {
+        drives[job.drives[job.first_new() + d].name] = metrics_of(summaries[d]);
     }
     if (job.drives.size() == 1) return drives.front();
     return {{"drives", drives}};
@@ -233,7 +237,8 @@ std::string to_text(const Job& job, const Totals& totals, const std::vector<RunS
                     const Seconds& seconds) {
     std::string text;
     for (std::size_t d = 0; d < drives.size(); ++d) {
-        text += fmt::format("drive    {}: {}", job.drives[d].name, points_text(drives[d]));
+        text += fmt::format("drive    {}: {}", job.drives[job.first_new() + d].name,
+                            points_text(drives[d]));
         if (drives[d].scores && drives[d].scores->voxel.at("excluded").f1) {
             text += fmt::format("; F1 {:.4f}", *drives[d].scores->voxel.at("excluded").f1);
         }
@@ -285,7 +290,10 @@ RunResult finish_tiles(const Job& job, const TileFolders& folders, const RunOpti
         io::write_file(output.path() / "config.toml", to_toml(job.config));
         with_threads(o.threads,
                      [&] { result.recordings = write_drives(job, tiles, o, output.path()); });
-        write_map(job, tiles, folders, owns, output.path() / "map");
+        write_map(job, tiles, folders, owns, output.path() / kMapFolder);
+        if (job.keeps_evidence) keep_evidence(job, own, o, output);
+        if (job.earlier) keep_history(job.earlier->folder, output);
+
         clock.finish("write");
         const Totals totals = totals_of(job, tiles, result.recordings);
         text = write_reports(job, totals, result.recordings, o, output.path(), clock);
@@ -295,8 +303,9 @@ RunResult finish_tiles(const Job& job, const TileFolders& folders, const RunOpti
     output.commit();
     if (!o.quiet) fmt::print("{}written  {}\n", text, output.name().string());
     bool is_well = are_harmless(job.plan.remarks);
-    for (std::size_t d = 0; d < job.drives.size(); ++d) {
-        const Remarks& remarks = result.recordings[d].remarks;
+    for (std::size_t i = 0; i < result.recordings.size(); ++i) {
+        const std::size_t d = job.first_new() + i;
+        const Remarks& remarks = result.recordings[i].remarks;
         const std::size_t told = job.plan.drives[d].remarks.size();
         tell(std::span(remarks).subspan(told), job.drives[d].name + ": ", o.quiet);
         is_well = is_well && are_harmless(remarks);

@@ -22,6 +22,7 @@
 #include "run/drives_of_result.hpp"
 #include "run/open_for_result.hpp"
 #include "run/placed.hpp"
+#include "run/sources_of_result.hpp"
 #include "upkeep/changes_page.hpp"
 
 namespace fs = std::filesystem;
@@ -43,40 +44,22 @@ struct Date {
     std::vector<Placed> placed;  ///< parallel
 };
 
-/// Throws ConfigError where what the run did with the drive cannot be done again for both dates.
-void refuse_odd_drive(const DriveOfResult& drive, const Placed& placed,
-                      const io::Recording& recording) {
-    if (placed.tracked.empty()) return;
-    if (!recording.info().has_poses) {
-        throw ConfigError(drive.folder.string() +
-                          ": the poses of the run are its own odometry, so they begin a world of "
-                          "their own; give both recordings poses in one world");
-    }
-    if (placed.how.first > 0 || placed.how.last || placed.how.stride > 1) {
-        throw ConfigError(
-            drive.folder.string() +
-            ": was refined for a part of its scans (--first, --last, --stride); `run` "
-            "all of them, or with --refine off");
-    }
-}
-
 Date date_of(const fs::path& run) {
     Date date{run, drives_of_result(run), {}};
     std::optional<io::Cloud> layout;  // of the clouds of changes
     for (const DriveOfResult& drive : date.drives) {
-        const auto placed = read_placed(drive.folder);
-        if (!placed) throw InputError(drive.folder, "", "has no recording.json; is it of a run?");
-        DataOptions how = placed->how;
+        const Placed placed = placed_of_drive(drive);
+        DataOptions how = placed.how;
         how.data = drive.recording;
         const io::Recording recording = open(how);
-        refuse_odd_drive(drive, *placed, recording);
+        refuse_own_world(drive, placed, recording);
         for_each_scan(recording, {0}, {}, [&](std::size_t, MaybeScan& maybe) {
             if (!maybe.scan) return true;
             if (!layout) layout = layout_of(*maybe.scan, false);
             refuse_other_fields(*maybe.scan, *layout);
             return true;
         });
-        date.placed.push_back(*placed);
+        date.placed.push_back(placed);
     }
     return date;
 }
@@ -115,20 +98,14 @@ std::optional<fs::path> settings_of(const std::vector<const Date*>& dates) {
     return first;
 }
 
-/// A list for `run`: a recording a line, with the poses that its run had where they are not its
-/// own.
+/// A list for `run`: a recording a line, with its pose file where it has one.
 std::string list_of(const std::vector<const Date*>& dates) {
     std::string text;
     for (const Date* date : dates) {
         for (std::size_t i = 0; i < date->drives.size(); ++i) {
-            const DriveOfResult& drive = date->drives[i];
-            const bool has_found_poses = !date->placed[i].tracked.empty();
-            text += drive.recording.string();
-            if (has_found_poses) {
-                text += "\t" + fs::absolute(drive.folder / "poses.txt").string();
-            } else if (date->placed[i].how.poses) {
-                text += "\t" + date->placed[i].how.poses->string();
-            }
+            const DriveSource source = source_of(date->drives[i], date->placed[i]);
+            text += source.recording.string();
+            if (source.poses) text += "\t" + source.poses->string();
             text += "\n";
         }
     }

@@ -195,5 +195,15 @@ TEST(CompareDrives, TheResultDoesNotDependOnTheNumberOfThreads) {
     EXPECT_EQ(offsets[0].yaw_deg, offsets[1].yaw_deg);
 }
 
+// Of drives that are known to fit, the scans are not compared.
+TEST(CompareDrives, ThoseThatAreKnownAreTakenToFit) {
+    TwoDrives drives = rounds();
+    change_poses(drives.b, [](const Pose& pose) { return displacement(1, 0, 0, 0) * pose; });
+    const std::vector<const Recording*> all = drives.all();
+    EXPECT_EQ(measure_drive_offsets(all).at(0).match, FrameMatch::shifted);
+    EXPECT_EQ(measure_drive_offsets(all, 2).at(0).match, FrameMatch::equal);
+    EXPECT_EQ(measure_drive_offsets(all, 2).at(0).places, 0U);
+}
+
 }  // namespace compare_drives_test
 }  // namespace dynamic_filter::io

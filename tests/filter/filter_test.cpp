@@ -273,6 +273,84 @@ TEST(DynamicFilter, WhatOnlyOneDriveSawIsDynamic) {
     }
 }
 
+// The second drive meets another filter, which has the evidence of the first one.
+TEST(DynamicFilter, GoesOnFromTheEvidenceOfAnotherAsIfItHadSeenTheDrivesItself) {
+    for (const bool comes : {false, true}) {
+        auto first = standing(!comes, 0), second = standing(comes, 24);
+        for (RoomScan& s : first) s.scan.sensor = 1;  // of which the second drive knows nothing
+        for (const MapTime time : {MapTime::always, MapTime::latest}) {
+            Config config = preset("default");
+            config.map.time = time;
+            DynamicFilter whole(config), before(config), after(config);
+            for (const RoomScan& s : first) whole.push(s.scan);
+            for (const RoomScan& s : first) before.push(s.scan);
+            const std::vector<std::byte> evidence = before.evidence();
+            after.go_on_from(evidence);
+            EXPECT_EQ(after.evidence(), evidence);
+            EXPECT_EQ(after.size(), whole.size());
+            whole.begin_drive();
+            after.begin_drive();
+            for (const RoomScan& s : second) {
+                const Verdict expected = whole.push(s.scan), found = after.push(s.scan);
+                EXPECT_EQ(found.labels, expected.labels) << s.scan.index;
+                EXPECT_EQ(found.probability, expected.probability) << s.scan.index;
+            }
+            EXPECT_EQ(after.evidence(), whole.evidence());
+            for (const RoomScan& s : first) whole.look_again(0, s.scan);
+            for (const RoomScan& s : first) after.look_again(0, s.scan);
+            whole.finish();
+            after.finish();
+            for (const auto* drive : {&first, &second}) {
+                for (const RoomScan& s : *drive) {
+                    const Verdict expected = whole.verdict(s.scan), found = after.verdict(s.scan);
+                    EXPECT_EQ(found.labels, expected.labels) << s.scan.index;
+                    EXPECT_EQ(found.probability, expected.probability) << s.scan.index;
+                    EXPECT_EQ(found.stays, expected.stays) << s.scan.index;
+                }
+            }
+        }
+    }
+}
+
+TEST(DynamicFilter, EvidenceThatIsDamagedOrComesTooLateIsRefused) {
+    const auto scans = standing(true, 0);
+    DynamicFilter filter(preset("default"));
+    filter.push(scans.front().scan);
+    std::vector<std::byte> evidence = filter.evidence();
+    EXPECT_THROW(filter.go_on_from(evidence), Error);
+    evidence.push_back(std::byte{0});
+    EXPECT_THROW(DynamicFilter(preset("default")).go_on_from(evidence), Error);
+    evidence.resize(evidence.size() / 2);
+    EXPECT_THROW(DynamicFilter(preset("default")).go_on_from(evidence), Error);
+}
+
+// Only what look_again() uses has to be read.
+TEST(DynamicFilter, TheScansThatLookAgainAreKnownByTheirPosesAndStamps) {
+    const auto first = standing(true, 0), second = standing(false, 24);
+    Config config = preset("default");
+    config.keyframe = {.interval = 0.6, .distance = 5.0};
+    DynamicFilter all(config), some(config);
+    std::vector<Scan> unread;
+    for (const RoomScan& s : first) {
+        unread.push_back(s.scan);
+        unread.back().points.clear();
+    }
+    EXPECT_EQ(some.are_to_look_again(unread), std::vector<bool>(first.size(), false));
+    for (DynamicFilter* filter : {&all, &some}) {
+        for (const RoomScan& s : first) filter->push(s.scan);
+        filter->begin_drive();
+        for (const RoomScan& s : second) filter->push(s.scan);
+    }
+    const std::vector<bool> looks = some.are_to_look_again(unread);
+    EXPECT_LT(std::count(looks.begin(), looks.end(), true), 24);
+    EXPECT_GT(std::count(looks.begin(), looks.end(), true), 4);
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        all.look_again(0, first[i].scan);
+        if (looks[i]) some.look_again(0, first[i].scan);
+    }
+    EXPECT_EQ(some.evidence(), all.evidence());
+}
+
 std::vector<Verdict> judge_all(DynamicFilter& method, const std::vector<RoomScan>& scans) {
     std::vector<Verdict> instant;
     for (const RoomScan& s : scans) {

@@ -57,6 +57,21 @@ class Programs(unittest.TestCase):
         self.assertRaises(TypeError, df.convert, recording(), scratch("x.pcd"), thinn=1.0)
         self.assertFalse(os.path.exists(scratch("x.pcd")))
 
+    def test_update_gives_the_map_of_a_run_of_all(self):
+        half = scratch("half")
+        df.convert(recording(), half, to="kitti", last=2)
+        rest = scratch("rest")
+        df.convert(recording(), rest, to="kitti", first=3)
+        old = df.run(half, scratch("old"), keep_evidence=True, deskew=False)["output"]
+        new = df.run(rest, scratch("new"), update=old)["output"]
+        both = scratch("both")
+        subprocess.run([COMMAND, "run", half, rest, "--deskew", "off", "-o", both], check=True, capture_output=True)
+        self.assertEqual(filecmp.dircmp(os.path.join(new, "map"), os.path.join(both, "map")).diff_files, [])
+        with self.assertRaises(df.ConfigError):
+            df.run(rest, scratch("again"), update=new)
+        with self.assertRaises(TypeError):
+            df.run(rest, scratch("no-path"), update=3)
+
     def test_diff_refuses_a_date_twice(self):
         with self.assertRaisesRegex(df.ConfigError, "is a drive of both runs"):
             df.diff(self.result["output"], self.result["output"], scratch("changes"))

@@ -147,5 +147,31 @@ TEST(Plan, IsTheSameWhenReadBack) {
     EXPECT_THROW(read_plan(p.folder / "plan", "another run", p.config), ConfigError);
 }
 
+TEST(Plan, GoesOnFromThePlanOfTheFirstDrives) {
+    const test::TemporaryFolder folder;
+    write_drive(folder / "a", 20, 10.0, 1000);
+    write_drive(folder / "b", 9, 7.0, 5);
+    DataOptions how;
+    how.deskew = "off";
+    const Config config = preset("default");
+    const std::vector<DriveSource> sources{{.recording = folder / "a"},
+                                           {.recording = folder / "b"}};
+    auto both = open_drives(sources, how), first = open_drives({sources.front()}, how);
+    const Plan whole = make_plan(both, config, how, 1000, true);
+    write_plan(folder / "plan", make_plan(first, config, how, 1000, true), "run");
+    both = open_drives(sources, how);
+    fs::remove_all(folder / "a" / "velodyne");  // is not read again
+    const Plan found =
+        make_plan(both, config, how, 1000, true, read_plan(folder / "plan", "run", config));
+    EXPECT_EQ(found.voxels, whole.voxels);
+    EXPECT_EQ(found.sampled, whole.sampled);
+    ASSERT_EQ(found.tiles.size(), whole.tiles.size());
+    for (std::size_t t = 0; t < whole.tiles.size(); ++t) {
+        EXPECT_EQ(found.tiles[t].tile, whole.tiles[t].tile);
+        EXPECT_EQ(found.tiles[t].scans, whole.tiles[t].scans);
+        EXPECT_EQ(found.tiles[t].inside, whole.tiles[t].inside);
+    }
+}
+
 }  // namespace plan_test
 }  // namespace dynamic_filter::app

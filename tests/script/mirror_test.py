@@ -43,7 +43,8 @@ COVERED = {  # test -> the units that it covers
     "sim/scene_city_test.cpp": "sim/city sim/city_block sim/city_library",
     "sim/scene_jam_test.cpp": "sim/jam_people sim/jam_traffic",
     "sim/scene_platform_test.cpp": "sim/platform_people sim/wagon",
-    "upkeep/diff_test.sh": "commands/diff upkeep/diff",
+    "upkeep/diff_test.sh": "commands/diff run/sources_of_result upkeep/diff",
+    "upkeep/update_test.sh": "run/keep run/update",
     "viewer/edit_checks.mjs": "commands/edit_server",
     "viewer/live_checks.mjs": "page/live_view",
 }

@@ -12,6 +12,7 @@ namespace dynamic_filter::app {
 
 /// Along the side of a tile of level 0; each level doubles it.
 inline constexpr int kTileVoxels = 128;
+inline constexpr const char* kMapFolder = "map";  ///< of the output of a run over many drives
 inline constexpr const char* kWholeTile = "all";  ///< name of the only tile, without bounds
 inline constexpr int kMapVersion = 1;             ///< of the index; others are refused
 

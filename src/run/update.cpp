@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include "run/update.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "check/advice.hpp"
+#include "dynamic_filter/check.hpp"
+#include "dynamic_filter/error.hpp"
+#include "dynamic_filter/file.hpp"
+#include "dynamic_filter/parallel.hpp"
+#include "recording/folders.hpp"
+#include "run/data_json.hpp"
+#include "run/evidence_file.hpp"
+#include "run/part_file.hpp"
+#include "run/run_state.hpp"
+#include "run/sources_of_result.hpp"
+
+namespace fs = std::filesystem;
+
+namespace dynamic_filter::app {
+
+namespace {
+
+/// How the earlier run read its recordings.
+struct Earlier {
+    fs::path folder;
+    std::vector<DriveSource> sources;
+    DataOptions how;
+    std::optional<std::size_t> tile_voxels;  ///< empty: it did not keep them
+};
+
+void refuse_unfit(const RunOptions& o) {
+    if (o.part.empty() && !o.mpi && !o.plan) return;
+    throw ConfigError("--update does not go with --part, --plan or --mpi");
+}
+
+/// Without what differs from drive to drive.
+std::string reading_text_of(DataOptions how) {
+    how.data.clear();
+    how.poses.reset();
+    return json_of(how).dump();
+}
+
+Earlier read_earlier(const fs::path& given) {
+    Earlier earlier{.folder = io::whole_path(given), .sources = {}, .how = {}, .tile_voxels = {}};
+    if (!fs::exists(earlier.folder)) throw InputError(earlier.folder, "", "does not exist");
+    const std::vector<DriveOfResult> drives = drives_of_result(earlier.folder);
+    if (const fs::path kept = earlier.folder / kEvidenceFolder; fs::exists(kept / kPartFile)) {
+        const Part part = read_part(kept);
+        earlier.sources = part.sources;
+        earlier.how = part.run.data;
+        earlier.tile_voxels = part.run.tile_voxels;
+        return earlier;
+    }
+    if (updated_drives(earlier.folder) > 0) {
+        throw InputError(earlier.folder / kEvidenceFolder, "",
+                         "is not there, and without it nothing tells how the drives of the map "
+                         "were read; update a map that has it");
+    }
+    for (const DriveOfResult& drive : drives) {
+        const Placed placed = placed_of_drive(drive);
+        DataOptions how = placed.how;
+        how.data = drive.recording;
+        refuse_own_world(drive, placed, open(how));
+        earlier.sources.push_back(source_of(drive, placed));
+        earlier.how = placed.how;
+    }
+    return earlier;
+}
+
+/// All recordings are read in one way.
+void refuse_other_reading(const DataOptions& asked, const Earlier& earlier) {
+    const std::string text = reading_text_of(asked);
+    if (text == reading_text_of({}) || text == reading_text_of(earlier.how)) return;
+    throw ConfigError("the recordings are read as those of " + earlier.folder.string() +
+                      " were, whose options are others than these; leave the options out, or "
+                      "convert the new recording first");
+}
+
+void refuse_other_settings(const ConfigOptions& asked, const Earlier& earlier,
+                           const fs::path& own) {
+    const bool asks = asked.file || !asked.assignments.empty() || asked.preset != "default";
+    if (!asks || to_toml(load_config(asked)) == io::read_file(own)) return;
+    throw ConfigError("the settings of an update are those of " + earlier.folder.string() +
+                      " (config.toml there), and these are others; leave them out");
+}
+
+void refuse_other_tiles(std::size_t asked, const Earlier& earlier) {
+    const std::size_t own = earlier.tile_voxels.value_or(asked);
+    if (asked == own || asked == RunOptions{}.tile_voxels) return;
+    throw ConfigError(
+        fmt::format("the tiles of an update are those of {}, of {} voxels; leave "
+                    "--tile-voxels out",
+                    earlier.folder.string(), own));
+}
+
+std::vector<DriveSource> new_sources(const RunOptions& o) {
+    std::vector<DriveSource> sources = expand(o.recordings);
+    if (!o.data.poses) return sources;
+    if (sources.size() > 1) options_of(sources, o.data);  // throws
+    sources.front().poses = o.data.poses;
+    return sources;
+}
+
+void refuse_known(const std::vector<DriveSource>& added, const Earlier& earlier) {
+    for (const DriveSource& source : added) {
+        for (const DriveSource& known : earlier.sources) {
+            if (fs::weakly_canonical(source.recording) != fs::weakly_canonical(known.recording)) {
+                continue;
+            }
+            throw ConfigError(source.recording.string() + " is a drive of the map in " +
+                              earlier.folder.string() + " already");
+        }
+    }
+}
+
+/// A drive in another world would remove what stands in this one.
+void refuse_misfits(const Job& job, const fs::path& map) {
+    std::vector<const io::Recording*> recordings;
+    for (const Drive& drive : job.drives) recordings.push_back(&drive.recording);
+    const std::size_t known = job.first_new();
+    const auto offsets = io::measure_drive_offsets(recordings, known);
+    std::string why;
+    for (const io::Finding& finding : io::findings_of(recordings, offsets)) {
+        why += fmt::format("\n  {}; {}", finding.what, finding.advice);
+    }
+    for (std::size_t d = known; d < job.drives.size() && why.empty(); ++d) {
+        const auto meets = [&](const io::DriveOffset& offset) {
+            return offset.b == d && offset.match != io::FrameMatch::apart;
+        };
+        if (std::any_of(offsets.begin(), offsets.end(), meets)) continue;
+        why += "\n  " + job.drives[d].name + " passes no place of the map";
+    }
+    if (why.empty()) return;
+    throw ConfigError("the new recording does not fit to the map in " + map.string() +
+                      ", which stays as it is:" + why);
+}
+
+}  // namespace
+
+Update open_update(const RunOptions& asked) {
+    refuse_unfit(asked);
+    const Earlier earlier = read_earlier(*asked.update);
+    const fs::path settings = earlier.folder / "config.toml";
+    refuse_other_settings(asked.config, earlier, settings);
+    refuse_other_reading(asked.data, earlier);
+    refuse_other_tiles(asked.tile_voxels, earlier);
+
+    std::vector<DriveSource> sources = earlier.sources, added = new_sources(asked);
+    refuse_known(added, earlier);
+
+    sources.insert(sources.end(), added.begin(), added.end());
+    RunOptions options = asked;
+    options.config = {.preset = "default", .file = settings};
+    options.data = earlier.how;
+    options.data.poses.reset();
+    options.tile_voxels = earlier.tile_voxels.value_or(asked.tile_voxels);
+    options.keeps_evidence = true;
+    Update update{.job = open_tiled_job(options, sources), .options = options};
+    update.job.earlier = EarlierRun{.folder = earlier.folder, .drives = earlier.sources.size()};
+    with_threads(asked.threads, [&] { refuse_misfits(update.job, earlier.folder); });
+    return update;
+}
+
+Plan earlier_plan(const Job& job) {
+    if (!job.earlier) return {};
+    const fs::path file = job.earlier->folder / kEvidenceFolder / kPlanFile;
+    try {
+        if (fs::exists(file)) {
+            return read_plan(file, job.begun.mark(job.first_new()), job.config);
+        }
+    } catch (const Error&) {  // other recordings, or damaged
+    }
+    fmt::print(stderr,
+               "note: {} has no evidence of its drives as they are now (see run --keep-evidence); "
+               "they are filtered once more\n",
+               job.earlier->folder.string());
+    return {};
+}
+
+}  // namespace dynamic_filter::app

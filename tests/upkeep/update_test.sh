@@ -1,0 +1,156 @@
+#!/bin/sh
+# A map that goes on with other drives, as a user has it: the bytes are those of a run of all drives, whatever was killed,
+# damaged or kept, and what does not fit is named.   update_test.sh COMMAND
+set -eu
+command=$(realpath "$1")
+# shellcheck source=tests/support/bytes_of.sh
+. "$(dirname "$0")/../support/bytes_of.sh"
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+fail() { echo "$1"; [ ! -e said ] || cat said; exit 1; }
+run() { "$command" run "$@" -q > said 2>&1 || fail "exit $?: run $*"; }
+expect() {  # expect CODE TEXT ARGUMENTS...: the command ends with this code and says this
+    code=$1 text=$2
+    shift 2
+    set +e
+    "$command" "$@" > said 2>&1
+    found=$?
+    set -e
+    [ "$found" = "$code" ] || fail "exit $found, not $code: $*"
+    grep -qF -- "$text" said || fail "did not say '$text': $*"
+}
+same() {  # same ONE OTHER WHAT
+    diff -rq "$1" "$2" > said 2>&1 || fail "$3"
+}
+
+# Four drives through one world: the parts of a recording. The poses of the last one jump, so its second half is apart.
+"$command" simulate crowd --frames 40 --pedestrians 20 --rate 4 -o data > /dev/null 2>&1
+part() {  # part NAME FIRST LAST
+    mkdir -p "$1/velodyne" "$1/labels"
+    for i in $(seq "$2" "$3"); do
+        name=$(printf %06d "$i")
+        cp "data/velodyne/$name.bin" "$1/velodyne"
+        cp "data/labels/$name.label" "$1/labels"
+    done
+    sed -n "$(($2 + 1)),$(($3 + 1))p" data/poses.txt > "$1/poses.txt"
+    sed -n "$(($2 + 1)),$(($3 + 1))p" data/times.txt > "$1/times.txt"
+}
+part a 0 9
+part b 10 19
+part c 20 29
+part d 30 39
+awk 'NR > 5 { $4 += 60 } { print }' d/poses.txt > moved && mv moved d/poses.txt
+options="--tile-voxels 8000 --deskew off --no-report"
+
+# Drive by drive, and out of order, with evidence and without.
+run a $options --keep-evidence -o of_a
+run b --no-report --update of_a -o of_b
+run a b $options -o ab
+same ab/map of_b/map "the map of two drives is not that of a run of both"
+same ab/drives/b of_b/drives/b "the labels of the second drive are not those of a run of both"
+same of_a/map of_b/history/1/map "the first map is not given back"
+run d --no-report --update of_b -o of_d
+run a b d $options -o abd
+same abd/map of_d/map "the map of a drive that jumps"
+same abd/drives/d of_d/drives/d "the labels of a drive that jumps"
+run c --no-report --update of_d -o of_c
+run a b d c $options -o abdc
+same abdc/map of_c/map "the map after a drive that jumps"
+same of_d/map of_c/history/3/map "the third map is not given back"
+same ab/map of_c/history/2/map "the second map is not given back"
+run b c --no-report --update of_a -o of_two
+run a b c $options -o abc
+same abc/map of_two/map "two drives at once"
+expect 0 "" info of_c
+expect 0 "" info of_c/history/2
+expect 2 "which labels the new drives alone" convert of_c cloud.pcd
+expect 0 "" convert of_c tiles --to las
+expect 0 "seen at both dates" diff of_a of_b -o changes
+cp -r ab bare
+expect 0 "has no evidence" run c --no-report --tile-voxels 8000 --update bare -o of_bare
+same abc/map of_bare/map "the map of a run without evidence"
+
+# A drive that reaches a part of the map: the other tiles stay as they are.
+"$command" simulate city --km 0.3 --drives 2 --rate 1 -o city > /dev/null 2>&1
+mkdir -p near/velodyne
+for i in 0 1 2 3 4; do cp "city/drive_2/velodyne/00000$i.bin" near/velodyne; done
+head -5 city/drive_2/poses.txt > near/poses.txt
+head -5 city/drive_2/times.txt > near/times.txt
+city_options="--tile-voxels 20000 --deskew off --no-report"
+run city/drive_1 $city_options --keep-evidence -o far
+run near --no-report --update far -o of_near
+run city/drive_1 near $city_options -o both
+same both/map of_near/map "the map of a drive that reaches a part of it"
+[ "$(find of_near/map -name '*.pcd' -links +2 | wc -l)" -gt 3 ] || fail "no tile stayed as it was"
+
+# A run in memory, and a recording in the way of the earlier run.
+"$command" run a --no-report -o memory > said 2>&1 || fail "a run in memory"
+run b --no-report --update memory -o of_memory
+[ -e of_memory/history/1/static_map.pcd ] || fail "the map of a run in memory is not given back"
+
+# Evidence that is damaged or missing is found anew; a map that is damaged is not taken over.
+flip() {  # flip FILE: changes a byte in its middle
+    half=$(($(wc -c < "$1") / 2))
+    byte=$(od -An -tu1 -j "$half" -N 1 "$1")
+    printf "\\$(printf %o $((byte ^ 16)))" | dd of="$1" bs=1 seek="$half" conv=notrunc 2> /dev/null
+}
+for spoil in 'flip spoilt/evidence/plan' 'rm spoilt/evidence/plan' 'for f in spoilt/evidence/*.evidence; do flip "$f"; done' \
+    'for f in spoilt/map/*.pcd; do flip "$f"; done'; do
+    rm -rf spoilt of_spoilt
+    cp -r of_d spoilt
+    eval "$spoil"
+    run c --no-report --update spoilt -o of_spoilt
+    same abdc/map of_spoilt/map "after: $spoil"
+done
+
+# Killed at random moments, and given again: the bytes of an unbroken update, and the old map stays.
+bytes_of of_d > before.md5
+began=$(date +%s%N)
+run c --no-report --update of_d -o timed
+took=$((($(date +%s%N) - began) / 1000))
+for i in 1 2 3 4 5; do
+    rm -rf killed
+    "$command" run c --no-report --update of_d -q -o killed > /dev/null 2>&1 &
+    process=$!
+    # Multiples of a prime scatter over the run.
+    sleep "$(awk "BEGIN { print ($i * 7919 % 1000) / 1000 * 1.1 * $took / 1e6 }")"
+    kill -9 "$process" 2> /dev/null || true
+    wait "$process" 2> /dev/null || true
+    run c --no-report --update of_d -o killed --resume
+    same killed/map of_c/map "kill $i: another map"
+    same killed/history of_c/history "kill $i: another history"
+    same killed/evidence/ of_c/evidence/ "kill $i: other evidence"
+done
+bytes_of of_d > after.md5
+cmp -s before.md5 after.md5 || fail "an update changed the map that it began with"
+run c --no-report --update of_d -o killed --overwrite
+same killed/map of_c/map "overwritten"
+
+# What does not fit is refused before anything is written.
+mkdir other
+cp -r c other/c
+awk '{ $4 += 1; print }' c/poses.txt > other/c/poses.txt
+expect 2 "add (-1.00, 0.00, 0.00) m" run other/c --update of_b -o refused
+awk '{ $4 += 500; print }' c/poses.txt > other/c/poses.txt
+expect 2 "passes no place of the map" run other/c --update of_b -o refused
+cp b/poses.txt other/c/poses.txt
+expect 2 "have the same poses" run other/c --update of_b -o refused
+expect 2 "b is a drive of the map" run b --update of_b -o refused
+expect 2 "is the map to update" run c --update of_b -o of_b
+expect 3 "does not exist" run c --update nowhere -o refused
+expect 3 "is not the whole output folder" run c --update data -o refused
+expect 2 "the settings of an update" run c --update of_b --set map.voxel_size=0.3 -o refused
+expect 2 "the recordings are read as" run c --update of_b --point-unit cm -o refused
+expect 2 "leave --tile-voxels out" run c --update of_b --tile-voxels 9000 -o refused
+expect 2 "does not go with" run c --update of_b --part 1/2 -o refused
+expect 2 "does not go with" run c --update of_b --online -o refused
+expect 3 "has no poses" run c --update of_b --poses none -o refused
+sed -i /complete/d ab/.run
+expect 3 "is not complete" run c --update ab -o refused
+rm -r of_b/evidence
+expect 3 "nothing tells how" run c --update of_b -o refused
+mv a gone
+expect 2 "does not exist" run c --update of_d -o refused
+[ ! -e refused ] || fail "an update that was refused left something"
+echo "updates, history, kills and wrong input: all as expected"
