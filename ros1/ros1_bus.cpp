@@ -20,6 +20,7 @@
 #include "dynamic_filter/error.hpp"
 #include "formats/messages/definitions.hpp"
 #include "ros1/raw_message.hpp"
+#include "ros1/raw_service.hpp"
 #include "ros1/ros_node.hpp"
 
 namespace ros::master {
@@ -71,16 +72,23 @@ struct Ros1Bus::Engine {
         ros::Subscriber subscriber;  // empty while the master is lost
     };
 
+    struct Service {
+        ros::AdvertiseServiceOptions options;
+        ros::ServiceServer server;  // empty while the master is lost
+    };
+
     std::string master;
     RosNode itself;
     std::vector<std::string> watched;
-    ros::CallbackQueue queue;
+    ros::CallbackQueue queue, calls;  // of messages, and of services, which may take their time
+
     std::optional<ros::NodeHandle> node;
 
-    std::mutex changing;      // one change of subscriptions at a time
+    std::mutex changing;      // one change of subscriptions and services at a time
     mutable std::mutex lock;  // guards the members below; no calls of ROS meanwhile
     std::map<std::string, ros::Publisher> publishers;
     std::map<std::string, Subscription> subscriptions;
+    std::vector<Service> services;
     std::map<int, std::uint64_t> dropped;  // messages, of each connection so far
     std::map<std::string, std::string> parameters, news;
     std::vector<std::string> notices;
@@ -90,7 +98,7 @@ struct Ros1Bus::Engine {
     // The state of the watching thread.
     bool is_there = true, is_registered = true;
 
-    std::thread receiving, watching;
+    std::thread receiving, serving, watching;
 
     Engine(const std::map<std::string, std::string>& remappings, std::vector<std::string> followed,
            double wait)
@@ -101,7 +109,8 @@ struct Ros1Bus::Engine {
         itself = {ros::this_node::getName(), ros::XMLRPCManager::instance()->getServerURI()};
         RosClient client(master);
         parameters = news = private_parameters(client, itself);
-        receiving = std::thread([this] { receive(); });
+        receiving = std::thread([this] { receive(queue); });
+        serving = std::thread([this] { receive(calls); });
         watching = std::thread([this] { watch(); });
     }
 
@@ -112,14 +121,17 @@ struct Ros1Bus::Engine {
         }
         stop.notify_all();
         queue.disable();
-        if (watching.joinable()) watching.join();
-        if (receiving.joinable()) receiving.join();
+        calls.disable();
+        for (std::thread* thread : {&watching, &receiving, &serving}) {
+            if (thread->joinable()) thread->join();
+        }
         if (!ros::isStarted()) return;
         if (!RosClient(master).call("getPid", {itself.name})) {
             // roscpp would wait without an end for a master that hangs; nobody listens here.
             ros::master::init({{"__master", "http://127.0.0.1:1"}});
         }
         subscriptions.clear();
+        services.clear();
         publishers.clear();
         node.reset();
         ros::shutdown();
@@ -156,8 +168,8 @@ struct Ros1Bus::Engine {
         return stopping;
     }
 
-    void receive() {
-        while (!is_stopping()) queue.callAvailable(ros::WallDuration(0.1));
+    void receive(ros::CallbackQueue& from) {
+        while (!is_stopping()) from.callAvailable(ros::WallDuration(0.1));
     }
 
     void watch() {
@@ -192,9 +204,19 @@ struct Ros1Bus::Engine {
         if (!is_registered) is_registered = register_anew(client, itself);
         if (is_registered && was_away) {
             is_there = true;
+            offer_services();
             say(fmt::format("the master at {} is back", master));
         }
         return is_registered;
+    }
+
+    /// Tells the master of all services.
+    void offer_services() {
+        const std::lock_guard change(changing);
+        for (Service& service : services) {
+            service.server.shutdown();
+            service.server = node->advertiseService(service.options);
+        }
     }
 
     void follow_parameters(std::map<std::string, std::string> now) {
@@ -329,8 +351,31 @@ void Ros1Bus::subscribe(const io::Topic& topic, const Quality& quality, Receive 
     }
 }
 
+void Ros1Bus::serve(const std::string& name, ServiceKind kind, Serve serve) {
+    Engine& e = *engine_;
+    const ServiceType type = type_of(kind);
+    ros::AdvertiseServiceOptions options;
+    options.service = name;
+    options.datatype = type.name;
+    options.md5sum = type.md5;
+    options.req_datatype = type.name + "Request";
+    options.res_datatype = type.name + "Response";
+    options.helper = boost::make_shared<RawService>(kind, std::move(serve));
+    options.callback_queue = &e.calls;
+    const std::lock_guard change(e.changing);
+    try {
+        e.services.push_back({options, e.node->advertiseService(options)});
+    } catch (const ros::Exception& error) {
+        throw Error(fmt::format("cannot offer the service {}: {}", name, error.what()));
+    }
+}
+
 void Ros1Bus::stop() {
     const std::lock_guard change(engine_->changing);
+    for (Engine::Service& service : engine_->services) {
+        service.server.shutdown();  // waits for its last call
+    }
+    engine_->services.clear();
     std::map<std::string, Engine::Subscription> ended;
     {
         const std::lock_guard hold(engine_->lock);

@@ -33,6 +33,7 @@ public:
     [[nodiscard]] std::string description() const override;
     [[nodiscard]] std::vector<SeenTopic> seen() const override;
     void subscribe(const io::Topic& topic, const Quality& quality, Receive receive) override;
+    void serve(const std::string&, ServiceKind, Serve) override {}
     void stop() override;
     [[nodiscard]] std::uint64_t lost() const override;
     std::vector<std::string> pop_notices() override;

@@ -277,6 +277,7 @@ int live(Bus& bus, const LiveOptions& o, LiveConfig config) {
             session.push(*std::move(scan));
         }
     }
+    requests.end();
     bus.stop();  // before what receives its messages goes
     session.stop();
     const Figures figures = chores.figures_now();

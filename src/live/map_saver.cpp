@@ -65,9 +65,10 @@ MapSaver::MapSaver(Session& session, std::filesystem::path file, bool overwrite)
     app::refuse_existing(file_, overwrite);
 }
 
-void MapSaver::request(const std::string& name) {
+std::uint64_t MapSaver::request(const std::string& name) {
     const std::lock_guard hold(lock_);
     wanted_ = name.empty() ? file_ : file_.parent_path() / name;
+    return ++requests_;
 }
 
 /// Others on the network may ask: they get no farther than the folder of the user's own map.
@@ -87,14 +88,19 @@ void MapSaver::run() {
     if (running_.valid() && running_.wait_for(kNow) != std::future_status::ready) return;
     take_result();
     std::optional<std::filesystem::path> file;
+    std::uint64_t request = 0;
     {
         const std::lock_guard hold(lock_);
         file = std::exchange(wanted_, std::nullopt);
+        request = requests_;
     }
     if (save_is_wanted == 0 && !file) return;
     save_is_wanted = 0;
-    running_ = std::async(std::launch::async,
-                          [this, to = file.value_or(file_)] { return saved(session_, to); });
+    running_ = std::async(std::launch::async, [this, request, to = file.value_or(file_)] {
+        Saved result = saved(session_, to);
+        result.request = request;
+        return result;
+    });
 }
 
 Saved MapSaver::save() {

@@ -20,6 +20,7 @@ struct Saved {
     std::string text;  ///< as a sentence
     std::filesystem::path file{};
     std::uint64_t points = 0, bytes = 0;
+    std::uint64_t request = 0;  ///< the last one that it answers; 0: none
 };
 
 /// From now on, SIGUSR1 asks for the map. One for the process.
@@ -33,9 +34,9 @@ public:
     /// ConfigError if it cannot be written, or is there already and must not be replaced.
     MapSaver(Session& session, std::filesystem::path file, bool overwrite);
     /// Asks for the map, as SIGUSR1 does; with a name that has no fault, in a file of that name
-    /// beside the usual one. Of two requests before the map is written, the later one counts. May
-    /// be called in any thread.
-    void request(const std::string& name = "");
+    /// beside the usual one. Of two requests before the map is written, the later one counts.
+    /// Returns the number of the request. May be called in any thread.
+    std::uint64_t request(const std::string& name = "");
     /// Why there can be no map of this name, in a sentence; "" if there can.
     [[nodiscard]] std::string fault_of(const std::string& name) const;
     /// Begins to save if somebody asked; who asks while the map is written gets it afterwards.
@@ -49,8 +50,9 @@ private:
 
     Session& session_;
     std::filesystem::path file_;
-    std::mutex lock_;                              // guards the next one
+    std::mutex lock_;                              // guards the next two
     std::optional<std::filesystem::path> wanted_;  // the file that is asked for
+    std::uint64_t requests_ = 0;
     std::future<Saved> running_;
     std::vector<Saved> results_;
 };

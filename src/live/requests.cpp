@@ -64,35 +64,82 @@ Requests::Requests(Bus& bus, const std::string& prefix, MapSaver* saver)
     receive(topics_.save, [this, saver](io::MessageReader&) { ask_to_save(saver, ""); });
     receive(topics_.save_as,
             [this, saver](io::MessageReader& in) { ask_to_save(saver, in.text()); });
-    receive(topics_.reset, [this](io::MessageReader&) {
-        is_reset_ = true;
-        ++resets_;
-        tell_state();
+    receive(topics_.reset, [this](io::MessageReader&) { reset(); });
+    receive(topics_.pause,
+            [this](io::MessageReader& in) { pause(in.number<std::uint8_t>() != 0); });
+    bus.serve(topics_.save.name, ServiceKind::trigger,
+              [this, saver](bool) { return save_now(saver); });
+    bus.serve(topics_.reset.name, ServiceKind::trigger, [this](bool) {
+        reset();
+        return ServiceAnswer{.success = true, .message = state_text()};
     });
-    receive(topics_.pause, [this](io::MessageReader& in) {
-        is_paused_ = in.number<std::uint8_t>() != 0;
-        tell_state();
+    bus.serve(topics_.pause.name, ServiceKind::set_bool, [this](bool is_paused) {
+        pause(is_paused);
+        return ServiceAnswer{.success = true, .message = state_text()};
     });
     tell_state();
 }
 
+void Requests::reset() {
+    is_reset_ = true;
+    ++resets_;
+    tell_state();
+}
+
+void Requests::pause(bool is_paused) {
+    is_paused_ = is_paused;
+    tell_state();
+}
+
+/// Why the map cannot be saved; "" if it can.
+std::string Requests::fault_of(const MapSaver* saver, const std::string& name) {
+    if (saver == nullptr) return "the filter was started without --map FILE";
+    return name.empty() ? "" : saver->fault_of(name);
+}
+
 void Requests::ask_to_save(MapSaver* saver, const std::string& name) {
-    const std::string fault = saver == nullptr ? "the filter was started without --map FILE"
-                              : name.empty()   ? ""
-                                               : saver->fault_of(name);
+    const std::string fault = fault_of(saver, name);
     if (!fault.empty()) return answer({.is_saved = false, .text = fault});
     saver->request(name);
 }
 
+/// Waits until the map is written.
+ServiceAnswer Requests::save_now(MapSaver* saver) {
+    const std::string fault = fault_of(saver, "");
+    if (!fault.empty()) {
+        return {.success = false, .message = answer_text({.is_saved = false, .text = fault})};
+    }
+    const std::uint64_t number = saver->request();
+    std::unique_lock hold(lock_);
+    answered_.wait(hold, [&] { return has_ended_ || last_.request >= number; });
+    const Saved found =
+        last_.request >= number ? last_ : Saved{.is_saved = false, .text = "the filter ends"};
+    return {.success = found.is_saved, .message = answer_text(found)};
+}
+
+void Requests::end() {
+    const std::lock_guard hold(lock_);
+    has_ended_ = true;
+    answered_.notify_all();
+}
+
 void Requests::answer(const Saved& saved) {
+    if (saved.request > 0) {
+        const std::lock_guard hold(lock_);
+        last_ = saved;
+        answered_.notify_all();
+    }
     bus_.publish(topics_.saved.name, seconds_since_epoch(),
                  text_message(answer_text(saved), bus_.encoding()));
 }
 
+std::string Requests::state_text() const {
+    return text_of({{"paused", is_paused_.load()}, {"resets", resets_.load()}});
+}
+
 void Requests::tell_state() {
-    const Json state{{"paused", is_paused_.load()}, {"resets", resets_.load()}};
     bus_.publish(topics_.state.name, seconds_since_epoch(),
-                 text_message(text_of(state), bus_.encoding()));
+                 text_message(state_text(), bus_.encoding()));
 }
 
 }  // namespace dynamic_filter::live

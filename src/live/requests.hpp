@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 /// What other programs may ask of the filter by messages, and the answers. Topics work alike with
-/// ROS 1 and with every DDS of ROS 2, between which services do not.
+/// ROS 1 and with every DDS of ROS 2, between which services do not; with ROS 1 there are services
+/// of the same names, too.
 #pragma once
 
 #include <atomic>
+#include <condition_variable>
+#include <mutex>
 #include <string>
 
 #include "live/bus.hpp"
@@ -32,19 +35,31 @@ public:
     Requests(Bus& bus, const std::string& prefix, MapSaver* saver);
     /// Tells all who listen. Thread-safe.
     void answer(const Saved& saved);
+    /// Calls of services that wait for a map are answered at once from now on: call it before the
+    /// bus stops.
+    void end();
 
     [[nodiscard]] bool is_paused() const { return is_paused_; }
     /// True if a new map was asked for since the last call.
     bool pop_reset() { return is_reset_.exchange(false); }
 
 private:
+    [[nodiscard]] static std::string fault_of(const MapSaver* saver, const std::string& name);
     void ask_to_save(MapSaver* saver, const std::string& name);
+    ServiceAnswer save_now(MapSaver* saver);
+    void reset();
+    void pause(bool is_paused);
+    [[nodiscard]] std::string state_text() const;
     void tell_state();
 
     Bus& bus_;
     RequestTopics topics_;
     std::atomic<bool> is_paused_ = false, is_reset_ = false;
     std::atomic<unsigned> resets_ = 0;
+    std::mutex lock_;  // guards the next two
+    Saved last_{};
+    bool has_ended_ = false;
+    std::condition_variable answered_;
 };
 
 }  // namespace dynamic_filter::live

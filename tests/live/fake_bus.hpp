@@ -20,6 +20,7 @@ public:
     std::map<std::string, Quality> subscribed;
     std::map<std::string, std::size_t> subscriptions;
     std::map<std::string, Receive> receivers;
+    std::map<std::string, std::pair<ServiceKind, Serve>> services;
     bool stopped = false;
 
     void advertise(const io::Topic& topic, const Quality& quality) override {
@@ -38,6 +39,9 @@ public:
         subscribed[topic.name] = quality;
         ++subscriptions[topic.name];
         receivers[topic.name] = std::move(receive);
+    }
+    void serve(const std::string& name, ServiceKind kind, Serve serve) override {
+        services[name] = {kind, std::move(serve)};
     }
     void stop() override { stopped = true; }
     [[nodiscard]] std::uint64_t lost() const override { return 0; }

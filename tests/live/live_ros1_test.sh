@@ -121,6 +121,30 @@ END
 grep -q "^{\"saved\":true,\"file\":\"$PWD/asked.pcd\",\"points\":[0-9]*,\"bytes\":[0-9]*}$" answer.json || fail "the answer: $(cat answer.json)"
 stop INT
 
+# The same by services, while scans come: none is lost, and the answers come from what was done.
+start called --map called.pcd
+play &
+playing=$!
+sleep 1.5
+asks() { # rosservice breaks lines
+    timeout 60 rosservice call "$@" > call.txt 2>&1 || fail "rosservice call $*: $(cat call.txt)"
+    tr -d "\\\\\n " < call.txt > answer.txt
+}
+asks /dynamicfilter/save_map
+grep -q "^success:True" answer.txt || fail "the map is not saved: $(cat answer.txt)"
+bytes=$(grep -o 'bytes[^0-9]*[0-9]*' answer.txt | grep -o '[0-9]*$')
+[ "$(wc -c < called.pcd)" = "$bytes" ] || fail "the file is not the one of the answer: $(cat answer.txt)"
+wait "$playing"
+sleep 1
+asks /dynamicfilter/pause true
+grep -q 'paused[^a-z]*true' answer.txt || fail "no pause: $(cat answer.txt)"
+asks /dynamicfilter/pause false
+asks /dynamicfilter/reset
+grep -q 'resets[^0-9]*1' answer.txt || fail "no reset: $(cat answer.txt)"
+wait_for called.err 'asked for a new map'
+stop INT
+grep -q '^input    30 scans received; 30 taken' called.log || fail "scans were lost while the map was saved: $(cat called.log)"
+
 # A master that dies and comes back.
 start survivor
 play
@@ -131,6 +155,8 @@ start_master
 wait_for survivor.err 'is back'
 play
 sleep 1
+timeout 60 rosservice call /dynamicfilter/save_map > answer.txt 2>&1 || fail "the service is not back: $(cat answer.txt)"
+grep -q 'without --map FILE' answer.txt || fail "a filter without --map: $(cat answer.txt)"
 stop TERM
 grep -q '^input    60 scans received' survivor.log || fail "scans after the master came back: $(cat survivor.log)"
 
