@@ -24,9 +24,13 @@ void add_run(Program& program) {
            "file that `dynamicfilter plan -o` wrote, so that the scans need not be read to plan "
            "the tiles");
     add_tile_voxels(c, *o);
-    c.path("--update", o->update,
-           "output folder of an earlier run of the same place: the result is the map of its drives "
-           "and of these recordings");
+    const Option update = c.path(
+        "--update", o->update,
+        "output folder of an earlier run of the same place: the result is the map of its drives "
+        "and of these recordings");
+    c.flag("--trust-poses", o->trusts_poses,
+           "with --update: go on with a warning if the recordings seem not to fit to the map")
+        .needs(update);
     c.flag("--keep-evidence", o->keeps_evidence,
            "keep in the output folder what --update needs to go on without filtering these "
            "recordings again");

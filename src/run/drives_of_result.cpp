@@ -16,15 +16,10 @@ namespace fs = std::filesystem;
 
 namespace dynamic_filter::app {
 
-namespace {
-
-/// The output folder of a run, given that or its map.
 fs::path output_of(const fs::path& result) {
     return is_tiled_map(result) ? io::whole_path(map_folder_of(result)).parent_path()
                                 : io::whole_path(result);
 }
-
-}  // namespace
 
 bool is_of_update(const fs::path& result) {
     const fs::path folder = output_of(result);

@@ -22,6 +22,9 @@ struct DriveOfResult {
 /// InputError if it is none or not complete, or if a recording is not there any more.
 std::vector<DriveOfResult> drives_of_result(const std::filesystem::path& result);
 
+/// The output folder of a run, given that or its map.
+std::filesystem::path output_of(const std::filesystem::path& result);
+
 /// True for the output of `run --update`, whose map has more drives than it labels.
 bool is_of_update(const std::filesystem::path& result);
 

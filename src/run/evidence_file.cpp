@@ -43,7 +43,8 @@ void archive(Archive& archive, TileEvidence& evidence) {
 std::string evidence_mark(const Job& job, const TileWork& work, std::size_t drives) {
     std::set<std::size_t> reaching{0};  // the first drive also says how high the filter's frame is
     for (const ScanOfDrive& scan : work.scans) reaching.insert(scan.drive);
-    std::string mark = fmt::format("tile {}\n", name_of(work.tile)) + job.begun.reading;
+    std::string mark =
+        job.begun.tiles + fmt::format("tile {}\n", name_of(work.tile)) + job.begun.reading;
     for (const std::size_t d : reaching) {
         if (d < drives) {
             mark += fmt::format("drive {}\n", d) + job.begun.states[d] + job.begun.poses[d];

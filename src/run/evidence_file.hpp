@@ -18,6 +18,11 @@ namespace dynamic_filter::app {
 inline constexpr const char* kEvidenceFolder = "evidence";  ///< of a result, also of its plan
 inline std::string evidence_file(const Tile& tile) { return name_of(tile) + ".evidence"; }
 
+/// The pose file of a drive, if it has one of its own. That of the run may change, or go.
+inline std::string evidence_poses_file(std::size_t drive) {
+    return "poses_" + std::to_string(drive + 1) + ".txt";
+}
+
 /// Scans after a jump of the poses are filtered on their own, and a drive that comes later changes
 /// nothing about them.
 struct TileEvidence {

@@ -372,16 +372,20 @@ void TileRun::take_after_jumps() {
     summary.keyframes += earlier->of_all.keyframes - earlier->of_filter.keyframes;
 }
 
-/// What the earlier run left of the tile, if it fits to its map.
+/// What the earlier run left of the tile. Throws InputError if its map is not as it was.
 std::optional<TileEvidence> earlier_evidence(const Job& job, const TileWork& work) {
     if (!job.earlier) return std::nullopt;
     const fs::path& folder = job.earlier->folder;
     auto evidence = read_evidence(folder / kEvidenceFolder / evidence_file(work.tile),
                                   evidence_mark(job, work, job.first_new()));
+    if (!evidence) return std::nullopt;
     const fs::path map = folder / kMapFolder / tile_map_file(work.tile);
-    if (!evidence || !fs::exists(map) || file_mark_of(map) != evidence->of_all.map_mark) {
-        return std::nullopt;
+    if (!fs::exists(map) || file_mark_of(map) != evidence->of_all.map_mark) {
+        throw InputError(map, "",
+                         "is not the file that its run wrote; put that back, or make the map "
+                         "again by a run of all its recordings");
     }
+
     if (evidence->seen) evidence->seen->widen(job.drives.size());
     return evidence;
 }

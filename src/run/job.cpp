@@ -116,7 +116,7 @@ Job open_tiled_job(const RunOptions& o, std::vector<DriveSource> sources) {
     refuse_what_tiles_cannot(o, job.config);
     job.drives = open_drives(job.sources, o.data);
     job.keeps_evidence = o.keeps_evidence;
-    job.begun = {.tiles = version_text() + fmt::format("tiles of {} voxels\n", o.tile_voxels),
+    job.begun = {.tiles = version_text() + fmt::format("{}{} voxels\n", kTilesLine, o.tile_voxels),
                  .states = {},
                  .poses = {},
                  .reading = reading_text(o.data) + to_toml(job.config)};
@@ -132,6 +132,9 @@ Job open_tiled_job(const RunOptions& o, std::vector<DriveSource> sources) {
 Job open_job(const RunOptions& o) {
     if (o.mpi && (o.overwrite || !o.part.empty())) {
         throw ConfigError("--mpi does not go with --overwrite or --part");
+    }
+    if (!o.part.empty() && o.keeps_evidence) {
+        throw ConfigError("--keep-evidence does not go with --part");
     }
     refuse_unnamed(o);
     if (is_tiled(o)) return open_tiled_job(o, expand(o.recordings));

@@ -12,6 +12,8 @@ namespace dynamic_filter::app {
 
 namespace {
 
+constexpr const char* kMapFile = "static_map.pcd";
+
 /// The files of a folder that are there, by links.
 void link_files(const fs::path& from, const fs::path& to) {
     fs::create_directories(to);
@@ -29,8 +31,7 @@ void link_map(const fs::path& from, const fs::path& to) {
         return;
     }
     fs::create_directories(to);
-    const char* const file = "static_map.pcd";
-    if (fs::exists(from / file)) link_or_copy(from / file, to / file);
+    if (fs::exists(from / kMapFile)) link_or_copy(from / kMapFile, to / kMapFile);
 }
 
 }  // namespace
@@ -43,15 +44,15 @@ void keep_evidence(const Job& job, const fs::path& tiles, const RunOptions& o,
         link_or_copy(tiles / file, folder / file);
     }
     link_or_copy(tiles / kPlanFile, folder / kPlanFile);
-    std::vector<DriveSource> sources = job.sources;
-    for (std::size_t d = 0; d < job.first_new(); ++d) {
-        if (!sources[d].poses) continue;
-        // The poses that a run refined are in its output, which may go.
-        const std::string file = job.drives[d].name + ".txt";
-        link_or_copy(*sources[d].poses, folder / file);
-        sources[d].poses = output.name() / kEvidenceFolder / file;
+    std::vector<DriveSource> sources;
+    for (const DataOptions& how : options_of(job.sources, o.data)) {
+        const fs::path copy = folder / evidence_poses_file(sources.size());
+        if (how.poses) fs::copy_file(*how.poses, copy, fs::copy_options::overwrite_existing);
+        sources.push_back({.recording = how.data, .poses = how.poses});
     }
-    write_part(folder, {.number = {}, .sources = sources, .run = o});
+    RunOptions run = o;
+    run.data.poses.reset();  // each recording has its own
+    write_part(folder, {.number = {}, .sources = sources, .run = run});
 }
 
 void keep_history(const fs::path& earlier, const OutputFolder& output) {

@@ -85,8 +85,7 @@ Part read_part(const fs::path& folder) {
         return part;
     } catch (const nlohmann::json::exception& error) {
         throw InputError(file, "",
-                         std::string("is damaged; remove the folder and run this part again (") +
-                             error.what() + ")");
+                         std::string("is damaged; make its folder again (") + error.what() + ")");
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <span>
 
@@ -28,6 +29,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The map to update is only read.
+void refuse_within(const fs::path& map, const fs::path& output) {
+    const fs::path whole = fs::weakly_canonical(map), inner = fs::weakly_canonical(output);
+    const auto [in_map, in_output] =
+        std::mismatch(whole.begin(), whole.end(), inner.begin(), inner.end());
+    if (in_map != whole.end()) return;
+    throw ConfigError(output.string() + ": is " + (in_output == inner.end() ? "" : "within ") +
+                      "the map to update; choose another -o");
+}
+
 /// The folder of the result. Throws ConfigError if it holds what must stay.
 fs::path choose_folder(const Job& job, const RunOptions& o) {
     if (!o.output) return default_output();
@@ -36,7 +47,7 @@ fs::path choose_folder(const Job& job, const RunOptions& o) {
             refuse_same_folder(folder, *o.output);
         }
     }
-    if (job.earlier) refuse_same_folder(job.earlier->folder, *o.output, "is the map to update");
+    if (job.earlier) refuse_within(job.earlier->folder, *o.output);
     if (o.overwrite) refuse_foreign_labels(*o.output);
     return *o.output;
 }

@@ -38,7 +38,8 @@ struct RunOptions {
     bool mpi = false;                           ///< shares the tiles with other processes
     // A map that is kept up to date; see docs/upkeep.md.
     std::optional<std::filesystem::path> update;  ///< output of an earlier run: goes on with it
-    bool keeps_evidence = false;                  ///< in the output, for the next update
+    bool trusts_poses = false;    ///< of an update: goes on if drives seem not to fit
+    bool keeps_evidence = false;  ///< in the output, for the next update
 
     bool quiet = false;   ///< says only what is wrong
     bool catches = true;  ///< interrupts; otherwise the caller does

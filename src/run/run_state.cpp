@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
+#include <optional>
 #include <sstream>
 
 #include "dynamic_filter/error.hpp"
@@ -17,6 +19,25 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kComplete = "complete\n";
 constexpr std::string_view kInputLine = "input ";  // begins the line of a recording
+
+[[noreturn]] void refuse_damaged(const fs::path& folder) {
+    throw InputError(folder / kRunState, "", "is damaged; make the result again");
+}
+
+/// The number in the line that begins so; empty: there is none.
+std::optional<std::size_t> number_after(std::string_view beginning, const fs::path& folder) {
+    std::istringstream lines(io::read_file(folder / kRunState));
+    for (std::string line; std::getline(lines, line);) {
+        if (!line.starts_with(beginning)) continue;
+        std::size_t number = 0;
+        const char* const end = line.data() + line.size();
+        if (std::from_chars(line.data() + beginning.size(), end, number).ec != std::errc{}) {
+            refuse_damaged(folder);
+        }
+        return number;
+    }
+    return std::nullopt;
+}
 
 }  // namespace
 
@@ -73,11 +94,13 @@ std::string state_of(const io::Recording& recording) {
 }
 
 std::size_t updated_drives(const fs::path& folder) {
-    std::istringstream lines(io::read_file(folder / kRunState));
-    for (std::string line; std::getline(lines, line);) {
-        if (line.starts_with(kUpdateLine)) return std::stoul(line.substr(kUpdateLine.size()));
-    }
-    return 0;
+    const std::size_t drives = number_after(kUpdateLine, folder).value_or(0);
+    if (drives > 0 && drives >= recordings_of_run(folder).size()) refuse_damaged(folder);
+    return drives;
+}
+
+std::optional<std::size_t> tile_voxels_of_run(const fs::path& folder) {
+    return number_after(kTilesLine, folder);
 }
 
 std::vector<fs::path> recordings_of_run(const fs::path& folder) {

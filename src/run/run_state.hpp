@@ -3,7 +3,9 @@
 /// complete. Whoever resumes a run must come with the same.
 #pragma once
 
+#include <optional>
 #include <string>
+
 #include <string_view>
 #include <vector>
 
@@ -24,8 +26,12 @@ std::string scans_text(const io::Recording& recording);
 /// The recording: where it is, its scans and their size.
 std::string state_of(const io::Recording& recording);
 
-/// How many of the recordings have their labels in the run that was updated.
+/// How many of the recordings have their labels in the run that was updated. Throws InputError.
 std::size_t updated_drives(const std::filesystem::path& folder);
+/// Begins the line that says how many voxels a tile may hold.
+inline constexpr std::string_view kTilesLine = "tiles of ";
+/// How many voxels a tile of the run may hold; empty: it had no tiles. Throws InputError.
+std::optional<std::size_t> tile_voxels_of_run(const std::filesystem::path& folder);
 
 /// Where the recordings of the run in the folder are, in its order; empty if it does not tell.
 std::vector<std::filesystem::path> recordings_of_run(const std::filesystem::path& folder);

@@ -2,11 +2,12 @@
 #include "run/update.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <utility>
 
-#include "check/advice.hpp"
+#include "check/motion.hpp"
 #include "dynamic_filter/check.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
@@ -29,7 +30,7 @@ struct Earlier {
     fs::path folder;
     std::vector<DriveSource> sources;
     DataOptions how;
-    std::optional<std::size_t> tile_voxels;  ///< empty: it did not keep them
+    std::optional<std::size_t> tile_voxels;  ///< empty: there were no tiles
 };
 
 void refuse_unfit(const RunOptions& o) {
@@ -44,15 +45,50 @@ std::string reading_text_of(DataOptions how) {
     return json_of(how).dump();
 }
 
+[[noreturn]] void refuse_changed(const fs::path& folder) {
+    throw ConfigError("the recordings of the map in " + folder.string() +
+                      ", their poses, its settings or the way to read them are not those of its "
+                      "run any more; make the map again by a run of all recordings");
+}
+
+/// Throws InputError if a file of a map of tiles is not there.
+void refuse_incomplete_map(const fs::path& folder) {
+    if (!is_tiled_map(folder)) {
+        const bool had_tiles = fs::exists(folder / kRunState) && tile_voxels_of_run(folder);
+        if (had_tiles) read_map_index(folder / kMapFolder);  // throws
+        return;
+    }
+    const fs::path map = map_folder_of(folder);
+    for (const MapTile& tile : read_map_index(map).tiles) {
+        if (!fs::exists(map / tile.file)) throw InputError(map / tile.file, "", "is missing");
+    }
+}
+
+/// The mark of a run of the same version says what it was begun with; that of another version is
+/// written in another way.
+void refuse_changed(const Job& job, const fs::path& folder) {
+    if (!tile_voxels_of_run(folder)) return;  // a run in memory has recording.json
+    const std::string was = io::read_file(folder / kRunState);
+    const std::string is = job.begun.mark(job.first_new());
+    const auto version = [](const std::string& mark) { return mark.substr(0, mark.find('\n')); };
+    if (version(was) == version(is) && !was.starts_with(is)) refuse_changed(folder);
+}
+
 Earlier read_earlier(const fs::path& given) {
-    Earlier earlier{.folder = io::whole_path(given), .sources = {}, .how = {}, .tile_voxels = {}};
-    if (!fs::exists(earlier.folder)) throw InputError(earlier.folder, "", "does not exist");
+    if (!fs::exists(given)) throw InputError(given, "", "does not exist");
+    Earlier earlier{.folder = output_of(given), .sources = {}, .how = {}, .tile_voxels = {}};
+    refuse_incomplete_map(earlier.folder);
     const std::vector<DriveOfResult> drives = drives_of_result(earlier.folder);
+    earlier.tile_voxels = tile_voxels_of_run(earlier.folder);
     if (const fs::path kept = earlier.folder / kEvidenceFolder; fs::exists(kept / kPartFile)) {
         const Part part = read_part(kept);
         earlier.sources = part.sources;
+        for (std::size_t d = 0; d < earlier.sources.size(); ++d) {
+            auto& poses = earlier.sources[d].poses;
+            if (poses) poses = kept / evidence_poses_file(d);
+        }
+
         earlier.how = part.run.data;
-        earlier.tile_voxels = part.run.tile_voxels;
         return earlier;
     }
     if (updated_drives(earlier.folder) > 0) {
@@ -64,7 +100,10 @@ Earlier read_earlier(const fs::path& given) {
         const Placed placed = placed_of_drive(drive);
         DataOptions how = placed.how;
         how.data = drive.recording;
-        refuse_own_world(drive, placed, open(how));
+        const io::Recording recording = open(how);
+        refuse_own_world(drive, placed, recording);
+        if (fingerprint_of(recording) != placed.fingerprint) refuse_changed(earlier.folder);
+
         earlier.sources.push_back(source_of(drive, placed));
         earlier.how = placed.how;
     }
@@ -117,26 +156,46 @@ void refuse_known(const std::vector<DriveSource>& added, const Earlier& earlier)
     }
 }
 
-/// A drive in another world would remove what stands in this one.
-void refuse_misfits(const Job& job, const fs::path& map) {
+/// Why new drives do not fit to those of the map, a sentence each.
+std::vector<std::string> misfits_of(const std::vector<Drive>& drives, std::size_t known) {
     std::vector<const io::Recording*> recordings;
-    for (const Drive& drive : job.drives) recordings.push_back(&drive.recording);
-    const std::size_t known = job.first_new();
+    for (const Drive& drive : drives) recordings.push_back(&drive.recording);
     const auto offsets = io::measure_drive_offsets(recordings, known);
-    std::string why;
+    std::vector<std::string> misfits;
     for (const io::Finding& finding : io::findings_of(recordings, offsets)) {
-        why += fmt::format("\n  {}; {}", finding.what, finding.advice);
+        misfits.push_back(finding.what + "; " + finding.advice);
     }
-    for (std::size_t d = known; d < job.drives.size() && why.empty(); ++d) {
+    for (std::size_t d = known; d < drives.size() && misfits.empty(); ++d) {
         const auto meets = [&](const io::DriveOffset& offset) {
             return offset.b == d && offset.match != io::FrameMatch::apart;
         };
         if (std::any_of(offsets.begin(), offsets.end(), meets)) continue;
-        why += "\n  " + job.drives[d].name + " passes no place of the map";
+        misfits.push_back(drives[d].name + " passes no place of the map");
     }
-    if (why.empty()) return;
-    throw ConfigError("the new recording does not fit to the map in " + map.string() +
-                      ", which stays as it is:" + why);
+    return misfits;
+}
+
+/// A drive in another world would remove what stands in this one. Motion during the scans, which
+/// the plan will undo, may hide that drives fit.
+void look_at_fit(Update& update, const fs::path& map) {
+    const std::size_t known = update.job.first_new();
+    std::vector<std::string> misfits = misfits_of(update.job.drives, known);
+    if (misfits.empty()) return;
+    std::vector<Drive> undone = update.job.drives;
+    for (Drive& drive : undone) {
+        Config config = update.job.config;
+        choose_motion(drive.recording, config,
+                      {.refine = "off", .deskew = update.options.data.deskew, .finds_body = false});
+    }
+    misfits = misfits_of(undone, known);
+    for (const std::string& misfit : misfits) {
+        update.job.remarks.push_back({RemarkKind::warning, misfit});
+    }
+    if (misfits.empty() || update.options.trusts_poses) return;
+    throw ConfigError(fmt::format(
+        "the new recording does not fit to the map in {}, which stays as it is (--trust-poses goes "
+        "on all the same):\n  {}",
+        map.string(), fmt::join(misfits, "\n  ")));
 }
 
 }  // namespace
@@ -161,7 +220,8 @@ Update open_update(const RunOptions& asked) {
     options.keeps_evidence = true;
     Update update{.job = open_tiled_job(options, sources), .options = options};
     update.job.earlier = EarlierRun{.folder = earlier.folder, .drives = earlier.sources.size()};
-    with_threads(asked.threads, [&] { refuse_misfits(update.job, earlier.folder); });
+    refuse_changed(update.job, earlier.folder);
+    with_threads(asked.threads, [&] { look_at_fit(update, earlier.folder); });
     return update;
 }
 

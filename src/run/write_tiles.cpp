@@ -273,7 +273,7 @@ std::string write_reports(const Job& job, const Totals& totals,
     io::write_file(folder / "timing.json", text_of(timing));
     const std::string text = to_text(job, totals, drives, clock.total());
     if (!several) return text;
-    io::write_file(folder / "run.log", to_text(job.plan.remarks) + text);
+    io::write_file(folder / "run.log", to_text(job.remarks) + to_text(job.plan.remarks) + text);
     return text;
 }
 
@@ -302,7 +302,7 @@ RunResult finish_tiles(const Job& job, const TileFolders& folders, const RunOpti
     if (owns) fs::remove_all(own);
     output.commit();
     if (!o.quiet) fmt::print("{}written  {}\n", text, output.name().string());
-    bool is_well = are_harmless(job.plan.remarks);
+    bool is_well = are_harmless(job.plan.remarks) && are_harmless(job.remarks);
     for (std::size_t i = 0; i < result.recordings.size(); ++i) {
         const std::size_t d = job.first_new() + i;
         const Remarks& remarks = result.recordings[i].remarks;

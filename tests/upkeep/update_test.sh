@@ -64,11 +64,12 @@ run a b c $options -o abc
 same abc/map of_two/map "two drives at once"
 expect 0 "" info of_c
 expect 0 "" info of_c/history/2
+expect 0 "" convert of_c/history/2 old_tiles --to las
 expect 2 "which labels the new drives alone" convert of_c cloud.pcd
 expect 0 "" convert of_c tiles --to las
 expect 0 "seen at both dates" diff of_a of_b -o changes
 cp -r ab bare
-expect 0 "has no evidence" run c --no-report --tile-voxels 8000 --update bare -o of_bare
+expect 0 "has no evidence" run c --no-report --update bare -o of_bare
 same abc/map of_bare/map "the map of a run without evidence"
 
 # A drive that reaches a part of the map: the other tiles stay as they are.
@@ -89,14 +90,28 @@ same both/map of_near/map "the map of a drive that reaches a part of it"
 run b --no-report --update memory -o of_memory
 [ -e of_memory/history/1/static_map.pcd ] || fail "the map of a run in memory is not given back"
 
+# Poses that a run refined, or that are given by name, go with the map, wherever it is moved to.
+run a --no-report --refine on -o refined
+run b --no-report --update refined -o moving
+mv moving moved
+rm -r refined
+run c --no-report --update moved -o of_moved
+[ -e of_moved/evidence/poses_1.txt ] || fail "the refined poses are gone"
+mv b/poses.txt named.txt
+run b $options --poses named.txt --keep-evidence -o of_named
+echo spoilt > named.txt
+run c --no-report --update of_named -o of_named_c
+cp of_named/evidence/poses_1.txt b/poses.txt
+run b c $options -o bc
+same bc/map of_named_c/map "poses that were given by name"
+
 # Evidence that is damaged or missing is found anew; a map that is damaged is not taken over.
 flip() {  # flip FILE: changes a byte in its middle
     half=$(($(wc -c < "$1") / 2))
     byte=$(od -An -tu1 -j "$half" -N 1 "$1")
     printf "\\$(printf %o $((byte ^ 16)))" | dd of="$1" bs=1 seek="$half" conv=notrunc 2> /dev/null
 }
-for spoil in 'flip spoilt/evidence/plan' 'rm spoilt/evidence/plan' 'for f in spoilt/evidence/*.evidence; do flip "$f"; done' \
-    'for f in spoilt/map/*.pcd; do flip "$f"; done'; do
+for spoil in 'flip spoilt/evidence/plan' 'rm spoilt/evidence/plan' 'for f in spoilt/evidence/*.evidence; do flip "$f"; done'; do
     rm -rf spoilt of_spoilt
     cp -r of_d spoilt
     eval "$spoil"
@@ -104,40 +119,64 @@ for spoil in 'flip spoilt/evidence/plan' 'rm spoilt/evidence/plan' 'for f in spo
     same abdc/map of_spoilt/map "after: $spoil"
 done
 
-# Killed at random moments, and given again: the bytes of an unbroken update, and the old map stays.
-bytes_of of_d > before.md5
-began=$(date +%s%N)
-run c --no-report --update of_d -o timed
-took=$((($(date +%s%N) - began) / 1000))
-for i in 1 2 3 4 5; do
-    rm -rf killed
-    "$command" run c --no-report --update of_d -q -o killed > /dev/null 2>&1 &
+spoilt() {  # spoilt CODE TEXT COMMAND: an update of a map that was spoilt so
+    rm -rf spoilt
+    cp -r of_d spoilt
+    eval "$3"
+    expect "$1" "$2" run c --update spoilt -o refused
+    rm -rf refused
+}
+spoilt 3 "is not the file that its run wrote" 'for f in spoilt/map/*.pcd; do flip "$f"; done'
+spoilt 3 "is missing" 'rm "$(ls spoilt/map/*.pcd | head -1)"'
+spoilt 3 "index.json" 'rm spoilt/map/index.json'
+spoilt 2 "are not those of its run any more" 'sed -i "s/voxel_size = .*/voxel_size = 0.3/" spoilt/config.toml'
+for number in 99 -1 x; do spoilt 3 "is damaged" "sed -i 's/^update of .*/update of $number/' spoilt/.run"; done
+
+# Ten updates in a row, each of them killed at a random moment and given again: the bytes of an unbroken series, of which
+# each map is given back, and no update changes the map that it began with.
+for i in $(seq 0 10); do part "part$i" $((3 * i)) $((3 * i + 2)); done
+run part0 $options --keep-evidence -o unbroken0
+cp -r unbroken0 broken0
+for i in $(seq 10); do
+    last=$((i - 1))
+    bytes_of "broken$last" > before.md5
+    began=$(date +%s%N)
+    run "part$i" --no-report --update "unbroken$last" -o "unbroken$i"
+    took=$((($(date +%s%N) - began) / 1000))
+    "$command" run "part$i" --no-report --update "broken$last" -q -o "broken$i" > /dev/null 2>&1 &
     process=$!
     # Multiples of a prime scatter over the run.
     sleep "$(awk "BEGIN { print ($i * 7919 % 1000) / 1000 * 1.1 * $took / 1e6 }")"
     kill -9 "$process" 2> /dev/null || true
     wait "$process" 2> /dev/null || true
-    run c --no-report --update of_d -o killed --resume
-    same killed/map of_c/map "kill $i: another map"
-    same killed/history of_c/history "kill $i: another history"
-    same killed/evidence/ of_c/evidence/ "kill $i: other evidence"
+    run "part$i" --no-report --update "broken$last" -o "broken$i" --resume
+    for what in map evidence history drives; do
+        same "broken$i/$what" "unbroken$i/$what" "kill $i: other files in $what"
+    done
+    bytes_of "broken$last" > after.md5
+    cmp -s before.md5 after.md5 || fail "update $i changed the map that it began with"
 done
-bytes_of of_d > after.md5
-cmp -s before.md5 after.md5 || fail "an update changed the map that it began with"
-run c --no-report --update of_d -o killed --overwrite
-same killed/map of_c/map "overwritten"
+run part0 part1 part2 part3 part4 part5 part6 part7 part8 part9 part10 $options -o all_parts
+same all_parts/map broken10/map "the map after ten updates is not that of a run of all"
+for i in $(seq 10); do same "unbroken$((i - 1))/map" "broken10/history/$i/map" "the map of session $i is not given back"; done
+run c --no-report --update of_d -o broken10 --overwrite
+same broken10/map of_c/map "overwritten"
+[ ! -e broken10/history/4 ] || fail "the history of the result before stayed"
 
 # What does not fit is refused before anything is written.
 mkdir other
 cp -r c other/c
 awk '{ $4 += 1; print }' c/poses.txt > other/c/poses.txt
 expect 2 "add (-1.00, 0.00, 0.00) m" run other/c --update of_b -o refused
+expect 4 "warning: the world frames" run other/c --update of_b --trust-poses -o trusted
 awk '{ $4 += 500; print }' c/poses.txt > other/c/poses.txt
 expect 2 "passes no place of the map" run other/c --update of_b -o refused
 cp b/poses.txt other/c/poses.txt
 expect 2 "have the same poses" run other/c --update of_b -o refused
 expect 2 "b is a drive of the map" run b --update of_b -o refused
 expect 2 "is the map to update" run c --update of_b -o of_b
+expect 2 "within the map to update" run c --update of_b -o of_b/map/sub
+expect 2 "does not go with --part" run c --keep-evidence --part 1/2 -o refused
 expect 3 "does not exist" run c --update nowhere -o refused
 expect 3 "is not the whole output folder" run c --update data -o refused
 expect 2 "the settings of an update" run c --update of_b --set map.voxel_size=0.3 -o refused
