@@ -12,16 +12,13 @@ namespace {
 
 /// A flag, the length of the answer, and the answer: whether it went well, and a text.
 std::vector<std::byte> response_of(const ServiceAnswer& answer) {
-    io::MessageWriter fields(io::MessageEncoding::ros1);
-    fields.number(static_cast<std::uint8_t>(answer.success ? 1 : 0));
-    fields.text(answer.message);
-    const std::vector<std::byte> body = fields.moved_bytes();
-    io::MessageWriter whole(io::MessageEncoding::ros1);
-    whole.number(std::uint8_t{1});
-    whole.number(static_cast<std::uint32_t>(body.size()));
-    std::vector<std::byte> bytes = whole.moved_bytes();
-    bytes.insert(bytes.end(), body.begin(), body.end());
-    return bytes;
+    io::MessageWriter out(io::MessageEncoding::ros1);
+    const std::size_t size = sizeof(std::uint8_t) + sizeof(std::uint32_t) + answer.message.size();
+    out.number(std::uint8_t{1});
+    out.number(static_cast<std::uint32_t>(size));
+    out.number(static_cast<std::uint8_t>(answer.success ? 1 : 0));
+    out.text(answer.message);
+    return out.moved_bytes();
 }
 
 }  // namespace

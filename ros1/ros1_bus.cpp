@@ -74,14 +74,13 @@ struct Ros1Bus::Engine {
 
     struct Service {
         ros::AdvertiseServiceOptions options;
-        ros::ServiceServer server;  // empty while the master is lost
+        ros::ServiceServer server;
     };
 
     std::string master;
     RosNode itself;
     std::vector<std::string> watched;
     ros::CallbackQueue queue, calls;  // of messages, and of services, which may take their time
-
     std::optional<ros::NodeHandle> node;
 
     std::mutex changing;      // one change of subscriptions and services at a time

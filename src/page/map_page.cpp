@@ -108,7 +108,7 @@ PageRun overview_of(const MapIndex& index, const ordered_json& metrics,
 
 void write_map_page(const fs::path& out, const ordered_json& metrics, const ordered_json& timing,
                     const std::vector<DrivePath>& paths) {
-    const MapIndex index = read_map_index(out / "map");
+    const MapIndex index = read_map_index(out / kMapFolder);
     const fs::path pages = out / "report";
     const SharedPage shared = shared_page();
     std::error_code error;
@@ -121,7 +121,7 @@ void write_map_page(const fs::path& out, const ordered_json& metrics, const orde
     const std::size_t most = most_page_points(index.tiles.size());
     std::vector<std::uint8_t> pictures;
     for (const MapTile& tile : index.tiles) {
-        const TilePoints points = read_tile(out / "map", index, tile);
+        const TilePoints points = read_tile(out / kMapFolder, index, tile);
         overview.info["tiles"].push_back(entry_of(index, tile, points, heights, pictures));
         io::write_file(pages / (tile.name + ".html"),
                        shared.with(embedded(view_of_tile(index, tile, points, most), 0)));

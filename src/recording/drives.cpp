@@ -134,6 +134,15 @@ std::vector<DataOptions> options_of(const std::vector<DriveSource>& sources,
     return each;
 }
 
+std::vector<DriveSource> with_pose_files(const std::vector<DriveSource>& sources,
+                                         const DataOptions& how) {
+    std::vector<DriveSource> each;
+    for (const DataOptions& one : options_of(sources, how)) {
+        each.push_back({.recording = one.data, .poses = one.poses});
+    }
+    return each;
+}
+
 std::vector<Drive> open_drives(const std::vector<DriveSource>& sources, const DataOptions& how) {
     for (const DriveSource& source : sources) {
         if (is_there(source.recording)) continue;

@@ -40,6 +40,10 @@ std::vector<std::string> names_of(const std::vector<DriveSource>& sources);
 std::vector<DataOptions> options_of(const std::vector<DriveSource>& sources,
                                     const DataOptions& how);
 
+/// The same sources, each with the pose file that options_of() gives it.
+std::vector<DriveSource> with_pose_files(const std::vector<DriveSource>& sources,
+                                         const DataOptions& how);
+
 /// Opens all drives; `how` says how to read each of them. Throws InputError and ConfigError, also
 /// if one has no poses, because without poses the drives have no common world.
 std::vector<Drive> open_drives(const std::vector<DriveSource>& sources, const DataOptions& how);

@@ -248,7 +248,6 @@ bool TileRun::decide(const DynamicFilter& filter, const ScanGroup& scans,
             inside.push_back({labels[i], instant[i], !stays.empty() && stays[i]});
         }
         verdicts.add(scans[number], inside);
-
         if (scan.truth.empty()) return;
         score(scan.T_world_sensor, one, instant);
         finals.put(number, labels);
@@ -324,7 +323,8 @@ bool TileRun::run(const ScanGroup& scans) {
     DynamicFilter filter = new_filter();
     if (known > 0) {
         filter.go_on_from(earlier->filter);
-        sightings = *earlier->seen;
+        sightings = std::move(*earlier->seen);
+        earlier->filter = {};  // large
     }
     LabelStore instants(folder);
     if (!this->filter(filter, scans, instants)) return false;
@@ -362,8 +362,8 @@ void TileRun::take_before_jumps() {
     take_from_map(0, earlier->of_filter.still);
     summary.voxels = earlier->of_filter.voxels;
     summary.keyframes = earlier->of_filter.keyframes;
-    kept.filter = earlier->filter;
-    kept.seen = earlier->seen;
+    kept.filter = std::move(earlier->filter);
+    kept.seen = std::move(earlier->seen);
 }
 
 void TileRun::take_after_jumps() {

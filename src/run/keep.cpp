@@ -44,11 +44,11 @@ void keep_evidence(const Job& job, const fs::path& tiles, const RunOptions& o,
         link_or_copy(tiles / file, folder / file);
     }
     link_or_copy(tiles / kPlanFile, folder / kPlanFile);
-    std::vector<DriveSource> sources;
-    for (const DataOptions& how : options_of(job.sources, o.data)) {
-        const fs::path copy = folder / evidence_poses_file(sources.size());
-        if (how.poses) fs::copy_file(*how.poses, copy, fs::copy_options::overwrite_existing);
-        sources.push_back({.recording = how.data, .poses = how.poses});
+    const std::vector<DriveSource> sources = with_pose_files(job.sources, o.data);
+    for (std::size_t d = 0; d < sources.size(); ++d) {
+        if (!sources[d].poses) continue;
+        fs::copy_file(*sources[d].poses, folder / evidence_poses_file(d),
+                      fs::copy_options::overwrite_existing);
     }
     RunOptions run = o;
     run.data.poses.reset();  // each recording has its own

@@ -32,6 +32,7 @@ void Sightings::add(const ScanOfDrive& scan, const std::vector<std::uint32_t>& v
 
 void Sightings::widen(std::size_t drives) {
     const std::size_t words = drive_words(drives);
+    if (words == words_) return;
     std::vector<std::uint32_t> wide(counts_.size() * words);
     for (std::size_t v = 0; v < counts_.size(); ++v) {
         std::copy_n(&drives_[v * words_], words_, &wide[v * words]);

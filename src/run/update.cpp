@@ -87,7 +87,6 @@ Earlier read_earlier(const fs::path& given) {
             auto& poses = earlier.sources[d].poses;
             if (poses) poses = kept / evidence_poses_file(d);
         }
-
         earlier.how = part.run.data;
         return earlier;
     }
@@ -103,7 +102,6 @@ Earlier read_earlier(const fs::path& given) {
         const io::Recording recording = open(how);
         refuse_own_world(drive, placed, recording);
         if (fingerprint_of(recording) != placed.fingerprint) refuse_changed(earlier.folder);
-
         earlier.sources.push_back(source_of(drive, placed));
         earlier.how = placed.how;
     }
@@ -134,14 +132,6 @@ void refuse_other_tiles(std::size_t asked, const Earlier& earlier) {
         fmt::format("the tiles of an update are those of {}, of {} voxels; leave "
                     "--tile-voxels out",
                     earlier.folder.string(), own));
-}
-
-std::vector<DriveSource> new_sources(const RunOptions& o) {
-    std::vector<DriveSource> sources = expand(o.recordings);
-    if (!o.data.poses) return sources;
-    if (sources.size() > 1) options_of(sources, o.data);  // throws
-    sources.front().poses = o.data.poses;
-    return sources;
 }
 
 void refuse_known(const std::vector<DriveSource>& added, const Earlier& earlier) {
@@ -207,10 +197,9 @@ Update open_update(const RunOptions& asked) {
     refuse_other_settings(asked.config, earlier, settings);
     refuse_other_reading(asked.data, earlier);
     refuse_other_tiles(asked.tile_voxels, earlier);
-
-    std::vector<DriveSource> sources = earlier.sources, added = new_sources(asked);
+    std::vector<DriveSource> sources = earlier.sources,
+                             added = with_pose_files(expand(asked.recordings), asked.data);
     refuse_known(added, earlier);
-
     sources.insert(sources.end(), added.begin(), added.end());
     RunOptions options = asked;
     options.config = {.preset = "default", .file = settings};

@@ -227,7 +227,7 @@ std::optional<ChangesOfMap> write_changes(const Date& old_date, const Date& new_
     }
     ChangesOfMap changes{of_old.changed.changes(of_new.changed),
                          of_new.changed.changes(of_old.changed),
-                         seen_voxels(together / "map", old_date.drives.size())};
+                         seen_voxels(together / kMapFolder, old_date.drives.size())};
     if (changes.voxels.at_both == 0) {
         throw ConfigError(old_date.run.string() + " and " + new_date.run.string() +
                           " have no place in common; are their poses of the same world?");

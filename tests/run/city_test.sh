@@ -5,35 +5,16 @@ set -eu
 command=$(realpath "$1")
 # shellcheck source=tests/support/bytes_of.sh
 . "$(dirname "$0")/../support/bytes_of.sh"
+# shellcheck source=tests/support/drive_parts.sh
+. "$(dirname "$0")/../support/drive_parts.sh"
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
-fail() { echo "$1"; [ ! -e said ] || cat said; exit 1; }
-expect() {  # expect CODE TEXT ARGUMENTS...: the command ends with this code and says this
-    code=$1 text=$2
-    shift 2
-    set +e
-    "$command" "$@" > said 2>&1
-    found=$?
-    set -e
-    [ "$found" = "$code" ] || fail "exit $found, not $code: $*"
-    grep -qF -- "$text" said || fail "did not say '$text': $*"
-}
 
 # Two drives through one world: the first and the second half of a recording.
 "$command" simulate crowd --frames 40 --pedestrians 20 --rate 4 -o data > /dev/null 2>&1
-half() {  # half NAME FIRST LAST
-    mkdir -p "$1/velodyne" "$1/labels"
-    for i in $(seq "$2" "$3"); do
-        name=$(printf %06d "$i")
-        cp "data/velodyne/$name.bin" "$1/velodyne"
-        cp "data/labels/$name.label" "$1/labels"
-    done
-    sed -n "$(($2 + 1)),$(($3 + 1))p" data/poses.txt > "$1/poses.txt"
-    sed -n "$(($2 + 1)),$(($3 + 1))p" data/times.txt > "$1/times.txt"
-}
-half a 0 19
-half b 20 39
+part a 0 19
+part b 20 39
 options="--tile-voxels 20000 --deskew off"
 
 # One recording: the same labels and scores as in memory if it fits into one tile.
@@ -78,11 +59,6 @@ expect 2 "part 3/5 is missing" merge part1 part2 part4 part5 -o other
 expect 3 "holds no part" merge part1 data -o other
 "$command" run a $options --part 1/5 -q -o alone > said 2>&1 || fail "a part of one drive"
 expect 2 "not parts of the same run" merge part1 alone -o other
-flip() {  # flip FILE: changes a byte in its middle
-    half=$(($(wc -c < "$1") / 2))
-    byte=$(od -An -tu1 -j "$half" -N 1 "$1")
-    printf "\\$(printf %o $((byte ^ 16)))" | dd of="$1" bs=1 seek="$half" conv=notrunc 2> /dev/null
-}
 for file in "$(ls part2/tiles/*.tile | head -1)" "$(ls part2/tiles/*.pcd | head -1)"; do
     flip "$file"
     expect 2 "part 2/5 is missing" merge part1 part2 part3 part4 part5 -o other

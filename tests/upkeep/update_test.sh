@@ -5,37 +5,18 @@ set -eu
 command=$(realpath "$1")
 # shellcheck source=tests/support/bytes_of.sh
 . "$(dirname "$0")/../support/bytes_of.sh"
+# shellcheck source=tests/support/drive_parts.sh
+. "$(dirname "$0")/../support/drive_parts.sh"
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
-fail() { echo "$1"; [ ! -e said ] || cat said; exit 1; }
 run() { "$command" run "$@" -q > said 2>&1 || fail "exit $?: run $*"; }
-expect() {  # expect CODE TEXT ARGUMENTS...: the command ends with this code and says this
-    code=$1 text=$2
-    shift 2
-    set +e
-    "$command" "$@" > said 2>&1
-    found=$?
-    set -e
-    [ "$found" = "$code" ] || fail "exit $found, not $code: $*"
-    grep -qF -- "$text" said || fail "did not say '$text': $*"
-}
 same() {  # same ONE OTHER WHAT
     diff -rq "$1" "$2" > said 2>&1 || fail "$3"
 }
 
 # Four drives through one world: the parts of a recording. The poses of the last one jump, so its second half is apart.
 "$command" simulate crowd --frames 40 --pedestrians 20 --rate 4 -o data > /dev/null 2>&1
-part() {  # part NAME FIRST LAST
-    mkdir -p "$1/velodyne" "$1/labels"
-    for i in $(seq "$2" "$3"); do
-        name=$(printf %06d "$i")
-        cp "data/velodyne/$name.bin" "$1/velodyne"
-        cp "data/labels/$name.label" "$1/labels"
-    done
-    sed -n "$(($2 + 1)),$(($3 + 1))p" data/poses.txt > "$1/poses.txt"
-    sed -n "$(($2 + 1)),$(($3 + 1))p" data/times.txt > "$1/times.txt"
-}
 part a 0 9
 part b 10 19
 part c 20 29
@@ -106,11 +87,6 @@ run b c $options -o bc
 same bc/map of_named_c/map "poses that were given by name"
 
 # Evidence that is damaged or missing is found anew; a map that is damaged is not taken over.
-flip() {  # flip FILE: changes a byte in its middle
-    half=$(($(wc -c < "$1") / 2))
-    byte=$(od -An -tu1 -j "$half" -N 1 "$1")
-    printf "\\$(printf %o $((byte ^ 16)))" | dd of="$1" bs=1 seek="$half" conv=notrunc 2> /dev/null
-}
 for spoil in 'flip spoilt/evidence/plan' 'rm spoilt/evidence/plan' 'for f in spoilt/evidence/*.evidence; do flip "$f"; done'; do
     rm -rf spoilt of_spoilt
     cp -r of_d spoilt

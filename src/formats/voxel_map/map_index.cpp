@@ -170,17 +170,17 @@ std::string tile_name(int level, std::int64_t x, std::int64_t y) {
 }
 
 fs::path map_folder_of(const fs::path& path) {
-    if (fs::exists(path / "map" / kIndex)) return path / "map";
+    if (fs::exists(path / kMapFolder / kIndex)) return path / kMapFolder;
     return path.filename() == kIndex ? path.parent_path() : path;
 }
 
 bool is_tiled_map(const fs::path& path) {
     std::error_code ignored;
-    if (fs::is_regular_file(path / "map" / kIndex, ignored)) return true;
+    if (fs::is_regular_file(path / kMapFolder / kIndex, ignored)) return true;
     const fs::path file = path.filename() == kIndex ? path : path / kIndex;
     // An index of tiles as LAS has the same form, but is no map to be read.
     return fs::is_regular_file(file, ignored) &&
-           fs::absolute(file).lexically_normal().parent_path().filename() == "map";
+           fs::absolute(file).lexically_normal().parent_path().filename() == kMapFolder;
 }
 
 MapIndex read_map_index(const fs::path& folder) {
