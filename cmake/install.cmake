@@ -43,6 +43,7 @@ if(DYNAMIC_FILTER_LIVE)
   install(FILES package.xml DESTINATION ${ros2} COMPONENT command)
   install(FILES packaging/ros2/live.launch.xml DESTINATION ${ros2}/launch COMPONENT command)
   install(FILES packaging/ros2/live.yaml DESTINATION ${ros2}/config COMPONENT command)
+  install(DIRECTORY packaging/dynamicfilter_msgs DESTINATION ${ros2} COMPONENT command)
   install(FILES ${PROJECT_BINARY_DIR}/packaging/ros2/dynamicfilter
           DESTINATION ${CMAKE_INSTALL_DATADIR}/ament_index/resource_index/packages COMPONENT command)
   install(FILES ${PROJECT_BINARY_DIR}/packaging/ros2/bin/dynamicfilter DESTINATION lib/dynamicfilter COMPONENT command)

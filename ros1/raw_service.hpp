@@ -3,28 +3,21 @@
 
 #include <ros/service_callback_helper.h>
 
-#include <string>
+#include <utility>
 
 #include "live/bus.hpp"
 
 namespace dynamic_filter::live {
 
-/// The type of a service of std_srvs, as roscpp wants it.
-struct ServiceType {
-    std::string name, md5;
-};
-ServiceType type_of(ServiceKind kind);
-
-/// Answers calls of a service of std_srvs.
+/// Answers calls of a service whose messages roscpp does not know.
 class RawService final : public ros::ServiceCallbackHelper {
 public:
-    RawService(ServiceKind kind, Bus::Serve serve) : kind_(kind), serve_(std::move(serve)) {}
-    /// False for a request of another length.
+    explicit RawService(Serve serve) : serve_(std::move(serve)) {}
+    /// False for a request that is none of its type.
     bool call(ros::ServiceCallbackHelperCallParams& params) override;
 
 private:
-    ServiceKind kind_;
-    Bus::Serve serve_;
+    Serve serve_;
 };
 
 }  // namespace dynamic_filter::live

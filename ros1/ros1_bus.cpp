@@ -350,16 +350,16 @@ void Ros1Bus::subscribe(const io::Topic& topic, const Quality& quality, Receive 
     }
 }
 
-void Ros1Bus::serve(const std::string& name, ServiceKind kind, Serve serve) {
+void Ros1Bus::serve(const std::string& name, const ServiceType& type, Serve serve) {
     Engine& e = *engine_;
-    const ServiceType type = type_of(kind);
+    const std::string datatype(type.name);
     ros::AdvertiseServiceOptions options;
     options.service = name;
-    options.datatype = type.name;
-    options.md5sum = type.md5;
-    options.req_datatype = type.name + "Request";
-    options.res_datatype = type.name + "Response";
-    options.helper = boost::make_shared<RawService>(kind, std::move(serve));
+    options.datatype = datatype;
+    options.md5sum = std::string(type.md5);
+    options.req_datatype = datatype + "Request";
+    options.res_datatype = datatype + "Response";
+    options.helper = boost::make_shared<RawService>(std::move(serve));
     options.callback_queue = &e.calls;
     const std::lock_guard change(e.changing);
     try {

@@ -37,7 +37,7 @@ public:
     [[nodiscard]] std::string description() const override;
     [[nodiscard]] std::vector<SeenTopic> seen() const override;
     void subscribe(const io::Topic& topic, const Quality& quality, Receive receive) override;
-    void serve(const std::string& name, ServiceKind kind, Serve serve) override;
+    void serve(const std::string& name, const ServiceType& type, Serve serve) override;
     void stop() override;
     [[nodiscard]] std::uint64_t lost() const override;
     std::vector<std::string> pop_notices() override;

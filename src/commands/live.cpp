@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "commands/live.hpp"
 
+#include <fmt/format.h>
+
+#include "base/exit_code.hpp"
 #include "commands/all.hpp"
+#include "live/ask.hpp"
 #include "live/dds_bus.hpp"
 #include "live/ros2_arguments.hpp"
 
@@ -11,12 +15,20 @@ namespace {
 
 struct Options : live::LiveOptions {
     std::vector<std::string> ros_arguments;
+    std::string request;  ///< of another process
 };
+
+int print_answer(live::DdsBus& bus, const std::string& prefix, const std::string& request) {
+    const live::ServiceAnswer answer = live::ask(bus, prefix, request);
+    fmt::print("{}\n", answer.message);
+    return answer.success ? kDone : kRejected;
+}
 
 int live_on_dds(const Options& options) {
     const live::LiveConfig config =
         live::load_live_config(options.config, live::ros2_parameters(options.ros_arguments));
     live::DdsBus bus({.domain = config.bus.domain, .network = config.bus.network});
+    if (!options.request.empty()) return print_answer(bus, config.output.prefix, options.request);
     return live::live(bus, options, config);
 }
 
@@ -54,6 +66,8 @@ void add_live(Program& program) {
         "live", "Filter what a robot's LiDAR publishes by ROS 2, and publish the result");
     const auto o = std::make_shared<Options>();
     add_live_options(c, *o);
+    c.text("--ask", o->request,
+           "ask a running filter, and print its answer: save, save=NAME, reset, pause or resume");
     c.rest_after("--ros-args", o->ros_arguments);
     c.footer(
         "Arguments of ROS 2 may follow the word --ros-args: -p input.cloud:=/points,\n"

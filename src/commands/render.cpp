@@ -12,6 +12,7 @@
 #include "commands/render.hpp"
 #include "commands/shared_options.hpp"
 #include "dynamic_filter/error.hpp"
+#include "formats/voxel_map/map_index.hpp"
 #include "recording/scans.hpp"
 #include "settings/config_file.hpp"
 
@@ -41,10 +42,11 @@ int render(const RenderOptions& o) {
         animate_cleaning(recording, config, o);
     } else if (extension == ".png") {
         const fs::path& in = o.data.data;
-        if (fs::is_directory(in) && !fs::exists(in / "static_map.pcd")) {
-            throw InputError(in, "",
-                             "holds no static_map.pcd; expected the output folder of a run, a "
-                             "cloud, or, to animate a recording, -o NAME.webp");
+        if (fs::is_directory(in) && !fs::exists(in / "static_map.pcd") && !is_tiled_map(in)) {
+            throw InputError(
+                in, "",
+                "holds no static_map.pcd; expected the output folder of a run, a map "
+                "of several drives, a cloud, or, to animate a recording, -o NAME.webp");
         }
         io::write_png(o.output, picture_of(o));
     } else {

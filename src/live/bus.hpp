@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "dynamic_filter/bag.hpp"
+#include "live/service.hpp"
 
 namespace dynamic_filter::live {
 
@@ -60,18 +61,6 @@ public:
     virtual bool publish(const std::string& topic, double stamp, const Bytes& message) = 0;
 };
 
-/// Services of std_srvs: of ROS 1 and 2.
-enum class ServiceKind {
-    trigger,  ///< std_srvs/Trigger: the request is empty
-    set_bool  ///< std_srvs/SetBool: the request is a value
-};
-
-/// The answer of both.
-struct ServiceAnswer {
-    bool success = false;
-    std::string message;
-};
-
 /// A bus of messages. Thread-safe.
 class Bus : public Publisher {
 public:
@@ -86,12 +75,9 @@ public:
     /// Receives a topic. Replaces an earlier subscription of the same topic; that one may still be
     /// busy with a message when this returns.
     virtual void subscribe(const io::Topic& topic, const Quality& quality, Receive receive) = 0;
-    /// Called in a thread of its own, one call after the other, so that it may take its time. The
-    /// value is false with a trigger. Must not throw.
-    using Serve = std::function<ServiceAnswer(bool value)>;
-    /// Offers a service. Does nothing with DDS, whose implementations have services that do not
-    /// understand each other.
-    virtual void serve(const std::string& name, ServiceKind kind, Serve serve) = 0;
+    /// Offers a service. `serve` is called in a thread of its own, one call after the other, so
+    /// that it may take its time. Throws Error if that is not possible.
+    virtual void serve(const std::string& name, const ServiceType& type, Serve serve) = 0;
     /// Ends all subscriptions and services: once it has returned, nothing is received any more.
     virtual void stop() = 0;
     /// Number of messages that were lost on their way to this process, as far as the bus knows.

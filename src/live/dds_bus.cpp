@@ -14,6 +14,8 @@
 #include "dynamic_filter/error.hpp"
 #include "live/dds_configuration.hpp"
 #include "live/dds_log.hpp"
+#include "live/dds_qos.hpp"
+#include "live/dds_service.hpp"
 #include "live/dds_type.hpp"
 
 namespace dynamic_filter::live {
@@ -21,68 +23,6 @@ namespace dynamic_filter::live {
 namespace {
 
 constexpr int kMostDomain = 232;  // beyond it, port numbers end
-
-struct DeleteQos {
-    void operator()(dds_qos_t* qos) const { dds_delete_qos(qos); }
-};
-using Qos = std::unique_ptr<dds_qos_t, DeleteQos>;
-
-Qos qos_of(const Quality& quality) {
-    Qos qos(dds_create_qos());
-    const auto depth = static_cast<std::int32_t>(std::max<std::size_t>(quality.depth, 1));
-    dds_qset_reliability(
-        qos.get(), quality.reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT, 0);
-    dds_qset_durability(qos.get(),
-                        quality.latched ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
-    dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, depth);
-    if (quality.latched) {
-        dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, depth, -1, -1, -1);
-    }
-    dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
-    return qos;
-}
-
-Qos qos_of_writer(const Quality& quality) {
-    Qos qos = qos_of(quality);
-    constexpr dds_data_representation_id_t kSent = DDS_DATA_REPRESENTATION_XCDR1;
-    dds_qset_data_representation(qos.get(), 1, &kSent);
-    return qos;
-}
-
-/// Whoever sends version 2 of CDR is received, too.
-Qos qos_of_reader(const Quality& quality) {
-    Qos qos = qos_of(quality);
-    constexpr std::array<dds_data_representation_id_t, 2> kRead = {DDS_DATA_REPRESENTATION_XCDR1,
-                                                                   DDS_DATA_REPRESENTATION_XCDR2};
-    dds_qset_data_representation(qos.get(), kRead.size(), kRead.data());
-    return qos;
-}
-
-/// The least that a publisher offers; what it does not say is DDS's default.
-Quality quality_of(const dds_qos_t* qos) {
-    Quality quality{.reliable = true, .latched = false, .depth = 1};
-    dds_reliability_kind_t reliability{};
-    dds_duration_t ignored{};
-    if (dds_qget_reliability(qos, &reliability, &ignored)) {
-        quality.reliable = reliability == DDS_RELIABILITY_RELIABLE;
-    }
-    dds_durability_kind_t durability{};
-    if (dds_qget_durability(qos, &durability)) {
-        quality.latched = durability >= DDS_DURABILITY_TRANSIENT_LOCAL;
-    }
-    return quality;
-}
-
-std::vector<std::string> reasons_of(dds_return_t code) {
-    std::vector<std::string> reasons = pop_dds_log();
-    if (reasons.empty()) reasons.emplace_back(dds_strretcode(-code));
-    return reasons;
-}
-
-void require(dds_return_t code, const std::string& what) {
-    if (code >= 0) return;
-    throw Error(fmt::format("{}: {}", what, fmt::join(reasons_of(code), "; ")));
-}
 
 /// A domain of DDS exists once in a process, whichever bus has made it, and has the configuration
 /// that it was made with.
@@ -158,17 +98,20 @@ struct DdsBus::Engine {
     std::map<std::string, std::shared_ptr<Reader>> readers;
     std::uint64_t lost_before = 0;  // by readers that were replaced
     std::thread thread;
+    std::vector<std::unique_ptr<DdsService>> services;
 
     Engine() = default;
     Engine(const Engine&) = delete;
     Engine& operator=(const Engine&) = delete;
     ~Engine() {
         stop_receiving();
+        services.clear();
         if (participant > 0) dds_delete(participant);
         if (has_joined) shared_domains().leave(options.domain);
     }
 
     void stop_receiving() {
+        for (const auto& service : services) service->stop();
         if (!thread.joinable()) return;
         dds_set_guardcondition(stop, true);
         thread.join();
@@ -337,6 +280,16 @@ void DdsBus::subscribe(const io::Topic& topic, const Quality& quality, Receive r
         dds_delete(current->entity);
     }
     current = std::move(reader);
+}
+
+void DdsBus::serve(const std::string& name, const ServiceType& type, Serve serve) {
+    engine_->services.push_back(
+        std::make_unique<DdsService>(engine_->participant, name, type, std::move(serve)));
+}
+
+Bytes DdsBus::call(const std::string& name, const ServiceType& type, const WriteRequest& write,
+                   const Patience& patience) {
+    return call_service(engine_->participant, name, type, write, patience);
 }
 
 std::vector<std::string> DdsBus::pop_notices() {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "live/bus.hpp"
+#include "live/dds_service.hpp"
 
 namespace dynamic_filter::live {
 
@@ -33,7 +34,10 @@ public:
     [[nodiscard]] std::string description() const override;
     [[nodiscard]] std::vector<SeenTopic> seen() const override;
     void subscribe(const io::Topic& topic, const Quality& quality, Receive receive) override;
-    void serve(const std::string&, ServiceKind, Serve) override {}
+    void serve(const std::string& name, const ServiceType& type, Serve serve) override;
+    /// Calls a service of another program (see call_service()).
+    Bytes call(const std::string& name, const ServiceType& type, const WriteRequest& write,
+               const Patience& patience);
     void stop() override;
     [[nodiscard]] std::uint64_t lost() const override;
     std::vector<std::string> pop_notices() override;

@@ -71,10 +71,6 @@ public:
         tell(subscriptions_.pop_notices());
         tell(intake_.pop_notices());
         tell(session_.pop_notices());
-        if (saver_ != nullptr) {
-            saver_->run();
-            for (const Saved& result : saver_->pop_results()) tell_saved(result);
-        }
         const Figures figures = figures_now();
         watch_input(figures);
         watch_poses(figures);
@@ -88,6 +84,10 @@ public:
 
     /// At once, not once a second.
     void use_requests() {
+        if (saver_ != nullptr) {
+            saver_->run();
+            for (const Saved& result : saver_->pop_results()) tell_saved(result);
+        }
         if (requests_.pop_reset()) {
             session_.begin_anew();
             tell({"a message asked for a new map; it begins with the next scan"});

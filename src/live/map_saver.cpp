@@ -71,6 +71,13 @@ std::uint64_t MapSaver::request(const std::string& name) {
     return ++requests_;
 }
 
+std::string MapSaver::name_of(const std::string& path, const std::string& format) const {
+    if (format.empty()) return path;
+    const std::string end = (format.starts_with('.') ? "" : ".") + format;
+    if (path.ends_with(end)) return path;
+    return (path.empty() ? file_.stem().string() : path) + end;
+}
+
 /// Others on the network may ask: they get no farther than the folder of the user's own map.
 std::string MapSaver::fault_of(const std::string& name) const {
     const std::filesystem::path path(name);

@@ -37,6 +37,9 @@ public:
     /// beside the usual one. Of two requests before the map is written, the later one counts.
     /// Returns the number of the request. May be called in any thread.
     std::uint64_t request(const std::string& name = "");
+    /// The name of a file of this format beside the usual one. An empty path stands for the usual
+    /// name, an empty format for what the extension of the path says.
+    [[nodiscard]] std::string name_of(const std::string& path, const std::string& format) const;
     /// Why there can be no map of this name, in a sentence; "" if there can.
     [[nodiscard]] std::string fault_of(const std::string& name) const;
     /// Begins to save if somebody asked; who asks while the map is written gets it afterwards.

@@ -26,6 +26,12 @@ Bytes text_message(const std::string& text, io::MessageEncoding encoding) {
     return std::make_shared<const std::vector<std::byte>>(out.moved_bytes());
 }
 
+/// Why the map cannot be saved; "" if it can.
+std::string fault_of(const MapSaver* saver, const std::string& name) {
+    if (saver == nullptr) return "the filter was started without --map FILE";
+    return name.empty() ? "" : saver->fault_of(name);
+}
+
 }  // namespace
 
 RequestTopics::RequestTopics(const std::string& prefix, io::MessageEncoding encoding)
@@ -52,8 +58,14 @@ Requests::Requests(Bus& bus, const std::string& prefix, MapSaver* saver)
     : bus_(bus), topics_(prefix, bus.encoding()) {
     bus.advertise(topics_.saved, kAnswer);
     bus.advertise(topics_.state, kAnswer);
+    receive_messages(saver);
+    offer_services(saver);
+    tell_state();
+}
+
+void Requests::receive_messages(MapSaver* saver) {
     const auto receive = [&](const io::Topic& topic, const auto& use) {
-        bus.subscribe(topic, kRequest, [use](const io::Topic& from, const Bytes& message) {
+        bus_.subscribe(topic, kRequest, [use](const io::Topic& from, const Bytes& message) {
             try {
                 io::MessageReader in(*message, from.encoding);
                 use(in);
@@ -67,17 +79,32 @@ Requests::Requests(Bus& bus, const std::string& prefix, MapSaver* saver)
     receive(topics_.reset, [this](io::MessageReader&) { reset(); });
     receive(topics_.pause,
             [this](io::MessageReader& in) { pause(in.number<std::uint8_t>() != 0); });
-    bus.serve(topics_.save.name, ServiceKind::trigger,
-              [this, saver](bool) { return save_now(saver); });
-    bus.serve(topics_.reset.name, ServiceKind::trigger, [this](bool) {
+}
+
+void Requests::offer_services(MapSaver* saver) {
+    bus_.serve(topics_.save.name, kTrigger,
+               [this, saver](io::MessageReader&, io::MessageWriter& out) {
+                   const Saved saved = save_now(saver, "");
+                   write(out, {.success = saved.is_saved, .message = answer_text(saved)});
+               });
+    bus_.serve(topics_.save_as.name, kSaveMap,
+               [this, saver](io::MessageReader& in, io::MessageWriter& out) {
+                   const std::string path = in.text(), format = in.text();
+                   const Saved saved =
+                       save_now(saver, saver == nullptr ? "" : saver->name_of(path, format));
+                   write(out, {.success = saved.is_saved, .message = saved.text});
+                   out.text(saved.is_saved ? std::filesystem::absolute(saved.file).string() : "");
+                   out.number(saved.points);
+                   out.number(saved.bytes);
+               });
+    bus_.serve(topics_.reset.name, kTrigger, [this](io::MessageReader&, io::MessageWriter& out) {
         reset();
-        return ServiceAnswer{.success = true, .message = state_text()};
+        write(out, {.success = true, .message = state_text()});
     });
-    bus.serve(topics_.pause.name, ServiceKind::set_bool, [this](bool is_paused) {
-        pause(is_paused);
-        return ServiceAnswer{.success = true, .message = state_text()};
+    bus_.serve(topics_.pause.name, kSetBool, [this](io::MessageReader& in, io::MessageWriter& out) {
+        pause(in.number<std::uint8_t>() != 0);
+        write(out, {.success = true, .message = state_text()});
     });
-    tell_state();
 }
 
 void Requests::reset() {
@@ -91,12 +118,6 @@ void Requests::pause(bool is_paused) {
     tell_state();
 }
 
-/// Why the map cannot be saved; "" if it can.
-std::string Requests::fault_of(const MapSaver* saver, const std::string& name) {
-    if (saver == nullptr) return "the filter was started without --map FILE";
-    return name.empty() ? "" : saver->fault_of(name);
-}
-
 void Requests::ask_to_save(MapSaver* saver, const std::string& name) {
     const std::string fault = fault_of(saver, name);
     if (!fault.empty()) return answer({.is_saved = false, .text = fault});
@@ -104,17 +125,13 @@ void Requests::ask_to_save(MapSaver* saver, const std::string& name) {
 }
 
 /// Waits until the map is written.
-ServiceAnswer Requests::save_now(MapSaver* saver) {
-    const std::string fault = fault_of(saver, "");
-    if (!fault.empty()) {
-        return {.success = false, .message = answer_text({.is_saved = false, .text = fault})};
-    }
-    const std::uint64_t number = saver->request();
+Saved Requests::save_now(MapSaver* saver, const std::string& name) {
+    const std::string fault = fault_of(saver, name);
+    if (!fault.empty()) return {.is_saved = false, .text = fault};
+    const std::uint64_t number = saver->request(name);
     std::unique_lock hold(lock_);
     answered_.wait(hold, [&] { return has_ended_ || last_.request >= number; });
-    const Saved found =
-        last_.request >= number ? last_ : Saved{.is_saved = false, .text = "the filter ends"};
-    return {.success = found.is_saved, .message = answer_text(found)};
+    return last_.request >= number ? last_ : Saved{.is_saved = false, .text = "the filter ends"};
 }
 
 void Requests::end() {

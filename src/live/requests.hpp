@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-/// What other programs may ask of the filter by messages, and the answers. Topics work alike with
-/// ROS 1 and with every DDS of ROS 2, between which services do not; with ROS 1 there are services
-/// of the same names, too.
+/// What other programs may ask of the filter, and the answers. Topics work alike with ROS 1 and
+/// with every DDS of ROS 2; services of the same names are those of ROS 1, and of ROS 2 with
+/// Cyclone DDS.
 #pragma once
 
 #include <atomic>
@@ -44,9 +44,10 @@ public:
     bool pop_reset() { return is_reset_.exchange(false); }
 
 private:
-    [[nodiscard]] static std::string fault_of(const MapSaver* saver, const std::string& name);
+    void receive_messages(MapSaver* saver);
+    void offer_services(MapSaver* saver);
     void ask_to_save(MapSaver* saver, const std::string& name);
-    ServiceAnswer save_now(MapSaver* saver);
+    Saved save_now(MapSaver* saver, const std::string& name);
     void reset();
     void pause(bool is_paused);
     [[nodiscard]] std::string state_text() const;

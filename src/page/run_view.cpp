@@ -152,6 +152,15 @@ void add_path(const ViewInput& in, const Shown& shown, const Origin& origin, Pag
     if (in.recording.info().has_truth()) run.arrays.push_back(page_array("path-scores", 8, scores));
 }
 
+/// Which sensor of several made each scan, so that each can be hidden.
+void add_sensors(const ViewInput& in, PageRun& run) {
+    if (in.sensors.size() < 2) return;
+    run.info["groups"] = {{"kind", "sensor"}, {"names", in.sensors}};
+    std::vector<std::uint8_t> sensor;
+    for (const ScanNote& note : in.scans) sensor.push_back(static_cast<std::uint8_t>(note.sensor));
+    run.arrays.push_back(page_array("path-sensor", 1, sensor));
+}
+
 void add_objects(const ViewInput& in, const Origin& origin, PageRun& run) {
     run.info["objects_total"] = in.objects_total;
     std::vector<std::uint32_t> number, row, begin, place_row;
@@ -257,6 +266,7 @@ PageRun view_of(const ViewInput& in) {
     VoxelRows voxels;
     run.arrays.push_back(page_array("map-voxel", 1, voxels.rows_of(map)));
     add_path(in, shown, origin, run);
+    add_sensors(in, run);
     add_objects(in, origin, run);
     run.arrays.push_back(page_array("frame-begin", 1, shown.frame_begin));
     add_cloud(shown.frames, "frame", steps, run);

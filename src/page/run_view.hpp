@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "dynamic_filter/filter.hpp"
@@ -19,6 +20,7 @@ namespace dynamic_filter::app {
 /// Counts of a scan, made while its labels are written.
 struct ScanNote {
     std::size_t index = 0;                               ///< in the recording
+    std::size_t sensor = 0;                              ///< which of several made it
     Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] of the sensor, in the world
     double stamp = 0.0;                                  ///< [s]
     std::array<std::uint32_t, 3> counts{};               ///< final: static, dynamic, unknown
@@ -35,6 +37,7 @@ constexpr std::size_t kMostObjects = 1000;  ///< that a page lists
 struct ViewInput {
     const io::Recording& recording;
     const std::vector<ScanNote>& scans;  ///< that were used, in order
+    std::vector<std::string> sensors;    ///< names by ScanNote::sensor; one or none: not shown
     Shown shown;                         ///< of these scans
     std::vector<ObjectWay> objects;      ///< what moved: the largest
     std::size_t objects_total = 0;

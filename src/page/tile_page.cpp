@@ -119,9 +119,33 @@ void add_values(const TilePoints& points, const std::vector<std::size_t>& order,
     run.arrays.push_back(page_array("voxel-probability", 1, probability));
 }
 
-ordered_json facts_of(const MapIndex& index, const MapTile& tile, const TilePoints& points) {
+/// Which drives saw each voxel, so that each date can be shown alone. A word has room for 32 of
+/// them; the earliest of more share its first bit.
+void add_drives(const MapIndex& index, const std::vector<std::uint64_t>& voxels,
+                const TilePoints& points, const std::vector<std::size_t>& order, PageRun& run) {
+    constexpr std::size_t kMost = 32;
+    std::vector<std::size_t> seen;  // drives with a voxel in the tile
+    for (std::size_t d = 0; d < voxels.size(); ++d) {
+        if (voxels[d] > 0) seen.push_back(d);
+    }
+    const std::size_t shared = std::max(seen.size(), kMost) - kMost;
+    const auto bit_of = [&](std::size_t k) { return k < shared ? 0 : k - shared; };
+    ordered_json names = ordered_json::array();
+    for (std::size_t k = shared; k < seen.size(); ++k) names.push_back(index.drives[seen[k]].name);
+    if (shared > 0) names[0] = names[0].get<std::string>() + " and earlier";
+    std::vector<std::uint32_t> groups(order.size(), 0);
+    for (std::size_t row = 0; row < order.size(); ++row) {
+        for (std::size_t k = 0; k < seen.size(); ++k) {
+            if (points.saw(seen[k], order[row])) groups[row] |= std::uint32_t{1} << bit_of(k);
+        }
+    }
+    run.info["groups"] = {{"kind", "drive"}, {"names", names}};
+    run.arrays.push_back(page_array("map-groups", 1, groups));
+}
+
+ordered_json facts_of(const MapIndex& index, const MapTile& tile,
+                      const std::vector<std::uint64_t>& voxels) {
     ordered_json drives = ordered_json::array();
-    const std::vector<std::uint64_t> voxels = voxels_by_drive(points, index.drives.size());
     for (std::size_t d = 0; d < voxels.size(); ++d)
         if (voxels[d] > 0)
             drives.push_back({{"name", index.drives[d].name}, {"voxels", voxels[d]}});
@@ -159,12 +183,14 @@ PageRun view_of_tile(const MapIndex& index, const MapTile& tile, const TilePoint
     run.info["points_shown"] = shown.size();
     run.info["spacing"] = spacing;
     run.info["scores"] = nullptr;
-    run.info["tile"] = facts_of(index, tile, points);
+    const std::vector<std::uint64_t> voxels = voxels_by_drive(points, index.drives.size());
+    run.info["tile"] = facts_of(index, tile, voxels);
     std::vector<std::size_t> order(shown.size());
     std::iota(order.begin(), order.end(), 0U);
     order = shuffled(std::move(order));
     add_positions(shown, order, index.voxel_size, run);
     add_values(shown, order, index.drives.size(), run);
+    add_drives(index, voxels, shown, order, run);
     return run;
 }
 

@@ -52,8 +52,9 @@ struct Whole {
     std::vector<std::optional<Tracked>> tracked{};  ///< by scan; if poses are found or refined
     LabelStore instant{output.path()};              ///< verdicts of scans that are scored or shown
     std::vector<ScanNote> scan_notes{};
-    std::optional<ShownScans> shown{};  ///< if there is a page
-    ObjectWays ways{};                  ///< of what moves, if there is a page
+    std::vector<std::string> sensors{};  // names by ScanNote::sensor
+    std::optional<ShownScans> shown{};   ///< if there is a page
+    ObjectWays ways{};                   ///< of what moves, if there is a page
     ObjectLog objects{[this](const KnownScan& scan) { ways.add(scan); }};
     std::optional<eval::ScanScores> scorer{};  ///< of final and instant verdicts, if there is truth
     Eigen::Vector3d scoring_origin = Eigen::Vector3d::Zero();
@@ -224,6 +225,7 @@ SeenScan see(const Whole& whole, std::size_t i, const io::FullScan& scan, const 
     SeenScan seen{.instant = whole.instant.get(i)};
     seen.note = note_of(labels, seen.instant, scan.truth);
     seen.note.index = i;
+    seen.note.sensor = scan.sensor;
     seen.note.position = scan.T_world_sensor.translation();
     seen.note.stamp = scan.stamp;
     if (!whole.shown) return seen;
@@ -275,6 +277,8 @@ void write_results(Whole& whole) {
         }
         whole.summary.count(verdict.labels, scan.truth);
         whole.scan_notes.push_back(of_scan.note);
+        whole.sensors.resize(std::max(whole.sensors.size(), scan.sensor + 1));
+        whole.sensors[scan.sensor] = scan.sensor_name;
         if (whole.live) {
             whole.live->feed().corrected(i, scan.points, verdict.labels);
         }
@@ -390,6 +394,7 @@ void write_page(Whole& whole, const Json& metrics) {
     whole.objects.finish();
     PageRun run = view_of({.recording = whole.recording,
                            .scans = whole.scan_notes,
+                           .sensors = whole.sensors,
                            .shown = whole.shown->take(),
                            .objects = whole.ways.take(kMostObjects),
                            .objects_total = whole.objects.size(),

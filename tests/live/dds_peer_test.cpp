@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <random>
 #include <sstream>
 
@@ -13,6 +14,8 @@
 
 namespace dynamic_filter::live {
 namespace dds_peer_test {
+
+using std::string_literals::operator""s;
 
 const std::string kType = "sensor_msgs::msg::dds_::PointCloud2_";
 
@@ -295,6 +298,42 @@ TEST_F(DdsPeer, OnePacketOfTenMayBeLost) {
     const auto peer = start("publish", {"depth=0", "loss=10"});
     bus.subscribe(cloud, kReliable, inbox.receive());
     expect_exact(*peer, 20, "50 1000000");
+}
+
+TEST_F(DdsPeer, ServicesAreCalledAndAnswered) {
+    std::atomic<int> calls = 0;
+    bus.serve("/filter/reset", kTrigger, [&](io::MessageReader&, io::MessageWriter& out) {
+        write(out, {.success = true, .message = "call " + std::to_string(++calls)});
+    });
+    const std::string type = "std_srvs::srv::dds_::Trigger_";
+    const auto answers =
+        start("decode", {"topic=rr/filter/resetReply", "type=" + type + "Response_"});
+    const auto client =
+        start("relay", {"topic=rq/filter/resetRequest", "type=" + type + "Request_"});
+    ASSERT_TRUE(eventually([&] { return answers->said("publishers") == std::vector{"1"s}; }));
+    const auto ask = [&](std::int64_t number) {
+        io::MessageWriter request(io::MessageEncoding::cdr);
+        request.number(std::uint64_t{12345678901234567890U});
+        request.number(number);
+        request.number(std::uint8_t{0});  // C++ and IDL know no empty structure
+        const std::vector<std::byte> message = request.moved_bytes();
+        const auto size = static_cast<std::uint32_t>(message.size());
+        client->write(std::as_bytes(std::span(&size, 1)));
+        client->write(message);
+    };
+    ASSERT_TRUE(eventually([&] {  // until both sides have found each other
+        ask(1);
+        return eventually([&] { return calls > 0; }, 0.2);
+    }));
+    const int before = calls;
+    ask(7);
+    ASSERT_TRUE(eventually([&] { return calls == before + 1; }));
+    const std::string expected =
+        "12345678901234567890 7 1 \"call " + std::to_string(before + 1) + "\" left 0";
+    EXPECT_TRUE(eventually([&] {
+        const auto got = answers->said("got");
+        return !got.empty() && got.back().starts_with(expected.substr(0, expected.size() - 1));
+    })) << answers->said("got").back();
 }
 
 struct LossyDdsPeer : DdsPeer {

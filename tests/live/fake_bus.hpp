@@ -20,7 +20,7 @@ public:
     std::map<std::string, Quality> subscribed;
     std::map<std::string, std::size_t> subscriptions;
     std::map<std::string, Receive> receivers;
-    std::map<std::string, std::pair<ServiceKind, Serve>> services;
+    std::map<std::string, std::pair<ServiceType, Serve>> services;
     bool stopped = false;
 
     void advertise(const io::Topic& topic, const Quality& quality) override {
@@ -40,8 +40,8 @@ public:
         ++subscriptions[topic.name];
         receivers[topic.name] = std::move(receive);
     }
-    void serve(const std::string& name, ServiceKind kind, Serve serve) override {
-        services[name] = {kind, std::move(serve)};
+    void serve(const std::string& name, const ServiceType& type, Serve serve) override {
+        services[name] = {type, std::move(serve)};
     }
     void stop() override { stopped = true; }
     [[nodiscard]] std::uint64_t lost() const override { return 0; }

@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: MIT
 # The ROS 1 node as a process, with Debian's master and `rosbag play` of a bag that we wrote, in the bag's time: the
 # folder of a drive is that of `run`; bags that begin anew, a master that dies, and parameters.
-#   live_ros1_test.sh COMMAND NODE
+#   live_ros1_test.sh COMMAND NODE MESSAGES
+# MESSAGES is the folder of dynamicfilter_msgs.
 set -euo pipefail
-command=$1 node=$2
+command=$1 node=$2 messages=$3
 work=$(mktemp -d)
 processes=
 clean_up() {
@@ -125,7 +126,8 @@ stop INT
 start called --map called.pcd
 play &
 playing=$!
-sleep 1.5
+wait_for called.err '^note: poses from'
+sleep 1
 asks() { # rosservice breaks lines
     timeout 60 rosservice call "$@" > call.txt 2>&1 || fail "rosservice call $*: $(cat call.txt)"
     tr -d "\\\\\n " < call.txt > answer.txt
@@ -134,6 +136,15 @@ asks /dynamicfilter/save_map
 grep -q "^success:True" answer.txt || fail "the map is not saved: $(cat answer.txt)"
 bytes=$(grep -o 'bytes[^0-9]*[0-9]*' answer.txt | grep -o '[0-9]*$')
 [ "$(wc -c < called.pcd)" = "$bytes" ] || fail "the file is not the one of the answer: $(cat answer.txt)"
+package=$work/python/dynamicfilter_msgs/srv
+mkdir -p "$package"
+/usr/bin/python3 /usr/lib/genpy/gensrv_py.py -p dynamicfilter_msgs -o "$package" "$messages/srv/SaveMap.srv"
+/usr/bin/python3 /usr/lib/genpy/gensrv_py.py --initpy -o "$package"
+export PYTHONPATH=$work/python${PYTHONPATH:+:$PYTHONPATH}
+asks /dynamicfilter/save_map_as '{path: hall, format: ply}'
+grep -q "^success:True.*path:.$PWD/hall.ply.points:[0-9]*bytes:$(wc -c < hall.ply)$" answer.txt || fail "the map of another name: $(cat answer.txt)"
+asks /dynamicfilter/save_map_as '{path: ../hall.ply, format: ""}'
+grep -q '^success:False.*isnonameofafilebeside' answer.txt || fail "a name that leads elsewhere: $(cat answer.txt)"
 wait "$playing"
 sleep 1
 asks /dynamicfilter/pause true

@@ -22,6 +22,6 @@ set_property(TEST live/dds_peer APPEND PROPERTY LABELS slow)
 if(TARGET dynamic_filter_ros1)
   df_player(live_player_ros1 dynamic_filter_ros1)
   add_test(NAME live/live_ros1 COMMAND ${CMAKE_CURRENT_LIST_DIR}/live_ros1_test.sh $<TARGET_FILE:dynamicfilter>
-    $<TARGET_FILE:dynamicfilter_ros1>)
+    $<TARGET_FILE:dynamicfilter_ros1> ${PROJECT_SOURCE_DIR}/packaging/dynamicfilter_msgs)
   set_tests_properties(live/live_ros1 PROPERTIES LABELS slow)
 endif()

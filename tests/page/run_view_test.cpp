@@ -91,6 +91,7 @@ protected:
         }
         return {.recording = recording_,
                 .scans = notes_,
+                .sensors = {},
                 .shown = shown.take(),
                 .objects = {},
                 .histories = [this](const auto& voxels) { return filter_.histories(voxels); },
@@ -219,6 +220,19 @@ TEST(CloudView, IsStaticAndWithoutARun) {
     for (const std::uint8_t code : column<std::uint8_t>(run, "map-verdict")) {
         EXPECT_EQ(code & 3U, 1U);
     }
+}
+
+TEST_F(RunView, TellsTheSensorOfEachScan) {
+    EXPECT_FALSE(view_of(input()).info.contains("groups"));
+    for (std::size_t i = 0; i < notes_.size(); ++i) notes_[i].sensor = i % 2;
+    ViewInput in = input();
+    in.sensors = {"front", "rear"};
+    const PageRun run = view_of(in);
+    EXPECT_EQ(run.info["groups"]["kind"], "sensor");
+    EXPECT_EQ(run.info["groups"]["names"], (std::vector<std::string>{"front", "rear"}));
+    const auto sensors = column<std::uint8_t>(run, "path-sensor");
+    ASSERT_EQ(sensors.size(), notes_.size());
+    for (std::size_t i = 0; i < sensors.size(); ++i) EXPECT_EQ(sensors[i], i % 2);
 }
 
 }  // namespace run_view_test

@@ -67,6 +67,48 @@ TEST_F(TilePage, ShowsEveryVoxelWhereItIs) {
     EXPECT_EQ(values<std::uint8_t>(run, "map-drives")[0], 170) << "two of three drives";
 }
 
+TEST_F(TilePage, TellsWhichDrivesSawEachVoxel) {
+    const TilePoints all = points("1_-2_0");
+    const PageRun run = view_of_tile(index_, tile("1_-2_0"), all, 1'000'000);
+    const auto names = run.info["groups"]["names"].get<std::vector<std::string>>();
+    EXPECT_EQ(run.info["groups"]["kind"], "drive");
+    const std::vector<std::uint64_t> voxels = voxels_by_drive(all, index_.drives.size());
+    std::vector<std::uint64_t> shown(names.size(), 0), expected;
+    for (const std::uint32_t bits : values<std::uint32_t>(run, "map-groups")) {
+        for (std::size_t k = 0; k < names.size(); ++k) shown[k] += bits >> k & 1U;
+    }
+    for (const std::uint64_t count : voxels) {
+        if (count > 0) expected.push_back(count);
+    }
+    EXPECT_EQ(shown, expected);
+}
+
+TEST_F(TilePage, TheEarliestOfMoreThan32DrivesShareABit) {
+    constexpr std::size_t kDrives = 40;
+    MapIndex index = index_;
+    index.drives.resize(kDrives);
+    for (std::size_t d = 0; d < kDrives; ++d) index.drives[d].name = "day_" + std::to_string(d);
+    TilePoints all;
+    all.words = drive_words(kDrives);
+    for (std::size_t d = 0; d < kDrives; ++d) {  // a voxel of each drive
+        all.positions.emplace_back(static_cast<double>(d), 0.0, 0.0);
+        all.probability.push_back(1.0F);
+        all.scans.push_back(1);
+        all.drives.resize(all.drives.size() + all.words);
+        all.drives[d * all.words + d / 32] = std::uint32_t{1} << (d % 32);
+    }
+    const PageRun run = view_of_tile(index, index.tiles.front(), all, 1000);
+    const auto names = run.info["groups"]["names"].get<std::vector<std::string>>();
+    ASSERT_EQ(names.size(), 32U);
+    EXPECT_EQ(names.front(), "day_8 and earlier");
+    EXPECT_EQ(names.back(), "day_39");
+    std::vector<std::uint32_t> groups = values<std::uint32_t>(run, "map-groups");
+    EXPECT_EQ(std::count(groups.begin(), groups.end(), 1U), 9);
+    for (std::size_t k = 1; k < 32; ++k) {
+        EXPECT_EQ(std::count(groups.begin(), groups.end(), std::uint32_t{1} << k), 1) << k;
+    }
+}
+
 TEST_F(TilePage, TooManyVoxelsAreThinned) {
     const TilePoints all = points("1_-2_0");
     const PageRun run = view_of_tile(index_, tile("1_-2_0"), all, 1000);

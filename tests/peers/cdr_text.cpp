@@ -158,6 +158,14 @@ void diagnostics(Reader& in) {
     });
 }
 
+/// As rmw_cyclonedds sends it: the client and its request stand before the answer.
+void trigger_response(Reader& in) {
+    in.number<std::uint64_t>();
+    in.number<std::int64_t>();
+    in.number<bool>();
+    in.text();
+}
+
 }  // namespace
 
 std::string text_of(const std::string& type, Bytes message) {
@@ -176,6 +184,8 @@ std::string text_of(const std::string& type, Bytes message) {
         markers(in);
     } else if (type == "diagnostic_msgs::msg::dds_::DiagnosticArray_") {
         diagnostics(in);
+    } else if (type == "std_srvs::srv::dds_::Trigger_Response_") {
+        trigger_response(in);
     } else {
         throw std::runtime_error("unknown type " + type);
     }

@@ -24,7 +24,7 @@ COVERED = {  # test -> the units that it covers
     "formats/clouds/las_test.cpp": "formats/clouds/las_header formats/clouds/las_writer",
     "live/dds_bus_test.cpp": "live/dds_log live/dds_type",
     "live/dds_peer_test.cpp": "live/dds_configuration",
-    "live/live_test.sh": "live/dry_run live/live live/map_saver live/requests commands/live",
+    "live/live_test.sh": "live/ask live/dry_run live/live live/map_saver live/requests commands/live",
     "live/session_test.cpp": "live/recorder",
     "online/online_filter_test.cpp": "online/scan_worker",
     "package/left_out_test.sh": "commands/live_left_out sim/caster_left_out",

@@ -8,7 +8,10 @@ from pathlib import Path
 
 root = Path(sys.argv[1])
 version = re.search(r"project\(DynamicFilter VERSION (\S+)", (root / "CMakeLists.txt").read_text())[1]
-named = {"package.xml": ElementTree.parse(root / "package.xml").findtext("version")}
+named = {
+    file: ElementTree.parse(root / file).findtext("version")
+    for file in ("package.xml", "packaging/dynamicfilter_msgs/package.xml")
+}
 for file, pattern in {
     "CITATION.cff": r"^version: (\S+)$",
     "CHANGELOG.md": r"^## (\S+?),? ",

@@ -45,6 +45,7 @@ run a b c $options -o abc
 same abc/map of_two/map "two drives at once"
 expect 0 "" info of_c
 expect 0 "" info of_c/history/2
+expect 0 "written old.png" render of_c/history/2 -o old.png --width 320 --height 200
 expect 0 "" convert of_c/history/2 old_tiles --to las
 expect 2 "which labels the new drives alone" convert of_c cloud.pcd
 expect 0 "" convert of_c tiles --to las

@@ -141,4 +141,32 @@ describe("a city", () => {
     assert.deepEqual(opened.complaints, []);
     await opened.page.close();
   });
+
+  test("a tile is shown as each drive saw it", async () => {
+    const { page: tile, complaints: said } = await open(at("report/2_0_0.html"));
+    await tile.evaluate(() => window.viewer.ready);
+    await settled(tile);
+    const isPoint = (r, g, b) => Math.max(r, g, b) > 60 && Math.max(r, g, b) - Math.min(r, g, b) > 30;
+    const drawn = async () => (await picture(tile)).count(isPoint);
+    const all = await drawn();
+    const slider = tile.getByLabel("Date", { exact: true });
+    const share = {};
+    for (const [value, name] of [["1", "south"], ["2", "north"], ["0", "all"]]) {
+      await slider.fill(value);
+      await settled(tile);
+      assert.match(await tile.locator(".field", { has: slider }).innerText(), new RegExp(`Seen at\\s+${name}`));
+      share[name] = (await drawn()) / all;
+      await shot(tile, `city-date-${name}`);
+    }
+    assert.equal(share.all, 1);
+    for (const name of ["south", "north"]) assert.ok(share[name] > 0.5 && share[name] < 0.99, `${name} has ${share[name]}`);
+    assert.equal((await state(tile)).groups, -1);
+    for (const name of ["south", "north"]) await tile.getByLabel(name, { exact: true }).uncheck();
+    await settled(tile);
+    assert.equal(await drawn(), 0);
+    await tile.getByLabel("north", { exact: true }).check();
+    assert.equal(await slider.inputValue(), "2");
+    assert.deepEqual(said, []);
+    await tile.close();
+  });
 });

@@ -84,9 +84,10 @@ function objects() {
 
 /**
  * One run as {meta, arrays, known}. `known`: points of the map that tests look for, {place, voxel, row, passes}.
- * `wrong`: share of further errors, so that runs differ.
+ * `wrong`: share of further errors, so that runs differ. `sensors`: names of those that take turns, two scans each, so
+ * that the playback has scans of all.
  */
-export function makeRun({ name = "street", points = 120_000, framePoints = 2500, seed = 1, evidence = true, truth = true, origin = [1000, 2000, 50], wrong = 0, alarms = [] } = {}) {
+export function makeRun({ name = "street", points = 120_000, framePoints = 2500, seed = 1, evidence = true, truth = true, origin = [1000, 2000, 50], wrong = 0, alarms = [], sensors = [] } = {}) {
   const r = random(seed + 7);
   const voxels = new Voxels(seed + 3);
   const position = new Uint16Array(3 * points), verdict = new Uint8Array(points), intensity = new Uint8Array(points);
@@ -120,11 +121,12 @@ export function makeRun({ name = "street", points = 120_000, framePoints = 2500,
     "path-index": array("uint32", 1, Uint32Array.from(path, (_, row) => row + 10)),
     "path-frame": array("int32", 1, Int32Array.from(path, (_, row) => (row % 2 === 0 ? row / 2 : -1))),
     "path-counts": array("uint32", 4, rows), ...(truth ? { "path-scores": array("uint32", 8, scores) } : {}),
+    ...(sensors.length ? { "path-sensor": array("uint8", 1, Uint8Array.from(path, (_, row) => (row >> 1) % sensors.length)) } : {}),
     ...frames, ...objects(),
   };
   const meta = {
     name, command: "run", version: "0.0.0-test", input: "recordings/street", format: "kitti", preset: evidence ? "default" : "paper", created: "2026-01-02T03:04:05Z",
-    origin, low: LOW, step: STEP, voxel_size: VOXEL, occupancy_threshold: 0.5, scans: SCANS, has_truth: truth, has_instant: true, has_evidence: evidence, alarms,
+    origin, low: LOW, step: STEP, voxel_size: VOXEL, occupancy_threshold: 0.5, scans: SCANS, has_truth: truth, has_instant: true, has_evidence: evidence, alarms, ...(sensors.length ? { groups: { kind: "sensor", names: sensors } } : {}),
     points_total: Math.round(9.4 * points), points_shown: points, spacing: 0.12,
     frame_points_total: SCANS * framePoints, frame_points_shown: (SCANS / 2) * framePoints, frames_shown: SCANS / 2, counts,
     keyframes: KEY_FRAMES, keyframes_total: KEY_FRAMES.length + FORGOTTEN,
@@ -223,17 +225,18 @@ export function makeCity() {
   };
 }
 
-/** The page of a tile with a neighbour on one side. */
+/** The page of a tile with a neighbour on one side; a third of its points was seen by both drives. */
 export function makeTile({ name, points = 20_000 }) {
   const cloud = makeCloud({ name, points, origin: [1000, 2000, 50] });
   const other = name === "2_0_0" ? { name: "2_1_0", where: "east" } : { name: "2_0_0", where: "west" };
   return {
     meta: {
-      ...cloud.meta, kind: "tile", counts: undefined, voxel_size: VOXEL,
+      ...cloud.meta, kind: "tile", counts: undefined, voxel_size: VOXEL, groups: { kind: "drive", names: ["south", "north"] },
       tile: { overview: "../report.html", side: 102.4, voxels: points, scans: 100, drives: [{ name: "south", voxels: points }], drives_total: 2, neighbours: [other] },
     },
     arrays: {
       ...cloud.arrays, "map-scans": array("uint8", 1, new Uint8Array(points).fill(40)), "map-drives": array("uint8", 1, new Uint8Array(points).fill(128)),
+      "map-groups": array("uint32", 1, Uint32Array.from({ length: points }, (_, i) => 1 + (i % 3))),
       "map-voxel": array("uint32", 1, Uint32Array.from({ length: points }, (_, i) => i)), "voxel-probability": array("uint8", 1, new Uint8Array(points).fill(230)),
     },
   };

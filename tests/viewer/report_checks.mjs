@@ -177,3 +177,47 @@ test("damaged data are named", async () => {
   await until(async () => /run-0-voxel-probability is damaged: \d+ bytes where \d+ were announced/.test(await page.locator(".status").textContent()), "the page says what is damaged");
   await page.close();
 });
+
+describe("the report of several sensors", () => {
+  let page, complaints;
+  before(async () => {
+    ({ page, complaints } = await openRuns([makeRun({ points: 60_000, sensors: ["front", "rear"] })]));
+  });
+  after(() => page.close());
+
+  test("the points of each can be hidden, and the playback leaves out its scans", async () => {
+    const count = async () => (await picture(page)).count((r, g, b) => isGrey(r, g, b) || isOrange(r, g, b));
+    const all = await count();
+    await page.getByLabel("rear", { exact: true }).uncheck();
+    await settled(page);
+    const front = await count();
+    await shot(page, "sensor-front");
+    await page.getByLabel("rear", { exact: true }).check();
+    await page.getByLabel("front", { exact: true }).uncheck();
+    await settled(page);
+    const rear = await count();
+    for (const one of [front, rear]) assert.ok(one > 0.3 * all && one < 0.98 * all, `${one} of ${all}`);
+    // Scans 0 and 4 are of the front sensor, 2 and 6 of the rear one.
+    await setValues(page, { row: 0, scan: true });
+    assert.equal((await stats(page)).views[0].scanIsShown, false);
+    for (const row of [2, 6]) {
+      await page.getByLabel("Next scan").click();
+      assert.equal((await state(page)).row, row);
+      assert.equal((await stats(page)).views[0].scanIsShown, true);
+    }
+    await page.getByLabel("front", { exact: true }).check();
+    assert.equal((await state(page)).groups, -1);
+    await setValues(page, { row: 0, scan: false });
+    assert.equal(await count(), all);
+    assert.deepEqual(complaints, []);
+  });
+
+  test("a link keeps what is hidden", async () => {
+    await page.getByLabel("rear", { exact: true }).uncheck();
+    await until(async () => /groups=1&/.test(await page.evaluate(() => location.hash)), "the link");
+    await page.reload();
+    await page.evaluate(() => window.viewer.ready);
+    assert.equal(await page.getByLabel("rear", { exact: true }).isChecked(), false);
+    assert.equal(await page.getByLabel("front", { exact: true }).isChecked(), true);
+  });
+});

@@ -3,6 +3,7 @@
 import * as THREE from "three";
 import { colouringIndex, kindPalette, kindColour, rgb, scaleImage, scaleRow } from "./colours.js";
 import { finalOf, instantOf } from "./data.js";
+import { ALL_GROUPS } from "./groups.js";
 import { pointFragment, pointVertex } from "./shaders.js";
 
 const ALL = [-1e9, 1e9];
@@ -26,7 +27,7 @@ function uniforms({ low, step }) {
   return {
     low: value(new THREE.Vector3(...low)), stepSize: value(step),
     palette: value([]), background: value(new THREE.Color()), scales: value(scales.texture), scaleCoordinate: value(0),
-    mode: value(0), layers: value(7), markCorrected: value(false), fade: value(0),
+    mode: value(0), layers: value(7), shownGroups: value(ALL_GROUPS), markCorrected: value(false), fade: value(0),
     heightScale: value(new THREE.Vector2(0, 1)),
     heightCut: value(new THREE.Vector2(...ALL)), rangeCut: value(new THREE.Vector2(...ALL)), fromPath: value(false),
     sensor: value(new THREE.Vector3()), pathDistance: value(nowhere), pathBox: value(new THREE.Vector4(0, 0, 1, 1)),
@@ -43,7 +44,8 @@ export class Cloud {
     this.step = step;
     this.begin = 0;
     this.end = positions.length / 3;
-    this.settings = { layers: 7, instant: false, height: ALL, range: ALL, fromPath: false, sensor: [0, 0, 0] };
+    this.groups = null;  // by point, bits
+    this.settings = { layers: 7, groups: ALL_GROUPS, instant: false, height: ALL, range: ALL, fromPath: false, sensor: [0, 0, 0] };
     this.field = null;  // distance from the path
     this.geometry = new THREE.BufferGeometry();
     if (shares) {
@@ -106,6 +108,17 @@ export class Cloud {
     this.setUniforms({ layers: this.settings.layers });
   }
 
+  /** By point, a bit for each that saw it. */
+  setGroups(groups) {
+    this.groups = groups;
+    this.setAttribute("groups", new Uint16Array(groups.buffer, groups.byteOffset, 2 * groups.length), 2);  // floats hold 16 bits
+  }
+
+  showGroups(bits) {
+    this.settings.groups = this.groups ? bits : ALL_GROUPS;
+    this.setUniforms({ shownGroups: this.settings.groups });
+  }
+
   setCuts({ height, range, fromPath, sensor }) {
     Object.assign(this.settings, { height: height ?? ALL, range: range ?? ALL, fromPath: fromPath && !!this.field, sensor });
     this.setUniforms({
@@ -124,7 +137,8 @@ export class Cloud {
 
   /** Whether the shader would draw a point there: the same tests as in the vertex shader. */
   shows(i, x, y, z) {
-    const { layers, instant, height, range, fromPath, sensor } = this.settings;
+    const { layers, groups, instant, height, range, fromPath, sensor } = this.settings;
+    if (groups !== ALL_GROUPS && (this.groups[i] & groups) === 0) return false;
     const verdict = this.verdicts[i];
     if (((layers >> ((instant ? instantOf(verdict) : finalOf(verdict)) % 3)) & 1) === 0) return false;
     if (z < height[0] || z > height[1]) return false;

@@ -73,6 +73,7 @@ export class CloudView {
     const world = this.pointWorld * settings.size, least = Math.max(1, settings.size);
     cloud.setColouring(isScan && !VERDICT_COLOURINGS.includes(colour) ? "verdict" : colour);
     cloud.setLayers(this.layersOf(settings, isScan).map((name) => LAYERS[name]));
+    cloud.showGroups(settings.groups);
     cloud.setCuts({ height: settings.height, range: settings.range, fromPath: settings.rangeFrom === "path", sensor: sensor ?? [0, 0, 0] });
     cloud.setUniforms(isScan ? { pointWorld: 1.6 * world, pointLeast: 2.2 * least } : { pointWorld: world, pointLeast: least });
     cloud.setUniforms({ markCorrected: settings.corrections, fade: !isScan && this.scanIsShown && settings.dim ? MAP_DIMMED : 0 });

@@ -3,6 +3,7 @@
 import { COLOURINGS } from "./colours.js";
 import { checkbox, h } from "./dom.js";
 import { count, metres } from "./format.js";
+import { groupSection } from "./groups.js";
 import { spanInput } from "./span_input.js";
 
 const section = (title, ...children) => h("section", {}, h("h2", {}, title), ...children);
@@ -43,10 +44,10 @@ function sizeInput(store) {
 }
 
 /**
- * `layers`: [{name, label, amount, hint}]; `heights`: [lowest, highest] m; `reach`: the largest range, m;
+ * `layers`: [{name, label, amount, hint}]; `groups`: {kind, names}, or null; `heights`: [lowest, highest] m; `reach`: the largest range, m;
  * `camera`: [{label, key, act}].
  */
-export function controls({ store, layers, scanLayers, colourings, heights, reach, camera }) {
+export function controls({ store, layers, groups, scanLayers, colourings, heights, reach, camera }) {
   const known = COLOURINGS.filter(({ id }) => colourings.some((c) => c.id === id));
   const height = spanInput({ label: "Height", low: heights[0], high: heights[1], words: metres, change: (span) => store.set({ height: span }) });
   const range = spanInput({ label: "Range", low: 0, high: reach, words: metres, change: (span) => store.set({ range: span }) });
@@ -57,6 +58,7 @@ export function controls({ store, layers, scanLayers, colourings, heights, reach
   return [
     section("Colour by", colourSelect(store, known)),
     section("Points", ...layerBoxes(store, layers), sizeInput(store)),
+    groups ? groupSection(store, groups) : "",
     scanLayers.length ? section("Scan and sensor", ...layerBoxes(store, scanLayers)) : "",
     section("Cut", height.element, range.element, rangeFromSelect(store)),
     section("Camera",

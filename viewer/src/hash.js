@@ -5,7 +5,7 @@ import { COLOURINGS } from "./colours.js";
 import { DEFAULTS } from "./store.js";
 
 const FLAGS = ["static", "dynamic", "unknown", "path", "scan", "dim", "corrections", "follow"];
-const KEPT = ["colour", "row", "size", "height", "range", "rangeFrom", ...FLAGS];
+const KEPT = ["colour", "row", "groups", "size", "height", "range", "rangeFrom", ...FLAGS];
 
 const round = (x) => String(Number(x.toFixed(3)));
 const numbers = (text, n) => {
@@ -16,6 +16,7 @@ const numbers = (text, n) => {
 const READERS = {
   colour: (text) => (COLOURINGS.some(({ id }) => id === text) ? text : undefined),
   row: (text) => (/^\d{1,9}$/.test(text) ? Number(text) : undefined),
+  groups: (text) => (/^-?\d{1,10}$/.test(text) ? Number(text) | 0 : undefined),
   size: (text) => (Number(text) > 0 && Number(text) <= 4 ? Number(text) : undefined),
   height: (text) => numbers(text, 2) ?? undefined,
   range: (text) => numbers(text, 2) ?? undefined,

@@ -11,6 +11,7 @@ import { Editor } from "./editor.js";
 import { count, fixed, plural } from "./format.js";
 import { errorButtons } from "./errors.js";
 import { fromHash, keepHash } from "./hash.js";
+import { groupsOf, rowIsShown } from "./groups.js";
 import { bindKeys } from "./keys.js";
 import { objectPanel } from "./objects.js";
 import { pointPanel } from "./panel.js";
@@ -24,7 +25,7 @@ import { overviewLink } from "./tile_facts.js";
 import { Timeline } from "./timeline.js";
 
 const MOST_VIEWS = 4;
-const SHOWN = ["colour", "static", "dynamic", "unknown", "path", "scan", "dim", "corrections", "height", "range", "rangeFrom", "size"];
+const SHOWN = ["colour", "static", "dynamic", "unknown", "groups", "path", "scan", "dim", "corrections", "height", "range", "rangeFrom", "size"];
 
 function subtitleOf(metas, total) {
   if (total > metas.length) return `the first ${metas.length} of ${total} maps side by side`;
@@ -71,11 +72,11 @@ function timelineOf(session) {
   });
 }
 
-function fillTimeline(timeline, { run }) {
+function fillTimeline(timeline, { run }, groups) {
   const stamps = Array.from(run.arrays["path-stamp"] ?? []);
   const ofFrames = run.arrays["path-frame"];
   const rows = stamps.map((_, row) => row);
-  const played = rows.filter((row) => ofFrames?.[row] >= 0);
+  const played = rows.filter((row) => ofFrames?.[row] >= 0 && rowIsShown(run, row, groups));
   const counts = run.arrays["path-counts"];
   timeline.setRows({ frames: played.length ? played : rows, stamps, amounts: counts ? rows.map((row) => counts[4 * row + 1]) : [], alarms: run.meta.alarms });
 }
@@ -111,7 +112,7 @@ async function loadAll(session, panels, timeline, say) {
   const { views, leader } = session;
   say("Reading the trajectory …");
   for (const view of views) await view.loadPath();
-  if (leader) fillTimeline(timeline, leader);
+  if (leader) session.store.watch(["groups"], ({ groups }) => fillTimeline(timeline, leader, groups));
   session.showRow(session.store.get("row"));
   say("Reading the scans …");
   for (const view of views) await view.loadRest();
@@ -172,7 +173,7 @@ export async function startReport(runs) {
     const extent = extentOf(session.views);
     const colourings = allColourings(shown);
     panels[0].element.append(...controls({
-      store: session.store, layers: layersOf(metas), scanLayers: session.leader ? SCAN_LAYERS : [], colourings, ...extent,
+      store: session.store, layers: layersOf(metas), groups: groupsOf(metas), scanLayers: session.leader ? SCAN_LAYERS : [], colourings, ...extent,
       camera: [{ label: "All", key: "0", act: () => session.fit() }, { label: "Top", key: "T", act: () => session.top() },
         { label: "Sensor", key: "G", act: () => session.centreOnSensor() }],
     }));

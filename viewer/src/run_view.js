@@ -3,6 +3,7 @@
 import { Cloud } from "./cloud.js";
 import { CloudView, midstOf } from "./cloud_view.js";
 import { colouringsOf } from "./colours.js";
+import { bitsOfMap, rowIsShown } from "./groups.js";
 import { pathField } from "./path_field.js";
 
 /** 32 bit integers cannot be read as floats by a shader; for a colour, 16 are enough. */
@@ -23,7 +24,7 @@ export class RunView extends CloudView {
 
   async loadPath() {
     const { run } = this;
-    await run.loadAll(["path-position", "path-stamp", "path-index", "path-frame", "path-counts", "path-scores"]);
+    await run.loadAll(["path-position", "path-stamp", "path-index", "path-frame", "path-sensor", "path-counts", "path-scores"]);
     const path = run.arrays["path-position"];
     if (!path?.length) return;
     this.overlay.setPath(path);
@@ -38,18 +39,20 @@ export class RunView extends CloudView {
   async loadRest() {
     const { run } = this;
     const { map } = this.clouds;
-    await run.loadAll(["map-scan", "map-intensity", "map-scans", "map-drives", "map-voxel", "voxel-probability"]);
+    await run.loadAll(["map-scan", "map-intensity", "map-scans", "map-drives", "map-groups", "map-voxel", "voxel-probability"]);
     const { arrays } = run;
     if (arrays["map-intensity"]) map.setAttribute("intensity", arrays["map-intensity"], 1, true);
     if (arrays["map-scans"]) map.setAttribute("intensity", arrays["map-scans"], 1, true);
     if (arrays["map-drives"]) map.setAttribute("time", arrays["map-drives"], 1, true);
     if (arrays["map-scan"]) map.setAttribute("time", timesOf(arrays["map-scan"], run.meta.scans), 1, true);
+    const groups = bitsOfMap(run);
+    if (groups) map.setGroups(groups);
     const probability = arrays["voxel-probability"];
     if (arrays["map-voxel"] && probability) {
       const ofPoint = Uint8Array.from(arrays["map-voxel"], (voxel) => probability[voxel] ?? 255);
       map.setAttribute("probability", ofPoint, 1, true);
     }
-    this.view.redraw();
+    this.apply();
     await run.loadAll(["frame-begin", "frame-position", "frame-verdict", "frame-voxel"]);
     if (arrays["frame-position"] && arrays["frame-begin"]) this.#addScans();
   }
@@ -105,7 +108,8 @@ export class RunView extends CloudView {
   }
 
   get scanIsShown() {
-    return Boolean(this.settings?.scan && this.clouds.scan && this.frameOf(this.row) >= 0);
+    const { settings, row } = this;
+    return Boolean(settings?.scan && this.clouds.scan && this.frameOf(row) >= 0 && rowIsShown(this.run, row, settings.groups));
   }
 
   point(source, index) {

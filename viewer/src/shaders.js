@@ -10,6 +10,7 @@ in float verdict;
 in float intensity;
 in float time;
 in float probability;
+in vec2 groups;             // a bit for each that saw the point: low and high half
 
 uniform vec3 low;
 uniform float stepSize;
@@ -19,6 +20,7 @@ uniform sampler2D scales;
 uniform float scaleCoordinate;
 uniform int mode;
 uniform int layers;         // a bit per verdict
+uniform int shownGroups;    // all bits: points of no group, too
 uniform bool markCorrected;
 uniform float fade;         // towards the background
 uniform vec2 heightScale;   // of the colouring
@@ -44,7 +46,9 @@ void main() {
   float away = fromPath
     ? pathReach * texture(pathDistance, (p.xy - pathBox.xy) * pathBox.zw).r
     : distance(p, sensor);
-  bool hidden = ((layers >> (shown % 3)) & 1) == 0 || p.z < heightCut.x || p.z > heightCut.y || away < rangeCut.x || away > rangeCut.y;
+  int seenBy = int(groups.x + 0.5) | (int(groups.y + 0.5) << 16);
+  bool others = shownGroups != -1 && (seenBy & shownGroups) == 0;
+  bool hidden = others || ((layers >> (shown % 3)) & 1) == 0 || p.z < heightCut.x || p.z > heightCut.y || away < rangeCut.x || away > rangeCut.y;
   if (hidden) {
     gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
     gl_PointSize = 0.0;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+import { ALL_GROUPS } from "./groups.js";
 
 /** Values that several parts of the page read and change, and who wants to know of it. */
 export class Store {
@@ -38,6 +39,7 @@ export const DEFAULTS = {
   scan: false,  // the points of the scan at the slider
   dim: true,  // the map, while a scan is shown
   corrections: false,
+  groups: ALL_GROUPS,  // sensors or drives whose points are shown
   height: null,  // [lowest, highest] shown, m; null: all
   range: null,  // [nearest, farthest] shown, m; null: all
   rangeFrom: "sensor",
