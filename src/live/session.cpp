@@ -172,9 +172,9 @@ void Session::publish_work() {
 
 void Session::publish(Work& work) {
     io::label_own_body(work.scan->own, work.verdict.labels);
-    watch(*work.scan, work.verdict);
     JudgedScan judged = outputs_.judged(*work.scan, work.verdict);
     note_latency(*work.scan);
+    watch(*work.scan, work.verdict);
     ++published_;
     record(*work.scan);
     const bool for_grid = has_grid() && grid_.is_due(work.scan->stamp);
