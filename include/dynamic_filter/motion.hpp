@@ -40,7 +40,7 @@ Points undo_motion(const Points& points, std::span<const float> times, const Twi
 struct Sweep {
     bool clockwise = false;  ///< direction of rotation, seen from above
     double seam = 0.0;       ///< [rad] azimuth at which a scan begins and ends
-    double duration = 0.1;   ///< [s] of one scan
+    double duration = 0.1;   ///< [s] of one scan; below 0: the sensor turned the other way
     /// True: the order of the points tells how far the sensor had turned, which may be more than
     /// one turn. False: their azimuths do, with the two values above, and a scan is one turn.
     bool in_order = false;

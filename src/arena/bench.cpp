@@ -13,6 +13,7 @@
 #include "base/exit_code.hpp"
 #include "base/output_folder.hpp"
 #include "base/progress.hpp"
+#include "base/say.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
 #include "dynamic_filter/parallel.hpp"
@@ -98,9 +99,9 @@ std::vector<Trial> find_trials(const Arena& arena, const BenchOptions& o) {
     }
     if (trials.empty()) throw nothing_found(arena, o, "recording");
     if (!missing.empty()) {
-        fmt::print(stderr, "note: {} not there: {}. Expected is {}. Download {}\n",
-                   missing.size() == 1 ? "this entry is" : "these entries are",
-                   fmt::join(missing, ", "), arena.layout, arena.download);
+        say(stderr, "note: {} not there: {}. Expected is {}. Download {}\n",
+            missing.size() == 1 ? "this entry is" : "these entries are", fmt::join(missing, ", "),
+            arena.layout, arena.download);
     }
     return trials;
 }
@@ -125,9 +126,8 @@ void refuse_damaged(const Trial& trial, const io::Recording& recording) {
 
 /// What the reader assumed, for whoever looks at the table.
 void tell_notes(const io::Recording& recording) {
-    for (const std::string& note : recording.info().notes) fmt::print(stderr, "note: {}\n", note);
-    for (const std::string& loss : recording.info().losses)
-        fmt::print(stderr, "lost     {}\n", loss);
+    for (const std::string& note : recording.info().notes) say(stderr, "note: {}\n", note);
+    for (const std::string& loss : recording.info().losses) say(stderr, "lost     {}\n", loss);
 }
 
 /// How the run reads the recording.
@@ -169,7 +169,7 @@ MeasuredFigure measure(const Arena& arena, const Trial& trial, const io::Recordi
     MeasuredFigure figure{trial.entry, method, {}, trial.notes};
     with_threads(o.threads, [&] { figure.scores = arena.score(trial, recording, estimate); });
     if (o.quiet) return figure;
-    fmt::print("{}", figure_text(arena, figure));
+    say("{}", figure_text(arena, figure));
     std::fflush(stdout);
     return figure;
 }
@@ -238,8 +238,8 @@ void measure_peers(const Arena& arena, const Trial& trial, const io::Recording& 
             figures.push_back(measure(arena, trial, recording, peer.name, *estimate, o));
             continue;
         }
-        fmt::print(stderr, "note: {} has no result of {}: neither {}/ nor {}.pcd in {}\n",
-                   peer.name, trial.entry, trial.entry, trial.entry, peer.folder.string());
+        say(stderr, "note: {} has no result of {}: neither {}/ nor {}.pcd in {}\n", peer.name,
+            trial.entry, trial.entry, trial.entry, peer.folder.string());
     }
 }
 
@@ -279,21 +279,19 @@ int bench(const BenchOptions& o) {
         if (interrupted()) worst = kInterrupted;
         write_tables(arena, figures, earlier, o.output);
     }
-    if (worst == kInterrupted) fmt::print(stderr, "interrupted; the same command goes on\n");
+    if (worst == kInterrupted) say(stderr, "interrupted; the same command goes on\n");
     if (worst == kRejected) {
-        fmt::print(stderr,
-                   "note: a run left out scans or gave warnings; they are in its run.log\n");
+        say(stderr, "note: a run left out scans or gave warnings; they are in its run.log\n");
     }
     if (o.quiet || worst == kInterrupted) return worst;
-    fmt::print("\n{}\nwritten  {}\n", io::read_file(o.output / "table.md"),
-               (o.output / "table.md").string());
+    say("\n{}\nwritten  {}\n", io::read_file(o.output / "table.md"),
+        (o.output / "table.md").string());
     return worst;
 }
 
 void tell_arena(const std::string& name) {
     const Arena& arena = arena_of(name);
-    fmt::print(
-        "{}\n\nentries   {}\nlayout    {}\ndownload  {}\nthen      dynamicfilter bench {} "
+    say("{}\n\nentries   {}\nlayout    {}\ndownload  {}\nthen      dynamicfilter bench {} "
         "FOLDER\n{}",
         arena.title, fmt::join(arena.entries, ", "), arena.layout, arena.download, arena.name,
         published_markdown(arena));
@@ -309,7 +307,7 @@ void write_twins(const BenchOptions& o) {
     for (const std::string& entry : o.only.empty() ? arena.entries : o.only) {
         if (interrupted()) return;
         arena.write_twin(o.data, entry);
-        if (!o.quiet) fmt::print("written  {} ({})\n", o.data.string(), entry);
+        if (!o.quiet) say("written  {} ({})\n", o.data.string(), entry);
     }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "base/progress.hpp"
+#include "base/say.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -46,7 +47,7 @@ Progress::Progress(std::string verb, std::size_t total, bool quiet)
     : verb_(std::move(verb)), total_(total), quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
 
 Progress::~Progress() {
-    if (!quiet_ && terminal_ && done_ > 0) fmt::print(stderr, "\n");
+    if (!quiet_ && terminal_ && done_ > 0) say(stderr, "\n");
 }
 
 void Progress::advance() {
@@ -68,9 +69,8 @@ void Progress::advance() {
 void Progress::print(double seconds) const {
     const double per_second = seconds > 0 ? static_cast<double>(done_) / seconds : 0.0;
     const double left = per_second > 0 ? static_cast<double>(total_ - done_) / per_second : 0.0;
-    fmt::print(stderr, "{}{} {}/{} [{}<{}, {:.1f} scans/s]{}", terminal_ ? "\r" : "", verb_, done_,
-               total_, clock_text(seconds), clock_text(left), per_second,
-               terminal_ ? "\x1b[K" : "\n");
+    say(stderr, "{}{} {}/{} [{}<{}, {:.1f} scans/s]{}", terminal_ ? "\r" : "", verb_, done_, total_,
+        clock_text(seconds), clock_text(left), per_second, terminal_ ? "\x1b[K" : "\n");
     std::fflush(stderr);
 }
 

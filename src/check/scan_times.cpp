@@ -57,11 +57,12 @@ double mean_of(const Blurs& blurs) {
 }
 
 constexpr double kLessSharp = 1.01;  // factor of the blur that counts as clearly less sharp
+constexpr double kMuch = 0.98;       // factor of the blur that counts as much sharper
 
-/// True if scans are sharper as a whole, and nowhere clearly less sharp, so that it is no chance.
-bool is_clearly_sharper(const Blurs& blurs, const Blurs& than) {
-    constexpr double kClearly = 0.99;
-    if (blurs.size() != than.size() || !(mean_of(blurs) < kClearly * mean_of(than))) return false;
+/// True if scans are sharper as a whole by this factor, and nowhere clearly less sharp, so that it
+/// is no chance.
+bool is_sharper(const Blurs& blurs, const Blurs& than, double factor) {
+    if (blurs.size() != than.size() || !(mean_of(blurs) < factor * mean_of(than))) return false;
     for (std::size_t k = 0; k < blurs.size(); ++k) {
         if (blurs[k] > kLessSharp * than[k]) return false;
     }
@@ -91,9 +92,9 @@ const Tried& best_of(const std::vector<Tried>& all) {
 /// Times of fields as they are, unless a shift is sharper everywhere, and also much sharper than
 /// with the motion left in: among things that drive beside the sensor, little tells of shifts.
 const Tried& best_shift_of(const std::vector<Tried>& all, const Blurs& as_measured) {
-    constexpr double kMuch = 0.98;
+    constexpr double kClearly = 0.99;
     const Tried& best = best_of(all);
-    const bool is_sure = is_clearly_sharper(best.blurs, all.front().blurs) &&
+    const bool is_sure = is_sharper(best.blurs, all.front().blurs, kClearly) &&
                          mean_of(best.blurs) < kMuch * mean_of(as_measured);
     return is_sure ? best : all.front();
 }
@@ -201,6 +202,18 @@ std::vector<Tried> try_sweeps(const Recording& recording, const OdometryConfig& 
     return all;
 }
 
+/// True if the scans were measured during this sweep. In few scans, points that are moved to and
+/// fro may look sharper by chance, whichever way they are moved. So a sweep that runs backwards,
+/// which doubles the motion instead of undoing it, must make them less sharp.
+bool is_shown(const Recording& recording, const OdometryConfig& config, const Tried& forwards,
+              const Blurs& as_measured) {
+    if (!is_sharper(forwards.blurs, as_measured, 1.0)) return false;
+    Sweep sweep = forwards.sweep;
+    sweep.duration = -sweep.duration;
+    const double backwards = mean_of(tried(recording, config, sweep).blurs);
+    return backwards > mean_of(as_measured) && mean_of(forwards.blurs) < kMuch * backwards;
+}
+
 std::vector<Sweep> sweeps_to_try(const Recording& recording, bool asks_more) {
     const double duration = usual_step(recording);
     if (!(duration > 0.0) || duration > kLongestSweep) return {};
@@ -251,11 +264,9 @@ TimesChoice choose_times(const Recording& recording, const OdometryConfig& confi
                                        : try_fields(recording, config, times);
     const Tried& best = times.empty() ? best_of(all) : best_shift_of(all, as_measured);
     choice.blur = {mean_of(as_measured), mean_of(best.blurs)};
-    const bool is_sharper =
-        times.empty() ? is_clearly_sharper(best.blurs, as_measured) : choice.blur.is_distorted();
-    if (is_sharper || (asks_more && choice.blur.is_distorted())) {
-        choice.sweep = best.sweep;
-    }
+    const bool is_sure =
+        times.empty() ? is_shown(recording, config, best, as_measured) : choice.blur.is_distorted();
+    if (is_sure || (asks_more && choice.blur.is_distorted())) choice.sweep = best.sweep;
     return choice;
 }
 

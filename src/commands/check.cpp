@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/exit_code.hpp"
+#include "base/say.hpp"
 #include "check/advice.hpp"
 #include "check/continuity.hpp"
 #include "check/motion.hpp"
@@ -70,34 +71,32 @@ Checked look_at(io::Recording recording, const DataOptions& options) {
 
 void print_overlays(const io::Preflight& preflight) {
     if (preflight.overlays.empty()) return;
-    fmt::print(
-        "overlay   share of structures that another scan shows in the same place, if "
+    say("overlay   share of structures that another scan shows in the same place, if "
         "poses are read\n");
     for (const io::Overlay& overlay : preflight.overlays) {
-        fmt::print("overlay   {:>3.0f} %  {}\n", 100.0 * overlay.share, overlay.reading);
+        say("overlay   {:>3.0f} %  {}\n", 100.0 * overlay.share, overlay.reading);
     }
 }
 
 bool is_option(const std::string& advice) { return advice.starts_with("--"); }
 
 void print_finding(const io::Finding& finding, const DataOptions& options) {
-    fmt::print("FOUND     {}\n", finding.what);
+    say("FOUND     {}\n", finding.what);
     if (is_option(finding.advice)) {
-        fmt::print("try       {}\n", next_command(options, finding.advice));
+        say("try       {}\n", next_command(options, finding.advice));
     } else {
-        fmt::print("advice    {}\n", finding.advice);
+        say("advice    {}\n", finding.advice);
     }
 }
 
 void print(const Checked& checked, const DataOptions& options) {
     const io::Info& info = checked.recording.info();
-    for (const std::string& note : info.notes) fmt::print("note      {}\n", note);
-    fmt::print("scans     {}, of which {} were read\n", checked.recording.size(),
-               checked.preflight.scans);
+    for (const std::string& note : info.notes) say("note      {}\n", note);
+    say("scans     {}, of which {} were read\n", checked.recording.size(), checked.preflight.scans);
     print_overlays(checked.preflight);
-    for (const std::string& note : checked.preflight.notes) fmt::print("note      {}\n", note);
-    for (const std::string& line : info.losses) fmt::print("LOST      {}\n", line);
-    for (const std::string& line : checked.preflight.unusable) fmt::print("UNUSABLE  {}\n", line);
+    for (const std::string& note : checked.preflight.notes) say("note      {}\n", note);
+    for (const std::string& line : info.losses) say("LOST      {}\n", line);
+    for (const std::string& line : checked.preflight.unusable) say("UNUSABLE  {}\n", line);
     for (const io::Finding& finding : checked.findings) print_finding(finding, options);
 }
 
@@ -120,10 +119,10 @@ void try_advice(Checked checked, DataOptions options) {
     }
     if (given.empty()) return;
     if (checked.findings.empty()) {
-        fmt::print("tried     with {}, nothing suspicious is left\nnext      {}\n", given,
-                   next_command(options, ""));
+        say("tried     with {}, nothing suspicious is left\nnext      {}\n", given,
+            next_command(options, ""));
     } else {
-        fmt::print("tried     with {}, this is left: {}\n", given, checked.findings.front().what);
+        say("tried     with {}, this is left: {}\n", given, checked.findings.front().what);
     }
 }
 
@@ -163,10 +162,10 @@ bool check_together(const std::vector<io::Recording>& opened,
         all.push_back(&drive);
     }
     const std::vector<io::DriveOffset> offsets = io::measure_drive_offsets(all);
-    fmt::print("together\n");
+    say("together\n");
     for (const io::DriveOffset& offset : offsets) {
-        fmt::print("frames    {} and {}: {}\n", each[offset.a].data.string(),
-                   each[offset.b].data.string(), match_text(offset));
+        say("frames    {} and {}: {}\n", each[offset.a].data.string(), each[offset.b].data.string(),
+            match_text(offset));
     }
     const std::vector<io::Finding> findings = io::findings_of(all, offsets);
     for (const io::Finding& finding : findings) print_finding(finding, each.front());
@@ -182,17 +181,16 @@ int check(const CheckOptions& options) {
     for (const DataOptions& one : each) opened.push_back(open(one));
     bool fine = true;
     for (std::size_t i = 0; i < opened.size(); ++i) {
-        if (several) fmt::print("recording {}\n", each[i].data.string());
+        if (several) say("recording {}\n", each[i].data.string());
         const Checked checked = look_at(opened[i], each[i]);
         print(checked, each[i]);
         try_advice(checked, each[i]);
         fine = checked.is_fine() && fine;
-        if (several) fmt::print("\n");
+        if (several) say("\n");
     }
     if (several) fine = check_together(opened, each) && fine;
     if (!fine) return kRejected;
-    fmt::print("nothing suspicious\nnext      {}\n",
-               next_command(options.recordings, options.how, ""));
+    say("nothing suspicious\nnext      {}\n", next_command(options.recordings, options.how, ""));
     return kDone;
 }
 

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/exit_code.hpp"
+#include "base/say.hpp"
 #include "commands/all.hpp"
 #include "commands/shared_options.hpp"
 #include "dynamic_filter/cloud.hpp"
@@ -44,7 +45,7 @@ PageRun view_of_map(const fs::path& file, const ReportOptions& o) {
     run.info["scores"] = nullptr;
     if (o.truth.data.empty()) return run;
     const RecordingOfResult opened = open_for_result(o.truth, file);
-    if (!opened.note.empty()) fmt::print(stderr, "note: {}\n", opened.note);
+    if (!opened.note.empty()) say(stderr, "note: {}\n", opened.note);
     const io::Recording& truth = opened.recording;
     const Eigen::Vector3d origin = scoring_origin(truth, o.voxel);
     run.info["scores"] = to_json(eval::score_map(truth.size(), scan_source(truth, origin, {}),
@@ -86,10 +87,10 @@ int report(const ReportOptions& o) {
             throw ConfigError(o.output.string() + ": is what is to be shown; choose another -o");
         }
         runs.push_back(run_of(result, runs.size(), o));
-        fmt::print("{:<10} {}\n", runs.size() == 1 ? "shown" : "beside it", name_of(result));
+        say("{:<10} {}\n", runs.size() == 1 ? "shown" : "beside it", name_of(result));
     }
     io::write_file(o.output, page_with(runs));
-    fmt::print("written    {}\n", o.output.string());
+    say("written    {}\n", o.output.string());
     return kDone;
 }
 

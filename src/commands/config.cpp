@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "base/exit_code.hpp"
+#include "base/say.hpp"
 #include "commands/all.hpp"
 #include "commands/shared_options.hpp"
 #include "settings/config_file.hpp"
@@ -16,7 +17,7 @@ void add_config(Program& program) {
     c.flag("--json", *json, "print JSON, with the bounds of each setting");
     c.action([o, json] {
         const Config config = load_config(*o);
-        fmt::print("{}", *json ? to_json(config) : to_toml(config));
+        say("{}", *json ? to_json(config) : to_toml(config));
         return kDone;
     });
 }

@@ -3,6 +3,7 @@
 
 #include "base/exit_code.hpp"
 #include "base/output_folder.hpp"
+#include "base/say.hpp"
 #include "commands/all.hpp"
 #include "commands/convert.hpp"
 #include "commands/convert_recording.hpp"
@@ -115,7 +116,7 @@ int convert_cloud(const ConvertOptions& o) {
         const WrittenMap tiles = kind->of_cloud(wanted_cloud(o), o, output.path());
         output.commit();
         tell_note(tiles.note);
-        if (!o.quiet) fmt::print("written  {} ({} tiles)\n", output.name().string(), tiles.files);
+        if (!o.quiet) say("written  {} ({} tiles)\n", output.name().string(), tiles.files);
         return kDone;
     }
     if (kind != nullptr) {
@@ -127,7 +128,7 @@ int convert_cloud(const ConvertOptions& o) {
     check_cloud_output(o);
     const io::Written written = io::write_cloud(o.output, wanted_cloud(o));
     tell_note(written.loss);
-    if (!o.quiet) fmt::print("written  {} ({} points)\n", o.output.string(), written.points);
+    if (!o.quiet) say("written  {} ({} points)\n", o.output.string(), written.points);
     return kDone;
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/exit_code.hpp"
 #include "base/progress.hpp"
+#include "base/say.hpp"
 #include "check/motion.hpp"
 #include "dynamic_filter/bag.hpp"
 #include "dynamic_filter/error.hpp"
@@ -83,8 +84,7 @@ io::Recording opened(ConvertOptions& o, bool from_sensor) {
         recording = io::with_sensor_at(recording, Eigen::Vector3d::Zero());
     }
     for (const std::string& note : recording.info().notes) tell_note(note);
-    for (const std::string& line : recording.info().losses)
-        fmt::print(stderr, "lost     {}\n", line);
+    for (const std::string& line : recording.info().losses) say(stderr, "lost     {}\n", line);
     return recording;
 }
 
@@ -138,7 +138,7 @@ void refuse_mixture(const ConvertOptions& o, const Output* kind, const io::Recor
 
 /// Puts the output in place unless the user interrupted. Returns the exit code.
 int commit(Sink& sink, const ConvertOptions& o, const Tally& tally) {
-    for (const std::string& line : tally.rejected) fmt::print(stderr, "rejected {}\n", line);
+    for (const std::string& line : tally.rejected) say(stderr, "rejected {}\n", line);
     for (const std::string& note : tally.notes) tell_note(note);
     if (interrupted()) return kInterrupted;
     if (tally.rejected.size() == tally.scans) {
@@ -151,14 +151,14 @@ int commit(Sink& sink, const ConvertOptions& o, const Tally& tally) {
     const std::size_t empty = tally.scans - tally.rejected.size() - tally.written;
     if (empty > 0) tell_note(fmt::format("{} scans have no point there, and are left out", empty));
     tell_note(sink.commit());
-    if (!o.quiet) fmt::print("written  {} ({} scans)\n", o.output.string(), tally.written);
+    if (!o.quiet) say("written  {} ({} scans)\n", o.output.string(), tally.written);
     return tally.rejected.empty() && !tally.has_losses ? kDone : kRejected;
 }
 
 }  // namespace
 
 void tell_note(const std::string& note) {
-    if (!note.empty()) fmt::print(stderr, "note: {}\n", note);
+    if (!note.empty()) say(stderr, "note: {}\n", note);
 }
 
 int convert_recording(const ConvertOptions& o) {

@@ -5,6 +5,7 @@
 
 #include "base/exit_code.hpp"
 #include "base/progress.hpp"
+#include "base/say.hpp"
 #include "commands/all.hpp"
 #include "commands/picture.hpp"
 #include "commands/render.hpp"
@@ -28,18 +29,18 @@ constexpr int kPedestrians = 100;
 const FolderFiles kDemoFiles{.files = {"before.png", "after.png"}, .is_of_use_in_part = true};
 
 void print_row(const char* method, double pr, double rr, double f1) {
-    fmt::print("  {:<34} {:>7.2f} {:>7.2f} {:>6.3f}\n", method, pr, rr, f1);
+    say("  {:<34} {:>7.2f} {:>7.2f} {:>6.3f}\n", method, pr, rr, f1);
 }
 
 /// Table II of the paper for 100 pedestrians, and this run.
 void print_table(const eval::VoxelScore& ours) {
-    fmt::print("\nCrowd of {} pedestrians, VLP-16, two rounds; voxels of 0.2 m\n", kPedestrians);
-    fmt::print("  {:<34} {:>7} {:>7} {:>6}\n", "", "PR [%]", "RR [%]", "F1");
+    say("\nCrowd of {} pedestrians, VLP-16, two rounds; voxels of 0.2 m\n", kPedestrians);
+    say("  {:<34} {:>7} {:>7} {:>6}\n", "", "PR [%]", "RR [%]", "F1");
     print_row("Removert      (paper, its scene)", 66.48, 57.96, 0.619);
     print_row("ERASOR        (paper, its scene)", 69.16, 71.87, 0.705);
     print_row("DynamicFilter (paper, its scene)", 95.32, 94.26, 0.948);
-    fmt::print("  {:<34} {:>7} {:>7} {:>6}\n", "this run      (our scene)", percent(ours.pr),
-               percent(ours.rr), three_digits(ours.f1));
+    say("  {:<34} {:>7} {:>7} {:>6}\n", "this run      (our scene)", percent(ours.pr),
+        percent(ours.rr), three_digits(ours.f1));
 }
 
 }  // namespace
@@ -80,8 +81,7 @@ int demo(const DemoOptions& o) {
     output.commit();
 
     print_table(result.recordings.front().scores->voxel.at("excluded"));
-    fmt::print(
-        "\npictures {0}/before.png (removed points in red) and {0}/after.png\n"
+    say("\npictures {0}/before.png (removed points in red) and {0}/after.png\n"
         "report   {0}/result/report.html (open it in a browser)\n"
         "maps     {0}/result/static_map.pcd and dynamic_points.pcd\n"
         "\nYour own recording, a bag or a folder with scans:\n"

@@ -7,6 +7,7 @@
 
 #include "base/exit_code.hpp"
 #include "base/json_vector.hpp"
+#include "base/say.hpp"
 #include "commands/all.hpp"
 #include "commands/evaluate.hpp"
 #include "commands/shared_options.hpp"
@@ -186,14 +187,13 @@ nlohmann::ordered_json to_json(const Evaluation& evaluation) {
 int evaluate(const EvalOptions& o) {
     if (o.json) require_extension(*o.json, ".json");
     const Evaluation e = scores_of(o);
-    if (!e.note.empty()) fmt::print(stderr, "note: {}\n", e.note);
-    fmt::print("{}{}{}", count_text(e), part_text(o.part),
-               protocol_table(o.protocol, e.scores, o.voxel));
-    if (e.knowable) fmt::print("\n{}", table(*e.knowable));
+    if (!e.note.empty()) say(stderr, "note: {}\n", e.note);
+    say("{}{}{}", count_text(e), part_text(o.part), protocol_table(o.protocol, e.scores, o.voxel));
+    if (e.knowable) say("\n{}", table(*e.knowable));
     if (o.json) io::write_file(*o.json, text_of(to_json(e)));
     if (e.left_out.empty()) return kDone;
-    fmt::print(stderr, "left out {} of {} scans: unreadable, or without labels; the first is {}\n",
-               e.left_out.size(), e.to_score, e.left_out.front());
+    say(stderr, "left out {} of {} scans: unreadable, or without labels; the first is {}\n",
+        e.left_out.size(), e.to_score, e.left_out.front());
     return kRejected;
 }
 

@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "base/exit_code.hpp"
+#include "base/say.hpp"
 #include "dynamic_filter/error.hpp"
 
 namespace dynamic_filter::app {
@@ -14,7 +15,7 @@ namespace dynamic_filter::app {
 /// Calls `work`; prints an exception as "PROGRAM: ..." on stderr. Returns the exit code.
 inline int guarded(const char* program, const std::function<int()>& work) {
     const auto failed = [program](ExitCode code, const std::exception& error) {
-        fmt::print(stderr, "{}: {}\n", program, error.what());
+        say(stderr, "{}: {}\n", program, error.what());
         return code;
     };
     try {

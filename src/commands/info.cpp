@@ -8,6 +8,7 @@
 #include <map>
 
 #include "base/exit_code.hpp"
+#include "base/say.hpp"
 #include "commands/all.hpp"
 #include "commands/shared_options.hpp"
 #include "dynamic_filter/bag.hpp"
@@ -35,7 +36,7 @@ std::string readable(double value) {
 }
 
 void describe_cloud(const std::filesystem::path& name, const io::Cloud& cloud) {
-    fmt::print("{}\n  points  {}\n", name.string(), cloud.size());
+    say("{}\n  points  {}\n", name.string(), cloud.size());
     for (const io::Field& field : cloud.fields) {
         double low = INFINITY, high = -INFINITY;
         std::size_t finite = 0;
@@ -45,15 +46,15 @@ void describe_cloud(const std::filesystem::path& name, const io::Cloud& cloud) {
             low = std::min(low, value);
             high = std::max(high, value);
         }
-        fmt::print("  {:<10} {:<8}", field.name, kTypeNames[static_cast<std::size_t>(field.type)]);
-        if (field.count > 1) fmt::print(" x{}", field.count);
-        if (finite > 0) fmt::print(" {} .. {}", readable(low), readable(high));
-        if (finite < cloud.size()) fmt::print(" ({} not finite)", cloud.size() - finite);
-        fmt::print("\n");
+        say("  {:<10} {:<8}", field.name, kTypeNames[static_cast<std::size_t>(field.type)]);
+        if (field.count > 1) say(" x{}", field.count);
+        if (finite > 0) say(" {} .. {}", readable(low), readable(high));
+        if (finite < cloud.size()) say(" ({} not finite)", cloud.size() - finite);
+        say("\n");
     }
     if (cloud.viewpoint) {
         const Eigen::Vector3d t = cloud.viewpoint->translation();
-        fmt::print("  viewpoint {:.3f} {:.3f} {:.3f}\n", t.x(), t.y(), t.z());
+        say("  viewpoint {:.3f} {:.3f} {:.3f}\n", t.x(), t.y(), t.z());
     }
 }
 
@@ -71,18 +72,17 @@ double path_of(const std::vector<Pose>& poses) {
 
 void describe_poses(const io::Recording& s) {
     if (!s.info().has_poses) {
-        fmt::print("  poses   none: the odometry finds them\n");
+        say("  poses   none: the odometry finds them\n");
         return;
     }
     const std::vector<Pose>& poses = s.info().T_world_sensor;
     if (poses.empty()) {
-        fmt::print("  poses   in the scans' files (VIEWPOINT)\n");
+        say("  poses   in the scans' files (VIEWPOINT)\n");
         return;
     }
     const auto known = std::count_if(poses.begin(), poses.end(),
                                      [](const Pose& p) { return p.matrix().allFinite(); });
-    fmt::print(
-        "  poses   of {} scans{}\n  path    {:.1f} m\n",
+    say("  poses   of {} scans{}\n  path    {:.1f} m\n",
         static_cast<std::size_t>(known) == s.size() ? "all" : fmt::format("{} of the", known),
         s.info().pose_source.empty() ? "" : ", from " + s.info().pose_source.string(),
         path_of(poses));
@@ -90,14 +90,14 @@ void describe_poses(const io::Recording& s) {
 
 /// What a run would use of it.
 void describe_scans(const io::Recording& s) {
-    fmt::print("  scans   {}\n", s.size());
+    say("  scans   {}\n", s.size());
     if (s.size() > 1) {
-        fmt::print("  stamps  {:.3f} .. {:.3f} s{}\n", s.info().stamps.front(),
-                   s.info().stamps.back(), s.info().measured_stamps ? "" : " (made up at 10 Hz)");
+        say("  stamps  {:.3f} .. {:.3f} s{}\n", s.info().stamps.front(), s.info().stamps.back(),
+            s.info().measured_stamps ? "" : " (made up at 10 Hz)");
     }
     describe_poses(s);
-    fmt::print("  truth   {}\n", s.info().has_truth() ? "yes" : "none");
-    for (const std::string& note : s.info().notes) fmt::print("  note    {}\n", note);
+    say("  truth   {}\n", s.info().has_truth() ? "yes" : "none");
+    for (const std::string& note : s.info().notes) say("  note    {}\n", note);
 }
 
 /// The first scan that can be read stands for all, whether it has a pose or not.
@@ -109,14 +109,14 @@ void describe_first(const io::Recording& recording) {
             describe_cloud(s.info().scan_files[i], s.read(i).cloud);
             return;
         } catch (const InputError& error) {
-            fmt::print("  note    {}\n", error.what());
+            say("  note    {}\n", error.what());
         }
     }
 }
 
 void describe_recording(const DataOptions& of) {
     const io::Recording s = open(of);
-    fmt::print("{}\n  format  {}\n", of.data.string(), s.info().layout);
+    say("{}\n  format  {}\n", of.data.string(), s.info().layout);
     describe_scans(s);
     describe_first(s);
 }
@@ -128,7 +128,7 @@ void describe_scans_of_bag(const DataOptions& of) {
         describe_scans(s);
         describe_first(s);
     } catch (const Error& error) {
-        fmt::print("  note    {}\n", error.what());
+        say("  note    {}\n", error.what());
     }
 }
 
@@ -147,15 +147,15 @@ void describe_bag(const std::filesystem::path& path) {
         first = std::min(first, message.recorded_ns);
         last = std::max(last, message.recorded_ns);
     });
-    fmt::print("{}\n  format  bag\n", path.string());
+    say("{}\n  format  bag\n", path.string());
     if (!topics.empty()) {
-        fmt::print("  length  {:.1f} s\n", 1e-9 * static_cast<double>(last - first));
+        say("  length  {:.1f} s\n", 1e-9 * static_cast<double>(last - first));
     }
     for (const auto& [name, count] : topics) {
-        fmt::print("  {:<28} {:<40} {:>7} messages\n", name, count.topic.type, count.messages);
+        say("  {:<28} {:<40} {:>7} messages\n", name, count.topic.type, count.messages);
     }
     for (const io::Defect& defect : defects) {
-        fmt::print("  {}    {}\n", defect.lost ? "LOST" : "note", defect.what);
+        say("  {}    {}\n", defect.lost ? "LOST" : "note", defect.what);
     }
 }
 
@@ -170,21 +170,20 @@ void describe_map(const std::filesystem::path& path) {
         voxels += tile.voxels;
         if (tile.voxels > 0) box.extend(tile.min).extend(tile.max);
     }
-    fmt::print("{}\n  format  map of several drives, version {}\n  tiles   {}\n", path.string(),
-               index.version, index.tiles.size());
+    say("{}\n  format  map of several drives, version {}\n  tiles   {}\n", path.string(),
+        index.version, index.tiles.size());
     const bool is_whole = !index.tiles.empty() && index.tiles.front().is_whole;
     if (is_whole) levels.clear();  // it has no side
     for (const auto& [level, tiles] : levels)
-        fmt::print("          {} with a side of {} m\n", tiles, side_of(index.voxel_size, level));
-    fmt::print("  voxels  {} of {} m\n", voxels, index.voxel_size);
+        say("          {} with a side of {} m\n", tiles, side_of(index.voxel_size, level));
+    say("  voxels  {} of {} m\n", voxels, index.voxel_size);
     if (!box.isEmpty()) {
-        fmt::print("  from    {:.1f} {:.1f} {:.1f}\n  to      {:.1f} {:.1f} {:.1f}\n",
-                   box.min().x(), box.min().y(), box.min().z(), box.max().x(), box.max().y(),
-                   box.max().z());
+        say("  from    {:.1f} {:.1f} {:.1f}\n  to      {:.1f} {:.1f} {:.1f}\n", box.min().x(),
+            box.min().y(), box.min().z(), box.max().x(), box.max().y(), box.max().z());
     }
-    fmt::print("  drives  {}\n", index.drives.size());
+    say("  drives  {}\n", index.drives.size());
     for (const MapDrive& drive : index.drives)
-        fmt::print("  {:<28} {:>7} scans\n", drive.name, drive.scans);
+        say("  {:<28} {:>7} scans\n", drive.name, drive.scans);
 }
 
 /// Throws if scans are chosen of a file that has none.

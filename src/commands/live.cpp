@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/exit_code.hpp"
+#include "base/say.hpp"
 #include "commands/all.hpp"
 #include "live/ask.hpp"
 #include "live/dds_bus.hpp"
@@ -20,7 +21,7 @@ struct Options : live::LiveOptions {
 
 int print_answer(live::DdsBus& bus, const std::string& prefix, const std::string& request) {
     const live::ServiceAnswer answer = live::ask(bus, prefix, request);
-    fmt::print("{}\n", answer.message);
+    say("{}\n", answer.message);
     return answer.success ? kDone : kRejected;
 }
 

@@ -4,6 +4,7 @@
 #include "base/exit_code.hpp"
 #include "base/output_folder.hpp"
 #include "base/progress.hpp"
+#include "base/say.hpp"
 #include "check/motion.hpp"
 #include "commands/all.hpp"
 #include "commands/shared_options.hpp"
@@ -35,12 +36,12 @@ int odometry(const OdometryOptions& o) {
     if (interrupted()) return kInterrupted;
     write_poses(o.output, recording);
     for (const std::string& line : recording.info().losses) {
-        fmt::print(stderr, "lost     {}\n", line);
+        say(stderr, "lost     {}\n", line);
     }
     const int exit_code = recording.info().losses.empty() ? kDone : kRejected;
     if (o.quiet) return exit_code;
-    for (const std::string& note : recording.info().notes) fmt::print("note     {}\n", note);
-    fmt::print("written  {}\n", o.output.string());
+    for (const std::string& note : recording.info().notes) say("note     {}\n", note);
+    say("written  {}\n", o.output.string());
     return exit_code;
 }
 

@@ -13,6 +13,7 @@
 
 #include "base/edit_distance.hpp"
 #include "base/exit_code.hpp"
+#include "base/say.hpp"
 #include "dynamic_filter/error.hpp"
 #include "run/run.hpp"
 
@@ -336,9 +337,7 @@ int Program::run(std::span<char* const> all_arguments) {
     }
     const int code = shared_.chosen();
     // A result that could not be printed (a full disk, say) is not a result.
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-        throw OutputError("standard output", "cannot be written");
-    }
+    finish_saying();
     return code;
 }
 

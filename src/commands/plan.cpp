@@ -6,6 +6,7 @@
 #include "base/exit_code.hpp"
 #include "base/output_folder.hpp"
 #include "base/progress.hpp"
+#include "base/say.hpp"
 #include "commands/all.hpp"
 #include "commands/shared_options.hpp"
 #include "dynamic_filter/error.hpp"
@@ -100,7 +101,7 @@ int plan(const PlanOptions& options) {
         refuse_existing(*o.output, o.overwrite);
         write_plan(*o.output, job.plan, job.mark);
     }
-    fmt::print("{}", options.json ? plan_json(job, options.parts) : plan_text(job, options.parts));
+    say("{}", options.json ? plan_json(job, options.parts) : plan_text(job, options.parts));
     return kDone;
 }
 

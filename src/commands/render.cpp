@@ -5,6 +5,7 @@
 #include <cctype>
 
 #include "base/exit_code.hpp"
+#include "base/say.hpp"
 #include "check/motion.hpp"
 #include "commands/all.hpp"
 #include "commands/cleaning.hpp"
@@ -54,7 +55,7 @@ int render(const RenderOptions& o) {
                           ": is neither .png (a picture) nor .webp (a "
                           "recording being cleaned)");
     }
-    fmt::print("written {}\n", o.output.string());
+    say("written {}\n", o.output.string());
     return kDone;
 }
 

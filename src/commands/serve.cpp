@@ -8,6 +8,7 @@
 
 #include "base/exit_code.hpp"
 #include "base/progress.hpp"
+#include "base/say.hpp"
 #include "commands/all.hpp"
 #include "commands/edit_server.hpp"
 #include "commands/shared_options.hpp"
@@ -135,9 +136,8 @@ int serve(const ServeOptions& o) {
                                         : answer(reports, tiles, request.path);
     };
     const HttpServer server(o.port, handle, {.body_bytes = editor ? kMostBytes : 0});
-    fmt::print("{} {} at {}{}   (Ctrl-C ends)\n", reports.size(),
-               reports.size() == 1 ? "run" : "runs", server.url(),
-               editor ? "?edit=" + editor->token() : "");
+    say("{} {} at {}{}   (Ctrl-C ends)\n", reports.size(), reports.size() == 1 ? "run" : "runs",
+        server.url(), editor ? "?edit=" + editor->token() : "");
     std::fflush(stdout);
     while (!interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
     return kDone;

@@ -9,6 +9,7 @@
 #include "base/exit_code.hpp"
 #include "base/output_folder.hpp"
 #include "base/progress.hpp"
+#include "base/say.hpp"
 #include "base/text.hpp"
 #include "commands/all.hpp"
 #include "commands/shared_options.hpp"
@@ -166,7 +167,7 @@ int simulate(const SimulateOptions& o) {
         OutputFolder output(folder, recording_files(), replaced_if(o.overwrite));
         const std::size_t points = write_simulation(options, output.path(), o.quiet, o.knowable);
         output.commit();
-        if (!o.quiet) fmt::print("written  {} ({} points)\n", output.name().string(), points);
+        if (!o.quiet) say("written  {} ({} points)\n", output.name().string(), points);
     }
     return interrupted() ? kInterrupted : kDone;
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/exit_code.hpp"
+#include "base/say.hpp"
 #include "dynamic_filter/error.hpp"
 #include "export/outputs.hpp"
 #include "formats/voxel_map/map_index.hpp"
@@ -45,10 +46,10 @@ int convert_map(const ConvertOptions& o) {
     OutputFolder output(o.output, *kind.files, replaced_if(o.overwrite));
     const WrittenMap written = kind.of_map(index, map, o, output.path());
     output.commit();
-    if (!written.note.empty()) fmt::print(stderr, "note: {}\n", written.note);
+    if (!written.note.empty()) say(stderr, "note: {}\n", written.note);
     if (!o.quiet)
-        fmt::print("written  {} ({} tiles as {} files)\n", output.name().string(),
-                   index.tiles.size(), written.files);
+        say("written  {} ({} tiles as {} files)\n", output.name().string(), index.tiles.size(),
+            written.files);
     return kDone;
 }
 

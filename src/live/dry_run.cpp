@@ -7,6 +7,7 @@
 #include "base/edit_distance.hpp"
 #include "base/exit_code.hpp"
 #include "base/progress.hpp"
+#include "base/say.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/poses.hpp"
 #include "formats/messages/packets.hpp"
@@ -66,16 +67,16 @@ Seen listen_to(Bus& bus, const LiveConfig& config, double look) {
 void print_topics(const UsableTopics& topics) {
     const auto print = [](const std::vector<SeenTopic>& list, const std::string& use) {
         for (const SeenTopic& t : list) {
-            fmt::print("topic    {:<28} {:<28} {}{}{}\n", t.name, t.type, use,
-                       t.offered.reliable ? "" : ", best effort",
-                       t.publishers > 1 ? fmt::format(", {} publishers", t.publishers) : "");
+            app::say("topic    {:<28} {:<28} {}{}{}\n", t.name, t.type, use,
+                     t.offered.reliable ? "" : ", best effort",
+                     t.publishers > 1 ? fmt::format(", {} publishers", t.publishers) : "");
         }
     };
     print(topics.clouds, "scans");
     print(topics.poses, "poses");
     print(topics.transforms, "transforms");
     for (const SeenTopic& t : topics.packets) {
-        fmt::print("topic    {:<28} {:<28} raw packets\n", t.name, t.type);
+        app::say("topic    {:<28} {:<28} raw packets\n", t.name, t.type);
     }
 }
 
@@ -86,9 +87,9 @@ void print_scans(const Seen& seen) {
     for (const io::Field& field : scan.cloud.fields) fields.push_back(field.name);
     const double span = scan.stamp - seen.first->stamp;
     const double rate = span > 0.0 ? static_cast<double>(seen.scans - 1) / span : 0.0;
-    fmt::print("scans    {}: {:.1f} Hz, {} points, frame '{}'; fields {}\n", seen.cloud, rate,
-               scan.cloud.size(), scan.frame, fmt::join(fields, " "));
-    fmt::print("poses    {}\n", seen.poses);
+    app::say("scans    {}: {:.1f} Hz, {} points, frame '{}'; fields {}\n", seen.cloud, rate,
+             scan.cloud.size(), scan.frame, fmt::join(fields, " "));
+    app::say("poses    {}\n", seen.poses);
 }
 
 std::string nothing_there(const Bus& bus) {
@@ -167,22 +168,22 @@ std::vector<std::string> notes_of(const Seen& seen) {
 
 int dry_run(Bus& bus, const LiveConfig& config, double look) {
     app::catch_interrupts();
-    fmt::print("bus      {}\n", bus.description());
+    app::say("bus      {}\n", bus.description());
     const Seen seen = listen_to(bus, config, look);
     print_topics(seen.topics);
     print_scans(seen);
-    for (const std::string& note : notes_of(seen)) fmt::print("note     {}\n", note);
+    for (const std::string& note : notes_of(seen)) app::say("note     {}\n", note);
     const auto problems = problems_of(seen, bus, config);
-    for (const std::string& problem : problems) fmt::print("missing  {}\n", problem);
+    for (const std::string& problem : problems) app::say("missing  {}\n", problem);
     if (!problems.empty() || seen.scans == 0) {
         if (problems.empty())
-            fmt::print("missing  no scan came in {} s; try a longer --look\n", look);
+            app::say("missing  no scan came in {} s; try a longer --look\n", look);
         return app::kRejected;
     }
     for (const Output& output : OutputTopics(config, bus.encoding()).all()) {
-        fmt::print("gives    {:<28} {}\n", output.topic.name, output.topic.type);
+        app::say("gives    {:<28} {}\n", output.topic.name, output.topic.type);
     }
-    fmt::print("fits     {} scans have all that the filter needs\n", seen.scans);
+    app::say("fits     {} scans have all that the filter needs\n", seen.scans);
     return app::kDone;
 }
 

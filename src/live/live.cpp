@@ -7,6 +7,7 @@
 
 #include "base/exit_code.hpp"
 #include "base/progress.hpp"
+#include "base/say.hpp"
 #include "dynamic_filter/error.hpp"
 #include "live/diagnosis.hpp"
 #include "live/dry_run.hpp"
@@ -121,14 +122,14 @@ public:
 private:
     void tell(const std::vector<std::string>& notices) {
         if (quiet_) return;
-        for (const std::string& notice : notices) fmt::print(stderr, "note: {}\n", notice);
+        for (const std::string& notice : notices) app::say(stderr, "note: {}\n", notice);
     }
     void tell_saved(const Saved& result) {
         requests_.answer(result);
         if (result.is_saved) return tell(std::vector<std::string>{result.text});
         warn(result.text);
     }
-    static void warn(const std::string& text) { fmt::print(stderr, "warning: {}\n", text); }
+    static void warn(const std::string& text) { app::say(stderr, "warning: {}\n", text); }
 
     void use_parameters() {
         for (const auto& [key, value] : bus_.pop_parameters()) {
@@ -211,8 +212,8 @@ private:
 /// Saves the map of the whole drive, as far as the filter holds it.
 int finish(MapSaver& saver, bool quiet) {
     const Saved saved = saver.save();
-    if (!saved.is_saved) fmt::print(stderr, "warning: {}\n", saved.text);
-    if (saved.is_saved && !quiet) fmt::print(stderr, "{}\n", saved.text);
+    if (!saved.is_saved) app::say(stderr, "warning: {}\n", saved.text);
+    if (saved.is_saved && !quiet) app::say(stderr, "{}\n", saved.text);
     return saved.is_saved ? app::kDone : app::kRejected;
 }
 
@@ -221,10 +222,10 @@ int finish(MapSaver& saver, bool quiet) {
 int finish(const Recorder& recorder, const std::vector<fs::path>& folders, const LiveOptions& o,
            const LiveConfig& config, bool own_poses) {
     int worst = app::kDone;
-    if (folders.empty()) fmt::print(stderr, "note: no scan was judged, so nothing is recorded\n");
+    if (folders.empty()) app::say(stderr, "note: no scan was judged, so nothing is recorded\n");
     for (const fs::path& folder : folders) {
         const fs::path bag = recorder.bag_of(folder);
-        fmt::print(stderr, "recorded {}\n", bag.string());
+        app::say(stderr, "recorded {}\n", bag.string());
         if (app::terminated()) continue;
         worst =
             std::max(worst, finish_recording(bag, folder, config, own_poses, o.overwrite, o.quiet));
@@ -236,7 +237,7 @@ int finish(const Recorder& recorder, const std::vector<fs::path>& folders, const
 
 int live(Bus& bus, const LiveOptions& o, LiveConfig config) {
     if (o.settings) {
-        fmt::print("{}", to_toml(config));
+        app::say("{}", to_toml(config));
         return app::kDone;
     }
     if (o.dry_run) return dry_run(bus, config, o.look);
@@ -246,8 +247,8 @@ int live(Bus& bus, const LiveOptions& o, LiveConfig config) {
     }
     const auto foxglove = serve(config, bus.encoding());
     if (!o.quiet) {
-        fmt::print(stderr, "listens  {}\n", bus.description());
-        if (foxglove) fmt::print(stderr, "foxglove {}\n", foxglove->url());
+        app::say(stderr, "listens  {}\n", bus.description());
+        if (foxglove) app::say(stderr, "foxglove {}\n", foxglove->url());
     }
     app::catch_interrupts();
     Intake intake(config);
@@ -281,7 +282,7 @@ int live(Bus& bus, const LiveOptions& o, LiveConfig config) {
     bus.stop();  // before what receives its messages goes
     session.stop();
     const Figures figures = chores.figures_now();
-    if (!o.quiet) fmt::print("{}", to_text(figures));
+    if (!o.quiet) app::say("{}", to_text(figures));
     // The drive first, because a supervisor may not wait for the map.
     const std::vector<fs::path> recorded = recorder ? recorder->commit() : std::vector<fs::path>{};
     const int of_map = saver ? finish(*saver, o.quiet) : app::kDone;

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "base/exit_code.hpp"
+#include "base/say.hpp"
 #include "dynamic_filter/error.hpp"
 #include "run/part_file.hpp"
 #include "run/run.hpp"
@@ -81,7 +82,7 @@ int merge(const MergeOptions& o) {
         refuse_same_folder(folder, o.output, "is one of the parts");
     const std::string mark = mark_of_output(job, run);
     if (!o.overwrite && is_complete(o.output, mark)) {
-        if (!o.quiet) fmt::print("complete {}\n", o.output.string());
+        if (!o.quiet) say("complete {}\n", o.output.string());
         return kDone;
     }
     // Goes on in the folder of an interrupted merge of the same parts, also without --overwrite.

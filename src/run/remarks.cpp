@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "run/remarks.hpp"
+#include "base/say.hpp"
 
 #include <fmt/format.h>
 
@@ -71,9 +72,9 @@ void tell(std::span<const Remark> remarks, const std::string& name, bool quiet) 
         if (quiet && remark.kind == RemarkKind::note) return;
         if (remark.kind <= RemarkKind::mended) {
             const bool is_note = remark.kind == RemarkKind::note;
-            fmt::print(stderr, "{}: {}{}\n", is_note ? "note" : "warning", name, remark.text);
+            say(stderr, "{}: {}{}\n", is_note ? "note" : "warning", name, remark.text);
         } else {
-            fmt::print(stderr, "{:<8} {}{}\n", name_of(remark.kind), name, remark.text);
+            say(stderr, "{:<8} {}{}\n", name_of(remark.kind), name, remark.text);
         }
     });
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "run/run.hpp"
+#include "base/say.hpp"
 #include "recording/recording_parts.hpp"
 
 #include <fmt/format.h>
@@ -60,13 +61,13 @@ std::unique_ptr<OutputFolder> open_folder(const RunOptions& o, const fs::path& f
 }
 
 RunResult tell_complete(const fs::path& folder, bool quiet) {
-    if (!quiet) fmt::print("complete {}\n", folder.string());
+    if (!quiet) say("complete {}\n", folder.string());
     return {.exit_code = kDone, .recordings = {}};
 }
 
 void link_to_latest(const RunOptions& o, const OutputFolder& output) {
     if (o.output || link_latest(output.name())) return;
-    fmt::print(stderr, "note: no link results/latest\n");
+    say(stderr, "note: no link results/latest\n");
 }
 
 // One recording in memory.
@@ -76,13 +77,12 @@ void keep_interrupted(const RunSummary& summary, std::size_t scans, const RunOpt
                       OutputFolder& output) {
     const std::string folder = output.name().string();
     if (output.path() != output.name()) {
-        fmt::print("interrupted; the earlier result in {} stays\n", folder);
+        say("interrupted; the earlier result in {} stays\n", folder);
         return;
     }
     output.commit();
-    if (!o.quiet) fmt::print("{}", to_text(summary));
-    fmt::print(
-        "interrupted: {} of {} scans are written to {}; the same command with -o {} --resume goes "
+    if (!o.quiet) say("{}", to_text(summary));
+    say("interrupted: {} of {} scans are written to {}; the same command with -o {} --resume goes "
         "on\n",
         summary.scans, scans, folder, folder);
     link_to_latest(o, output);
@@ -95,7 +95,7 @@ RunResult run_whole(Job& job, const RunOptions& o, StageClock& clock) {
     std::optional<LiveView> live;
     if (o.view) {
         live.emplace(o.port, folder.filename().string(), o.data.data.string(), recording.size());
-        fmt::print(stderr, "view     {}\n", live->url());
+        say(stderr, "view     {}\n", live->url());
     }
     const auto output = open_folder(o, folder);
     choose_job_motion(job, o);
@@ -107,7 +107,7 @@ RunResult run_whole(Job& job, const RunOptions& o, StageClock& clock) {
     }
     tell_remarks(job, o.quiet);
     if (interrupted()) {
-        fmt::print("interrupted before the first scan was filtered; nothing was written\n");
+        say("interrupted before the first scan was filtered; nothing was written\n");
         return {.exit_code = kInterrupted, .recordings = {}};
     }
     write_state(*output, mark);
@@ -124,7 +124,7 @@ RunResult run_whole(Job& job, const RunOptions& o, StageClock& clock) {
     write_complete(*output, mark);
     output->commit();
     if (live) live->finish(output->name() / "report.html");
-    if (!o.quiet) fmt::print("{}written  {}\n", to_text(summary), output->name().string());
+    if (!o.quiet) say("{}written  {}\n", to_text(summary), output->name().string());
     link_to_latest(o, *output);
     if (interrupted()) return {.exit_code = kInterrupted, .recordings = {}};  // all is there
     if (live) live->linger();
@@ -178,8 +178,7 @@ RunResult stop(const OutputFolder* output) {
         throw Error("another process of this run failed, as it says; --resume goes on");
     }
     if (output) {
-        fmt::print(
-            "interrupted; the tiles that are done stay in {}; the same command with -o {} --resume "
+        say("interrupted; the tiles that are done stay in {}; the same command with -o {} --resume "
             "goes on\n",
             output->path().string(), output->name().string());
     }
@@ -193,8 +192,8 @@ RunResult finish_part(const Job& job, const RunOptions& o, OutputFolder& output,
     write_complete(output, mark_of_output(job, o));
     output.commit();
     if (!o.quiet) {
-        fmt::print("written  {}: {} of {} tiles; `dynamicfilter merge` puts parts together\n",
-                   output.name().string(), tiles, job.plan.tiles.size());
+        say("written  {}: {} of {} tiles; `dynamicfilter merge` puts parts together\n",
+            output.name().string(), tiles, job.plan.tiles.size());
     }
     return {.exit_code = kDone, .recordings = {}};
 }

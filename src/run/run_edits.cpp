@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "base/say.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
 #include "run/apply_edits.hpp"
@@ -37,8 +38,8 @@ void apply_to_run(const std::filesystem::path& folder, const Edits& edits, bool 
     io::write_file(folder / kEditsFile, text_of(edits));
     const Applied applied = apply_edits(folder, edits, true);
     if (quiet) return;
-    fmt::print("edits    {} applied: the label of {} of {} points is not the filter's\n",
-               edits.edits.size(), applied.changed, applied.points);
+    say("edits    {} applied: the label of {} of {} points is not the filter's\n",
+        edits.edits.size(), applied.changed, applied.points);
 }
 
 }  // namespace dynamic_filter::app

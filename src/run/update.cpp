@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/say.hpp"
 #include "check/motion.hpp"
 #include "dynamic_filter/check.hpp"
 #include "dynamic_filter/error.hpp"
@@ -223,10 +224,10 @@ Plan earlier_plan(const Job& job) {
         }
     } catch (const Error&) {  // other recordings, or damaged
     }
-    fmt::print(stderr,
-               "note: {} has no evidence of its drives as they are now (see run --keep-evidence); "
-               "they are filtered once more\n",
-               job.earlier->folder.string());
+    say(stderr,
+        "note: {} has no evidence of its drives as they are now (see run --keep-evidence); "
+        "they are filtered once more\n",
+        job.earlier->folder.string());
     return {};
 }
 

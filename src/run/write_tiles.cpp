@@ -10,6 +10,7 @@
 
 #include "base/exit_code.hpp"
 #include "base/progress.hpp"
+#include "base/say.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
 #include "dynamic_filter/parallel.hpp"
@@ -301,7 +302,7 @@ RunResult finish_tiles(const Job& job, const TileFolders& folders, const RunOpti
     write_complete(output, mark_of_output(job, o));
     if (owns) fs::remove_all(own);
     output.commit();
-    if (!o.quiet) fmt::print("{}written  {}\n", text, output.name().string());
+    if (!o.quiet) say("{}written  {}\n", text, output.name().string());
     bool is_well = are_harmless(job.plan.remarks) && are_harmless(job.remarks);
     for (std::size_t i = 0; i < result.recordings.size(); ++i) {
         const std::size_t d = job.first_new() + i;

@@ -8,6 +8,7 @@
 #include "base/exit_code.hpp"
 #include "base/output_folder.hpp"
 #include "base/progress.hpp"
+#include "base/say.hpp"
 #include "draw/canvas.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
@@ -207,7 +208,7 @@ RunResult filter_together(const std::vector<const Date*>& dates, const DiffOptio
     options.quiet = true;
     options.catches = false;
     io::write_file(list, list_of(dates));
-    if (!o.quiet) fmt::print(stderr, "filter   both dates together\n");
+    if (!o.quiet) say(stderr, "filter   both dates together\n");
     RunResult result = run(options);
     fs::remove(list);
     return result;
@@ -255,7 +256,7 @@ int diff(const DiffOptions& o) {
     if (o.overwrite && fs::exists(together / kRunState)) fs::remove_all(together);
     const bool was_there = fs::exists(together);
     const auto stop = [] {
-        fmt::print(stderr, "interrupted; the same command goes on with the comparison\n");
+        say(stderr, "interrupted; the same command goes on with the comparison\n");
         return static_cast<int>(kInterrupted);
     };
     try {
@@ -270,8 +271,7 @@ int diff(const DiffOptions& o) {
         output.commit();
         fs::remove_all(together);
         if (!o.quiet) {
-            fmt::print(
-                "{} went, {} came; seen at both dates: {} voxels, at the old one only: {}, at the "
+            say("{} went, {} came; seen at both dates: {} voxels, at the old one only: {}, at the "
                 "new one only: {}\nwritten  {}\n",
                 changes->went.size(), changes->came.size(), changes->voxels.at_both,
                 changes->voxels.old_only, changes->voxels.new_only, output.name().string());

@@ -59,3 +59,13 @@ wait "$process" || code=$?
 [ "$code" = 130 ] || fail "exit code $code while it looked through the recording"
 [ "$(ls known/velodyne | wc -l)" = 200 ] || fail "scans are missing"
 [ ! -e known/knowable ] || fail "a part of what could be known is left"
+
+# Whoever reads what it says may go away: the run goes on to its end.
+(
+    code=0
+    "$command" run data -o unheard 2>&1 || code=$?
+    echo $code > unheard.code
+) | head -n 1 > said.txt
+until [ -s unheard.code ]; do sleep 0.1; done
+[ "$(cat unheard.code)" = 0 ] || fail "ended with $(cat unheard.code) when its reader went away"
+diff -r expected/labels unheard/labels || fail "labels of a run without a reader differ"
