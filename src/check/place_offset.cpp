@@ -19,7 +19,6 @@
 namespace dynamic_filter::io {
 namespace {
 
-constexpr double kRoundedDegree = 3.14159265358979 / 180.0;  // [rad] from 15 digits of pi
 constexpr SearchWindow kWindow{6.0, 6.0 * kRoundedDegree};
 constexpr std::size_t kCandidates = 6;  // of the search seen from above
 constexpr double kReach = 1.0;          // [m] initial reach of the registration
@@ -103,13 +102,12 @@ Points chosen_for_registration(const Points& cloud) {
     return upright;
 }
 
-/// Keeps the result near the start in directions that the points do not show. The drives agree
-/// about the vertical, so the result may hardly tilt.
-PosePrior weak_prior(const Pose& start) {
-    constexpr double kShift = 5.0, kTilt = 0.5 * kRoundedDegree, kTurn = 5.0 * kRoundedDegree;
+/// Keeps the result near the start in directions that the points do not show.
+PosePrior weak_prior(const Pose& start, double tilt) {
+    constexpr double kShift = 5.0, kTurn = 5.0 * kRoundedDegree;
     PosePrior prior{start, Information::Zero()};
     prior.information.diagonal() << Eigen::Vector3d::Constant(1.0 / (kShift * kShift)),
-        Eigen::Vector2d::Constant(1.0 / (kTilt * kTilt)), 1.0 / (kTurn * kTurn);
+        Eigen::Vector2d::Constant(1.0 / (tilt * tilt)), 1.0 / (kTurn * kTurn);
     return prior;
 }
 
@@ -131,11 +129,12 @@ std::vector<Pose> starts_of(const Points& a, const Points& b) {
 }
 
 Registration best_registration(const SurfaceMap& map, const Points& points,
-                               const std::vector<Pose>& starts) {
+                               const std::vector<Pose>& starts, double tilt) {
     const auto shift_of = [](const Registration& r) { return r.T_map_sensor.translation().norm(); };
     Registration best;
     for (const Pose& start : starts) {
-        const Registration found = register_points(map, points, start, weak_prior(start), kReach);
+        const Registration found =
+            register_points(map, points, start, weak_prior(start, tilt), kReach);
         // Of corrections that fit nearly equally well, the smaller one is right more often.
         const bool nearer = shift_of(found) < shift_of(best);
         if (nearer ? found.inliers > kNearly * best.inliers
@@ -182,12 +181,12 @@ Points cloud_around(const Recording& recording, const std::vector<std::size_t>& 
 }
 
 std::optional<PlaceOffset> register_clouds(const Points& a, const Points& b,
-                                           const Eigen::Vector3d& place) {
+                                           const Eigen::Vector3d& place, double tilt) {
     const Points points = chosen_for_registration(b);
     if (points.empty() || a.size() < kFewestUpright) return std::nullopt;
     SurfaceMap map(OdometryConfig{}.voxel);
     map.insert(a);
-    const Registration found = best_registration(map, points, starts_of(a, b));
+    const Registration found = best_registration(map, points, starts_of(a, b), tilt);
     PlaceOffset offset;
     offset.at = place;
     offset.shift = found.T_map_sensor.translation();
@@ -195,6 +194,8 @@ std::optional<PlaceOffset> register_clouds(const Points& a, const Points& b,
     offset.yaw = std::atan2(turn(1, 0), turn(0, 0));
     offset.information = flat_information(found.information);
     offset.fit = found.inliers;
+    offset.motion = found.T_map_sensor;
+    offset.of_motion = found.information;
     return offset;
 }
 

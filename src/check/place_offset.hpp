@@ -6,8 +6,12 @@
 #include <vector>
 
 #include "dynamic_filter/recording.hpp"
+#include "tracking/registration.hpp"
 
 namespace dynamic_filter::io {
+
+constexpr double kRoundedDegree = 3.14159265358979 / 180.0;  ///< [rad] from 15 digits of pi
+constexpr double kSameTilt = 0.5 * kRoundedDegree;           ///< [rad] of drives in one world
 
 /// Information about a correction: x, y, z [m] and the turn about z [rad].
 using FlatInformation = Eigen::Matrix4d;
@@ -20,6 +24,10 @@ struct PlaceOffset {
     double yaw = 0.0;                                 ///< [rad] counterclockwise
     FlatInformation information = FlatInformation::Zero();
     double fit = 0.0;  ///< 0..1: share of the points of b that lie on surfaces of a
+    /// The same correction with its tilt: of the points of b relative to the place, and the
+    /// information of the points about a displacement in their frame.
+    Pose motion = Pose::Identity();
+    Information of_motion = Information::Zero();
     /// False: no correction within reach makes the scans fit.
     [[nodiscard]] bool fits() const;
 };
@@ -31,8 +39,8 @@ Points cloud_around(const Recording& recording, const std::vector<std::size_t>& 
 
 /// Registers the points of drive b to those of drive a; both are relative to the place. Finds
 /// horizontal corrections up to 6 m and 6 deg, and any height of which the ground tells. Empty if
-/// one of the clouds shows too little.
+/// one of the clouds shows too little. `tilt` [rad]: by how much the verticals of both may differ.
 std::optional<PlaceOffset> register_clouds(const Points& a, const Points& b,
-                                           const Eigen::Vector3d& place);
+                                           const Eigen::Vector3d& place, double tilt = kSameTilt);
 
 }  // namespace dynamic_filter::io

@@ -156,10 +156,10 @@ std::vector<Drive> open_drives(const std::vector<DriveSource>& sources, const Da
     for (std::size_t i = 0; i < sources.size(); ++i) {
         Drive drive{.name = names[i], .recording = open(options[i])};
         if (!drive.recording.info().has_poses) {
-            throw InputError(
-                options[i].data, "",
-                "has no poses, so it has no place in a common world; give its poses (a single "
-                "drive: `dynamicfilter odometry` finds them)");
+            throw InputError(options[i].data, "",
+                             "has no poses, so it has no place in a common world; give its poses "
+                             "(`dynamicfilter odometry` finds them: --onto RESULT in the world of "
+                             "an earlier run)");
         }
         drives.push_back(std::move(drive));
     }

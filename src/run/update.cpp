@@ -184,9 +184,9 @@ void look_at_fit(Update& update, const fs::path& map) {
     }
     if (misfits.empty() || update.options.trusts_poses) return;
     throw ConfigError(fmt::format(
-        "the new recording does not fit to the map in {}, which stays as it is (--trust-poses goes "
-        "on all the same):\n  {}",
-        map.string(), fmt::join(misfits, "\n  ")));
+        "the new recording does not fit to the map in {}, which stays as it is (`dynamicfilter "
+        "odometry --onto {}` finds poses that do, and --trust-poses goes on all the same):\n  {}",
+        map.string(), map.string(), fmt::join(misfits, "\n  ")));
 }
 
 }  // namespace
@@ -213,6 +213,11 @@ Update open_update(const RunOptions& asked) {
     refuse_changed(update.job, earlier.folder);
     with_threads(asked.threads, [&] { look_at_fit(update, earlier.folder); });
     return update;
+}
+
+std::vector<Drive> drives_of_map(const fs::path& result) {
+    const Earlier earlier = read_earlier(result);
+    return open_drives(earlier.sources, earlier.how);
 }
 
 Plan earlier_plan(const Job& job) {

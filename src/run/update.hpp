@@ -18,6 +18,10 @@ struct Update {
 /// the map.
 Update open_update(const RunOptions& options);
 
+/// The drives of a map, or of any other result of a run, opened as the run read them. Throws
+/// InputError and ConfigError as open_update() does.
+std::vector<Drive> drives_of_map(const std::filesystem::path& result);
+
 /// The plan of the earlier run of an update; empty if it kept none.
 Plan earlier_plan(const Job& job);
 

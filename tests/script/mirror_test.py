@@ -22,6 +22,7 @@ COVERED = {  # test -> the units that it covers
     "formats/clouds/cloud_test.cpp": "formats/clouds/bin",
     "formats/poses/poses_test.cpp": "base/utf16 formats/poses/pose_rows",
     "formats/clouds/las_test.cpp": "formats/clouds/las_header formats/clouds/las_writer",
+    "check/place_drive_test.cpp": "check/local_places check/recognized_places",
     "live/dds_bus_test.cpp": "live/dds_log live/dds_qos live/dds_type",
     "live/dds_peer_test.cpp": "live/dds_configuration",
     "live/live_test.sh": "live/ask live/dry_run live/live live/map_saver live/requests commands/live",

@@ -67,6 +67,15 @@ run city/drive_1 near $city_options -o both
 same both/map of_near/map "the map of a drive that reaches a part of it"
 [ "$(find of_near/map -name '*.pcd' -links +2 | wc -l)" -gt 3 ] || fail "no tile stayed as it was"
 
+# Poses that are off are found in the world of the map, also of one that was updated; a drive that is not there is refused.
+awk '{ $4 += 1.2; $8 -= 0.7; print }' near/poses.txt > off.txt
+expect 0 "places lie on the map" odometry near --poses off.txt --onto of_near -o found.txt
+paste -d ' ' near/poses.txt found.txt | awk '($4 - $16)^2 + ($8 - $20)^2 + ($12 - $24)^2 > 0.01 { exit 1 }' || fail "poses on the map"
+run near --poses found.txt --no-report --update far -o of_found
+expect 2 "the map in of_near: no place looks like its own" odometry c --onto of_near -o refused.txt
+[ ! -e refused.txt ] || fail "poses of a drive that was refused"
+expect 3 "does not exist" odometry near --onto nothing -o refused.txt
+
 # A run in memory, and a recording in the way of the earlier run.
 "$command" run a --no-report -o memory > said 2>&1 || fail "a run in memory"
 run b --no-report --update memory -o of_memory
