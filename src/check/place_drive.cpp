@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "base/degree.hpp"
 #include "base/numbers.hpp"
@@ -172,40 +173,19 @@ std::vector<Pose> placed_whole(const std::vector<Pose>& own, const PoseHint& hin
     return poses;
 }
 
-}  // namespace
-
-bool PlacedDrive::fits() const {
-    if (fitting < kFewestOnMap) return false;
-    const double share = static_cast<double>(fitting) / static_cast<double>(places);
-    if (!is_found) return share >= 0.5;
-    // Streets may look alike: more is asked of what was found by looks.
-    constexpr double kMost = 0.8, kFit = 0.57, kMostThrough = 0.08;
-    return share >= kMost && fit >= kFit && through <= kMostThrough;
-}
-
-PlacedDrive place_drive(const Recording& drive, std::span<const Recording* const> drives) {
+/// Bends the way of the drive, from a start, until its places lie on the map.
+PlacedDrive bent(const MapDrives& map, const std::vector<Local>& drive,
+                 const std::vector<Pose>& own, std::vector<Pose> start) {
     constexpr int kRounds = 6;
     constexpr double kStill = 0.02;  // [m]
-    const Recording* const alone = &drive;
-    const std::vector<Pose>& own = drive.info().T_world_sensor;
-    const std::vector<Local> locals = locals_of({&alone, 1}, kMostOfDrive);
     const std::vector<Motion> way = own_way(own);
-    MapDrives map{drives, {}};
-    for (const Recording* recording : drives) map.positions.push_back(positions_of(*recording));
     PlacedDrive placed;
-    placed.T_world_sensor = own;
-    OnMap on_map = lay_on(map, locals, own, own);
-    if (on_map.hints.size() < kFewestOnMap || 2 * on_map.hints.size() < on_map.places) {
-        const std::vector<PoseHint> hints = hints_by_looks(map, locals, own);
-        if (hints.empty()) return placed;
-        placed.is_found = true;
-        placed.T_world_sensor = solve_pose_graph(placed_whole(own, hints.front()), way, hints);
-        on_map = lay_on(map, locals, own, placed.T_world_sensor);
-    }
+    placed.T_world_sensor = std::move(start);
+    OnMap on_map = lay_on(map, drive, own, placed.T_world_sensor);
     for (int round = 0; round < kRounds && !on_map.hints.empty(); ++round) {
         placed.T_world_sensor = solve_pose_graph(placed.T_world_sensor, way, on_map.hints);
         if (on_map.worst < kStill) break;
-        on_map = lay_on(map, locals, own, placed.T_world_sensor);
+        on_map = lay_on(map, drive, own, placed.T_world_sensor);
     }
     placed.places = on_map.places;
     placed.fitting = on_map.hints.size();
@@ -216,6 +196,32 @@ PlacedDrive place_drive(const Recording& drive, std::span<const Recording* const
         if (std::isfinite(moved)) placed.moved = std::max(placed.moved, moved);
     }
     return placed;
+}
+
+}  // namespace
+
+bool PlacedDrive::fits() const {
+    // Streets may look alike, so half of the points on surfaces of the map is not enough.
+    constexpr double kMost = 0.8, kFit = 0.57, kMostThrough = 0.08;
+    return fitting >= kFewestOnMap &&
+           static_cast<double>(fitting) >= kMost * static_cast<double>(places) && fit >= kFit &&
+           through <= kMostThrough;
+}
+
+PlacedDrive place_drive(const Recording& drive, std::span<const Recording* const> drives) {
+    const Recording* const alone = &drive;
+    const std::vector<Pose>& own = drive.info().T_world_sensor;
+    const std::vector<Local> locals = locals_of({&alone, 1}, kMostOfDrive);
+    MapDrives map{drives, {}};
+    for (const Recording* recording : drives) map.positions.push_back(positions_of(*recording));
+    PlacedDrive near = bent(map, locals, own, own);
+    if (near.fits()) return near;
+    const std::vector<PoseHint> hints = hints_by_looks(map, locals, own);
+    if (hints.empty()) return near;
+    PlacedDrive found = bent(
+        map, locals, own, solve_pose_graph(placed_whole(own, hints.front()), own_way(own), hints));
+    found.is_found = true;
+    return found;
 }
 
 }  // namespace dynamic_filter::io

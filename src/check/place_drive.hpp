@@ -19,16 +19,15 @@ struct PlacedDrive {
     double moved = 0.0;     ///< [m] the largest correction of a position
     bool is_found = false;  ///< true: its own world was another one
 
-    /// False: too few places show that it is the same world, or, for a drive that was found, that
-    /// its places do not only look alike.
+    /// False: too few places show that it is the same world, or they only look alike.
     [[nodiscard]] bool fits() const;
 };
 
-/// The poses of `drive` tell how it went, in a world of its own or nearly in that of `map`. Where
-/// it passes the other drives within 10 m and lies on them, these places lead; where it does not,
-/// the drive is found on them by what places look like from above. The way is then bent until all
-/// places fit. Places that the other drives do not pass follow the drive's own way. Reads up to
+/// The poses of `drive` tell how it went, in a world of its own or nearly in that of `drives`.
+/// Where it passes the other drives within 10 m and lies on them, these places lead; where it does
+/// not, the drive is found on them by what places look like from above. The way is then bent until
+/// all places fit. Places that the other drives do not pass follow the drive's own way. Reads up to
 /// 1,000 places of the other drives, of up to five scans each.
-PlacedDrive place_drive(const Recording& drive, std::span<const Recording* const> map);
+PlacedDrive place_drive(const Recording& drive, std::span<const Recording* const> drives);
 
 }  // namespace dynamic_filter::io
