@@ -283,8 +283,9 @@ void DdsBus::subscribe(const io::Topic& topic, const Quality& quality, Receive r
 }
 
 void DdsBus::serve(const std::string& name, const ServiceType& type, Serve serve) {
-    engine_->services.push_back(
-        std::make_unique<DdsService>(engine_->participant, name, type, std::move(serve)));
+    auto service = std::make_unique<DdsService>(engine_->participant, name, type, std::move(serve));
+    const std::lock_guard hold(engine_->lock);
+    engine_->services.push_back(std::move(service));
 }
 
 Bytes DdsBus::call(const std::string& name, const ServiceType& type, const WriteRequest& write,
