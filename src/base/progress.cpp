@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "base/progress.hpp"
-#include "base/say.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -9,6 +8,8 @@
 #include <csignal>
 #include <cstdio>
 #include <ctime>
+
+#include "base/say.hpp"
 
 namespace dynamic_filter::app {
 

@@ -12,26 +12,15 @@ namespace {
 
 constexpr double kApart = 5.0;  // [m] of the way
 
-/// One scan after each `spacing` [m] of the way, or less often, so that there are `most` at most.
+/// One scan after each kApart of the way, or less often, so that there are `most` at most.
 std::vector<std::size_t> places_along(const Positions& positions, std::size_t most) {
-    double way = 0.0;
-    const Eigen::Vector3d* last = nullptr;
-    for (const Eigen::Vector3d& p : positions) {
-        if (!p.allFinite()) continue;
-        if (last != nullptr) way += (p - *last).norm();
-        last = &p;
-    }
-    const double spacing = std::max(kApart, way / static_cast<double>(most));
+    const std::vector<double> way = way_of(positions);
+    if (way.empty()) return {};
+    const double spacing = std::max(kApart, way.back() / static_cast<double>(most));
     std::vector<std::size_t> places;
-    double since = spacing;
-    last = nullptr;
     for (std::size_t i = 0; i < positions.size(); ++i) {
         if (!positions[i].allFinite()) continue;
-        if (last != nullptr) since += (positions[i] - *last).norm();
-        last = &positions[i];
-        if (since < spacing) continue;
-        since = 0.0;
-        places.push_back(i);
+        if (places.empty() || way[i] - way[places.back()] >= spacing) places.push_back(i);
     }
     return places;
 }

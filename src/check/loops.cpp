@@ -17,18 +17,6 @@ constexpr std::size_t kMostPassages = 100;  // places
 // Tilts, which the registration takes from the poses.
 constexpr double kFreeTilt = 0.005;  // [rad]
 
-/// Distance [m] driven until each scan; that of scans without a pose is that of the scan before.
-std::vector<double> way_of(const Positions& positions) {
-    std::vector<double> way(positions.size(), 0.0);
-    std::size_t last = 0;
-    for (std::size_t i = 1; i < positions.size(); ++i) {
-        const double step = (positions[i] - positions[last]).norm();
-        way[i] = way[i - 1] + (std::isfinite(step) ? step : 0.0);
-        if (positions[i].allFinite()) last = i;
-    }
-    return way;
-}
-
 /// Pairs of scans at one place: the earlier one and the later one.
 std::vector<MeetingPlace> passages(const Positions& positions) {
     const std::vector<double> way = way_of(positions);
@@ -57,15 +45,13 @@ Pose corrected(const Pose& T_world_sensor, const PlaceOffset& offset) {
            Eigen::Translation3d(-offset.at) * T_world_sensor;
 }
 
-/// The information about x, y, z and yaw of the world as that about a displacement of the sensor.
-Information in_sensor(const FlatInformation& flat, const Pose& T_world_sensor) {
+/// What is known about x, y, z and yaw, with the tilts.
+Information with_tilt(const FlatInformation& flat) {
     Information of_world = Information::Zero();
     constexpr std::array<Eigen::Index, 4> kKept = {0, 1, 2, 5};
     of_world(kKept, kKept) = flat;
     of_world(3, 3) = of_world(4, 4) = 1.0 / (kFreeTilt * kFreeTilt);
-    Information turn = Information::Zero();
-    turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = T_world_sensor.linear();
-    return turn.transpose() * of_world * turn;
+    return of_world;
 }
 
 std::optional<Motion> motion_at(const Recording& recording, const Positions& positions,
@@ -78,7 +64,7 @@ std::optional<Motion> motion_at(const Recording& recording, const Positions& pos
     const auto& poses = recording.info().T_world_sensor;
     const Pose T_world_b = corrected(poses[place.in_b], *offset);
     return Motion{place.in_a, place.in_b, poses[place.in_a].inverse() * T_world_b,
-                  in_sensor(offset->information, T_world_b), true};
+                  in_sensor(with_tilt(offset->information), T_world_b), true};
 }
 
 }  // namespace

@@ -165,6 +165,17 @@ Meeting find_meeting(std::span<const Eigen::Vector3d> a, std::span<const Eigen::
     return meeting;
 }
 
+std::vector<double> way_of(const Positions& positions) {
+    std::vector<double> way(positions.size(), 0.0);
+    std::size_t last = 0;
+    for (std::size_t i = 1; i < positions.size(); ++i) {
+        const double step = (positions[i] - positions[last]).norm();
+        way[i] = way[i - 1] + (std::isfinite(step) ? step : 0.0);
+        if (positions[i].allFinite()) last = i;
+    }
+    return way;
+}
+
 std::vector<std::size_t> scans_around(std::span<const Eigen::Vector3d> positions,
                                       std::size_t middle, double step, std::size_t count) {
     std::vector<std::size_t> chosen;

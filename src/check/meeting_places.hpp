@@ -35,6 +35,9 @@ constexpr double kMeetingDistance = 10.0;
 Meeting find_meeting(std::span<const Eigen::Vector3d> a, std::span<const Eigen::Vector3d> b,
                      std::size_t most);
 
+/// Distance [m] driven until each scan; that of scans without a pose is that of the scan before.
+std::vector<double> way_of(const Positions& positions);
+
 /// Indices of scans around scan `middle`, itself included: one after each `step` [m] of the way, up
 /// to `count` before and `count` after it.
 std::vector<std::size_t> scans_around(std::span<const Eigen::Vector3d> positions,

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "check/place_drive.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -23,17 +20,6 @@ namespace dynamic_filter::io {
 namespace {
 
 constexpr std::size_t kMostOfDrive = 100, kMostOfMap = 1000;  // places
-
-/// The information of the points, less what the registration does not know of.
-Information believed(const Information& of_points) {
-    constexpr double kShift = 0.03, kTurn = 0.06 * kDegree;  // [m], [rad]
-    Information regular = of_points;
-    regular.diagonal().array() += 1e-6;
-    Information covariance = regular.inverse();
-    covariance.diagonal().head<3>().array() += kShift * kShift;
-    covariance.diagonal().tail<3>().array() += kTurn * kTurn;
-    return covariance.inverse();
-}
 
 /// How the drive went, from scan to scan.
 std::vector<Motion> own_way(const std::vector<Pose>& poses) {
@@ -54,26 +40,6 @@ std::vector<Motion> own_way(const std::vector<Pose>& poses) {
         last = i;
     }
     return motions;
-}
-
-/// Where the places of the drive lie on those of the map, at these poses of the drive.
-struct OnMap {
-    std::vector<PoseHint> hints;
-    std::vector<double> through;  // by fitting place: share of what the map's scan saw through
-    std::vector<double> fits;     // by fitting place: PlaceOffset::fit
-    std::size_t places = 0;
-    double worst = 0.0;  // [m] correction
-};
-
-/// Of points in the world.
-double seen_through_by(const Recording& map, std::size_t scan, const Points& points) {
-    try {
-        const FullScan full = map.read(scan);
-        if (!full.has_pose) return 0.0;
-        return seen_through(full.points, moved(points, full.T_world_sensor.inverse()));
-    } catch (const InputError&) {
-        return 0.0;
-    }
 }
 
 /// The scan of the map that was taken nearest to a place.
@@ -98,65 +64,95 @@ struct MapDrives {
     std::vector<Positions> positions;
 };
 
-/// A place of the drive, laid on the map.
-struct Laid {
-    bool is_compared = false;
-    std::optional<PoseHint> hint{};  // empty: it does not fit
-    double fit = 0.0, through = 0.0;
+/// The drive in its own world.
+struct OwnDrive {
+    const std::vector<Pose>& poses;
+    std::vector<Local> places;
+    std::vector<Motion> way;  // from scan to scan
 };
 
-Laid lay_place(const Local& local, const Pose& own, const Pose& now, const MapDrives& map) {
+/// A place of the drive, laid on the map.
+struct Laid {
+    const Local* of_drive;
+    ScanOfDrive near;  // of the map
+    Pose to_map;       // of the points of the place
+    double fit;        // PlaceOffset::fit
+    PoseHint hint;
+};
+
+/// Where the places of the drive lie on those of the map, at some poses of the drive.
+struct OnMap {
+    std::vector<Laid> fitting;
+    std::size_t places = 0;
+    double worst = 0.0;  // [m] correction
+
+    [[nodiscard]] std::vector<PoseHint> hints() const {
+        std::vector<PoseHint> all;
+        for (const Laid& laid : fitting) all.push_back(laid.hint);
+        return all;
+    }
+};
+
+struct LaidOrNot {
+    bool shows_enough = false;
+    std::optional<Laid> laid{};  // empty: it does not fit
+};
+
+LaidOrNot lay_place(const Local& local, const Pose& own, const Pose& now, const MapDrives& map) {
     const Eigen::Vector3d at = now.translation();
     const std::optional<ScanOfDrive> near = nearest_of(map.positions, at);
     if (!near) return {};
-    const Recording& recording = *map.recordings[near->drive];
     const auto around = scans_around(map.positions[near->drive], near->scan, 2.0, 2);
     const Pose turn(now.linear() * own.linear().transpose());
-    const auto offset = register_clouds(cloud_around(recording, around, at),
+    const auto offset = register_clouds(cloud_around(*map.recordings[near->drive], around, at),
                                         moved(local.cloud, turn), at, 2.0 * kSameTilt);
     if (!offset) return {};
-    if (!offset->fits()) return {.is_compared = true};
+    if (!offset->fits()) return {.shows_enough = true};
     const Pose to_map = Eigen::Translation3d(at) * offset->motion;
-    Information axes = Information::Zero();  // of the world, for those of the sensor
-    axes.topLeftCorner<3, 3>() = axes.bottomRightCorner<3, 3>() = now.linear();
-    return {.is_compared = true,
-            .hint = PoseHint{local.place.scan, to_map * Eigen::Translation3d(-at) * now,
-                             axes.transpose() * believed(offset->of_motion) * axes},
-            .fit = offset->fit,
-            .through = seen_through_by(recording, near->scan,
-                                       moved(upright_points(local.cloud), to_map * turn))};
+    const PoseHint hint{local.place.scan, to_map * Eigen::Translation3d(-at) * now,
+                        in_sensor(offset->of_motion, now)};
+    return {.shows_enough = true, .laid = Laid{&local, *near, to_map * turn, offset->fit, hint}};
 }
 
-OnMap lay_on(const MapDrives& map, const std::vector<Local>& drive, const std::vector<Pose>& own,
-             const std::vector<Pose>& poses) {
-    std::vector<Laid> laid(drive.size());
-    parallel_for(drive.size(), 1, [&](std::size_t begin, std::size_t end) {
+OnMap lay_on(const MapDrives& map, const OwnDrive& drive, const std::vector<Pose>& poses) {
+    std::vector<LaidOrNot> compared(drive.places.size());
+    parallel_for(compared.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
-            const std::size_t scan = drive[k].place.scan;
-            laid[k] = lay_place(drive[k], own[scan], poses[scan], map);
+            const std::size_t scan = drive.places[k].place.scan;
+            compared[k] = lay_place(drive.places[k], drive.poses[scan], poses[scan], map);
         }
     });
     OnMap on_map;
-    for (const Laid& place : laid) {
-        on_map.places += place.is_compared ? 1 : 0;
-        if (!place.hint) continue;
-        const Eigen::Vector3d& at = poses[place.hint->scan].translation();
-        on_map.worst =
-            std::max(on_map.worst, (place.hint->T_world_sensor.translation() - at).norm());
-        on_map.hints.push_back(*place.hint);
-        on_map.through.push_back(place.through);
-        on_map.fits.push_back(place.fit);
+    for (const LaidOrNot& place : compared) {
+        on_map.places += place.shows_enough ? 1 : 0;
+        if (!place.laid) continue;
+        const PoseHint& hint = place.laid->hint;
+        const Eigen::Vector3d& at = poses[hint.scan].translation();
+        on_map.worst = std::max(on_map.worst, (hint.T_world_sensor.translation() - at).norm());
+        on_map.fitting.push_back(*place.laid);
     }
     return on_map;
 }
 
+/// Of the upright points of a place, the share that the nearest scan of the map saw through.
+double seen_through_by(const MapDrives& map, const Laid& laid) {
+    try {
+        const FullScan full = map.recordings[laid.near.drive]->read(laid.near.scan);
+        if (!full.has_pose) return 0.0;
+        const Points points = moved(upright_points(laid.of_drive->cloud), laid.to_map);
+        return seen_through(full.points, moved(points, full.T_world_sensor.inverse()));
+    } catch (const InputError&) {
+        return 0.0;
+    }
+}
+
 /// The drive where its places were recognized on the map; empty if they tell nothing.
-std::vector<PoseHint> hints_by_looks(const MapDrives& map, const std::vector<Local>& drive,
-                                     const std::vector<Pose>& own) {
+std::vector<PoseHint> hints_by_looks(const MapDrives& map, const OwnDrive& drive) {
     constexpr double kShift = 0.5, kTurn = 1.0 * kDegree;
     std::vector<PoseHint> hints;
-    for (const Found& found : recognize(locals_of(map.recordings, kMostOfMap), drive)) {
-        PoseHint hint{found.of_drive->place.scan, found.motion * own[found.of_drive->place.scan]};
+    for (const Found& found : recognize(locals_of(map.recordings, kMostOfMap), drive.places)) {
+        const std::size_t scan = found.of_drive->place.scan;
+        PoseHint hint{scan, found.motion * drive.poses[scan]};
         hint.information.diagonal() << Eigen::Vector3d::Constant(1.0 / (kShift * kShift)),
             Eigen::Vector3d::Constant(1.0 / (kTurn * kTurn));
         hints.push_back(hint);
@@ -174,26 +170,32 @@ std::vector<Pose> placed_whole(const std::vector<Pose>& own, const PoseHint& hin
 }
 
 /// Bends the way of the drive, from a start, until its places lie on the map.
-PlacedDrive bent(const MapDrives& map, const std::vector<Local>& drive,
-                 const std::vector<Pose>& own, std::vector<Pose> start) {
+PlacedDrive bent(const MapDrives& map, const OwnDrive& drive, std::vector<Pose> start) {
     constexpr int kRounds = 6;
     constexpr double kStill = 0.02;  // [m]
-    const std::vector<Motion> way = own_way(own);
     PlacedDrive placed;
     placed.T_world_sensor = std::move(start);
-    OnMap on_map = lay_on(map, drive, own, placed.T_world_sensor);
-    for (int round = 0; round < kRounds && !on_map.hints.empty(); ++round) {
-        placed.T_world_sensor = solve_pose_graph(placed.T_world_sensor, way, on_map.hints);
+    OnMap on_map = lay_on(map, drive, placed.T_world_sensor);
+    for (int round = 0; round < kRounds && !on_map.fitting.empty(); ++round) {
+        placed.T_world_sensor = solve_pose_graph(placed.T_world_sensor, drive.way, on_map.hints());
         if (on_map.worst < kStill) break;
-        on_map = lay_on(map, drive, own, placed.T_world_sensor);
+        on_map = lay_on(map, drive, placed.T_world_sensor);
     }
     placed.places = on_map.places;
-    placed.fitting = on_map.hints.size();
-    placed.through = median(std::move(on_map.through));
-    placed.fit = median(std::move(on_map.fits));
-    for (std::size_t i = 0; i < own.size(); ++i) {
-        const double moved = (placed.T_world_sensor[i].translation() - own[i].translation()).norm();
-        if (std::isfinite(moved)) placed.moved = std::max(placed.moved, moved);
+    placed.fitting = on_map.fitting.size();
+    std::vector<double> through(on_map.fitting.size()), fits;
+    parallel_for(through.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+            through[k] = seen_through_by(map, on_map.fitting[k]);
+        }
+    });
+    for (const Laid& laid : on_map.fitting) fits.push_back(laid.fit);
+    placed.through = median(std::move(through));
+    placed.fit = median(std::move(fits));
+    for (std::size_t i = 0; i < drive.poses.size(); ++i) {
+        const Eigen::Vector3d way =
+            placed.T_world_sensor[i].translation() - drive.poses[i].translation();
+        if (way.allFinite()) placed.moved = std::max(placed.moved, way.norm());
     }
     return placed;
 }
@@ -210,16 +212,16 @@ bool PlacedDrive::fits() const {
 
 PlacedDrive place_drive(const Recording& drive, std::span<const Recording* const> drives) {
     const Recording* const alone = &drive;
-    const std::vector<Pose>& own = drive.info().T_world_sensor;
-    const std::vector<Local> locals = locals_of({&alone, 1}, kMostOfDrive);
+    const std::vector<Pose>& poses = drive.info().T_world_sensor;
+    const OwnDrive own{poses, locals_of({&alone, 1}, kMostOfDrive), own_way(poses)};
     MapDrives map{drives, {}};
     for (const Recording* recording : drives) map.positions.push_back(positions_of(*recording));
-    PlacedDrive near = bent(map, locals, own, own);
+    PlacedDrive near = bent(map, own, poses);
     if (near.fits()) return near;
-    const std::vector<PoseHint> hints = hints_by_looks(map, locals, own);
+    const std::vector<PoseHint> hints = hints_by_looks(map, own);
     if (hints.empty()) return near;
-    PlacedDrive found = bent(
-        map, locals, own, solve_pose_graph(placed_whole(own, hints.front()), own_way(own), hints));
+    PlacedDrive found =
+        bent(map, own, solve_pose_graph(placed_whole(poses, hints.front()), own.way, hints));
     found.is_found = true;
     return found;
 }

@@ -145,21 +145,32 @@ Registration best_registration(const SurfaceMap& map, const Points& points,
     return best;
 }
 
-/// Information of the points about x, y, z and the turn, for any tilt.
-FlatInformation flat_information(const Information& of_points) {
+/// Covariance of a displacement that the points tell, with what the registration does not know of.
+Information covariance_of(const Information& of_points) {
     Information regular = of_points;
     regular.diagonal().array() += 1e-6;
-    const Information covariance = regular.inverse();
+    Information covariance = regular.inverse();
+    covariance.diagonal().head<3>().array() += kShiftFloor * kShiftFloor;
+    covariance.diagonal().tail<3>().array() += kYawFloor * kYawFloor;
+    return covariance;
+}
+
+/// Information about x, y, z and the turn, for any tilt.
+FlatInformation flat_information(const Information& covariance) {
     constexpr std::array<Eigen::Index, 4> kKept = {0, 1, 2, 5};
-    FlatInformation flat = covariance(kKept, kKept);
-    flat.diagonal().head<3>().array() += kShiftFloor * kShiftFloor;
-    flat(3, 3) += kYawFloor * kYawFloor;
+    const FlatInformation flat = covariance(kKept, kKept);
     return flat.inverse();
 }
 
 }  // namespace
 
 bool PlaceOffset::fits() const { return fit >= kFits; }
+
+Information in_sensor(const Information& of_world, const Pose& T_world_sensor) {
+    Information turn = Information::Zero();
+    turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = T_world_sensor.linear();
+    return turn.transpose() * of_world * turn;
+}
 
 Points cloud_around(const Recording& recording, const std::vector<std::size_t>& scans,
                     const Eigen::Vector3d& place) {
@@ -192,10 +203,11 @@ std::optional<PlaceOffset> register_clouds(const Points& a, const Points& b,
     offset.shift = found.T_map_sensor.translation();
     const Eigen::Matrix3d turn = found.T_map_sensor.linear();
     offset.yaw = std::atan2(turn(1, 0), turn(0, 0));
-    offset.information = flat_information(found.information);
+    const Information covariance = covariance_of(found.information);
+    offset.information = flat_information(covariance);
     offset.fit = found.inliers;
     offset.motion = found.T_map_sensor;
-    offset.of_motion = found.information;
+    offset.of_motion = covariance.inverse();
     return offset;
 }
 

@@ -24,13 +24,16 @@ struct PlaceOffset {
     double yaw = 0.0;                                 ///< [rad] counterclockwise
     FlatInformation information = FlatInformation::Zero();
     double fit = 0.0;  ///< 0..1: share of the points of b that lie on surfaces of a
-    /// The same correction with its tilt: of the points of b relative to the place, and the
-    /// information of the points about a displacement in their frame.
+    /// The same correction with its tilt: of the points of b relative to the place, and what is
+    /// known about a displacement, with the axes of the world.
     Pose motion = Pose::Identity();
     Information of_motion = Information::Zero();
     /// False: no correction within reach makes the scans fit.
     [[nodiscard]] bool fits() const;
 };
+
+/// What is known about a displacement with the axes of the world, as one of the sensor.
+Information in_sensor(const Information& of_world, const Pose& T_world_sensor);
 
 /// Points of a few scans, relative to a place and with the axes of the world. Empty if no scan can
 /// be read.

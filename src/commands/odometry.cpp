@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <functional>
+#include <optional>
+
 #include "base/exit_code.hpp"
 #include "base/output_folder.hpp"
 #include "base/progress.hpp"
@@ -29,6 +32,17 @@ struct OdometryOptions {
     bool overwrite = false, quiet = false;
 };
 
+/// The recording with these poses, by scan; those that are not finite are not known.
+io::Recording at_poses(const io::Recording& recording,
+                       const std::function<std::optional<Pose>(std::size_t)>& pose_of) {
+    std::vector<std::optional<Tracked>> tracked(recording.size());
+    for (std::size_t i = 0; i < recording.size(); ++i) {
+        const std::optional<Pose> pose = pose_of(i);
+        if (pose && pose->matrix().allFinite()) tracked[i].emplace().T_world_sensor = *pose;
+    }
+    return io::with_poses(recording, tracked);
+}
+
 /// The recording with the poses that place it in the world of the map. Returns what was done, in a
 /// sentence.
 std::string place_onto(io::Recording& recording, const std::filesystem::path& map) {
@@ -50,12 +64,7 @@ std::string place_onto(io::Recording& recording, const std::filesystem::path& ma
                         recording.info().root.string(), map.string(), placed.places, placed.fitting,
                         100.0 * placed.fit, 100.0 * placed.through));
     }
-    std::vector<std::optional<Tracked>> tracked(recording.size());
-    for (std::size_t i = 0; i < recording.size(); ++i) {
-        if (!placed.T_world_sensor[i].matrix().allFinite()) continue;
-        tracked[i].emplace().T_world_sensor = placed.T_world_sensor[i];
-    }
-    recording = io::with_poses(recording, tracked);
+    recording = at_poses(recording, [&](std::size_t i) { return placed.T_world_sensor[i]; });
     return fmt::format("{} of {} places lie on the map, with {:.0f} % of their points; {}",
                        placed.fitting, placed.places, 100.0 * placed.fit,
                        placed.is_found
@@ -66,12 +75,10 @@ std::string place_onto(io::Recording& recording, const std::filesystem::path& ma
 /// Poses that stand in the files of the scans are known then without reading these.
 io::Recording with_known_poses(const io::Recording& recording) {
     if (recording.info().T_world_sensor.size() == recording.size()) return recording;
-    std::vector<std::optional<Tracked>> tracked(recording.size());
-    for (std::size_t i = 0; i < recording.size(); ++i) {
+    return at_poses(recording, [&](std::size_t i) -> std::optional<Pose> {
         const io::FullScan scan = recording.read(i);
-        if (scan.has_pose) tracked[i].emplace().T_world_sensor = scan.T_world_sensor;
-    }
-    return io::with_poses(recording, tracked);
+        return scan.has_pose ? std::optional(scan.T_world_sensor) : std::nullopt;
+    });
 }
 
 /// Without poses, or with those of the recording if it is to be placed on a map by them.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "run/remarks.hpp"
-#include "base/say.hpp"
 
 #include <fmt/format.h>
 
@@ -8,6 +7,8 @@
 #include <array>
 #include <cstdio>
 #include <stdexcept>
+
+#include "base/say.hpp"
 
 namespace dynamic_filter::app {
 namespace {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "run/run.hpp"
-#include "base/say.hpp"
 #include "recording/recording_parts.hpp"
 
 #include <fmt/format.h>
@@ -11,6 +10,7 @@
 
 #include "base/exit_code.hpp"
 #include "base/progress.hpp"
+#include "base/say.hpp"
 #include "dynamic_filter/error.hpp"
 #include "dynamic_filter/file.hpp"
 #include "dynamic_filter/parallel.hpp"

@@ -102,28 +102,28 @@ stop TERM
 head -1 hall.ply | grep -q ply && [ ! -e ../hall.ply ] || fail "the map of another name"
 
 # Asked from a shell, without ROS: the answer comes when it is done.
-asked() { # asked CODE TEXT OPTION...
+expect() { # expect CODE TEXT OPTION...
     local code=0 wanted=$1 text=$2
     shift 2
-    timeout 60 "$command" live "$@" > asked.txt 2> asked.err || code=$?
+    timeout 60 "$command" live "$@" > wrong.log 2> wrong.err || code=$?
     [ "$code" = "$wanted" ] || fail "live $*: code $code instead of $wanted"
-    cat asked.txt asked.err | grep -q -- "$text" || fail "live $*: does not say '$text' but $(cat asked.txt asked.err)"
+    cat wrong.log wrong.err | grep -q -- "$text" || fail "live $*: does not say '$text' but $(cat wrong.log wrong.err)"
 }
 start shell --map shell.pcd
-asked 4 'nothing static is known yet' --ask save
+expect 4 'nothing static is known yet' --ask save
 "$player" drive.mcap --domain $ROS_DOMAIN_ID > player.json &
 playing=$!
 sleep 2
-asked 0 "^{\"saved\":true,\"file\":\"$PWD/shell.pcd\",\"points\":[0-9]*,\"bytes\":[0-9]*}$" --ask save
-[ "$(stat -c %s shell.pcd)" = "$(grep -o 'bytes":[0-9]*' asked.txt | cut -d: -f2)" ] || fail "the file is not that of the answer"
+expect 0 "^{\"saved\":true,\"file\":\"$PWD/shell.pcd\",\"points\":[0-9]*,\"bytes\":[0-9]*}$" --ask save
+[ "$(stat -c %s shell.pcd)" = "$(grep -o 'bytes":[0-9]*' wrong.log | cut -d: -f2)" ] || fail "the file is not that of the answer"
 wait $playing || fail "labels are missing: $(cat player.json)"
-asked 0 "\"file\":\"$PWD/shop.ply\"" --ask save=shop.ply
-asked 4 'is no name of a file beside' --ask save=../shop.ply
-asked 0 '^{"paused":true,"resets":0}$' --ask pause
-asked 0 '^{"paused":false,"resets":0}$' --ask resume
-asked 0 '^{"paused":false,"resets":1}$' --ask reset
-asked 2 'expected save, save=NAME' --ask stop
-asked 1 'nobody offers the service /front/save_map' --ask save --set output.prefix=/front
+expect 0 "\"file\":\"$PWD/shop.ply\"" --ask save=shop.ply
+expect 4 'is no name of a file beside' --ask save=../shop.ply
+expect 0 '^{"paused":true,"resets":0}$' --ask pause
+expect 0 '^{"paused":false,"resets":0}$' --ask resume
+expect 0 '^{"paused":false,"resets":1}$' --ask reset
+expect 2 'expected save, save=NAME' --ask stop
+expect 1 'nobody offers the service /front/save_map' --ask save --set output.prefix=/front
 stop TERM
 grep -q '^input    40 scans received; 40 taken' shell.log || fail "the requests lost scans: $(cat shell.log)"
 head -1 shop.ply | grep -q ply || fail "the map of another name, asked from a shell"
@@ -163,13 +163,6 @@ grep -q '^input    40 scans received; 40 taken' saved.log || fail "saving lost s
     fail "the map at the end: $(tail -1 saved.err)"
 
 # Wrong settings, and what is there already.
-expect() { # expect CODE TEXT OPTION...
-    local code=0 wanted=$1 text=$2
-    shift 2
-    timeout 60 "$command" live "$@" > wrong.log 2> wrong.err || code=$?
-    [ "$code" = "$wanted" ] || fail "live $*: code $code instead of $wanted"
-    cat wrong.log wrong.err | grep -q -- "$text" || fail "live $*: does not say '$text'"
-}
 expect 2 "did you mean 'input.cloud'" --set input.clod=/points
 expect 2 "did you mean 'input.cloud'" --ros-args -p input.clod:=/points
 expect 2 "unknown option '--what'" --ros-args -p input.cloud:=/points -- --what
